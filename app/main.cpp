@@ -1,0 +1,16 @@
+#include "app/exit_codes.h"
+#include "app/options.h"
+
+#include <exception>
+
+#include <fmt/core.h>
+
+/// One message and an exit code for whatever goes wrong: nobody is left with a stack trace.
+int main(int argc, char** argv) {
+    try {
+        return tessera::run_command_line(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "tessera: {}\n", error.what());
+        return tessera::exit_bad_input;
+    }
+}

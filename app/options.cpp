@@ -1,0 +1,225 @@
+#include "app/options.h"
+
+#include "app/compare.h"
+#include "app/contact_sheet.h"
+#include "app/exit_codes.h"
+#include "app/info.h"
+#include "app/render.h"
+#include "app/view.h"
+#include "render/session/thread_pool.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// "WxH" in pixels.
+glm::ivec2 parse_size(const std::string& text) {
+    int w = 0, h = 0, used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
+        throw BadInput(fmt::format("--size {}: must be WIDTHxHEIGHT, such as 640x360", text));
+    if (w < 1 || h < 1 || w > 32768 || h > 32768)
+        throw BadInput(fmt::format("--size {}: width and height must be from 1 to 32768", text));
+    return {w, h};
+}
+
+SceneVariables parse_variables(const std::vector<std::string>& definitions) {
+    SceneVariables variables;
+    for (const std::string& d : definitions) {
+        const std::size_t equals = d.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw BadInput(fmt::format("-D {}: must be name=value", d));
+        variables[d.substr(0, equals)] = d.substr(equals + 1);
+    }
+    return variables;
+}
+
+/// The words of the command line, before they are given a meaning.
+struct Words {
+    std::string scene, size, method = "gpr", norms, clock = "wall";
+    std::vector<std::string> definitions;
+    int max_depth = 0;
+    int spp = 0;
+    double time = 0;
+    float alpha = 0.2f;
+    int threads = 0;
+    RenderSettings settings;
+
+    SceneSource source() const { return {scene, parse_variables(definitions)}; }
+};
+
+void add_scene(CLI::App& command, Words& words, bool required) {
+    command.add_option("scene", words.scene, "Mitsuba scene, XML")->required(required);
+    command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
+}
+
+void add_settings(CLI::App& command, Words& words) {
+    RenderSettings& s = words.settings;
+    command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
+    command
+        .add_option("--max-depth", words.max_depth,
+                    "edges of a light path; 1: emission only (default: the scene's)")
+        ->check(CLI::Range(1, 64));
+    command.add_option("--tile", s.tile, "pixels along the edge of a tile")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    command.add_option("--rr-delta", s.rr_delta, "radiance below which paths are reused less often; 0: all are")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--q-min", s.q_min, "least probability that a path is reused")
+        ->check(CLI::Range(1e-4, 1.0))
+        ->capture_default_str();
+    command.add_option("--shift-threshold", s.shift_threshold, "roughness above which vertices can be connected")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
+        ->check(CLI::Range(1e-4, 1e3))
+        ->capture_default_str();
+    command.add_option("--seed", s.seed, "of the random numbers")->capture_default_str();
+    command.add_option("--threads", words.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+}
+
+std::vector<Norm> parse_norms(const std::string& text) {
+    std::vector<Norm> norms;
+    for (const std::string& name : CLI::detail::split(text, ',')) {
+        const std::optional<Norm> norm = norm_from_name(name);
+        if (!norm)
+            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1", name));
+        norms.push_back(*norm);
+    }
+    return norms;
+}
+
+int render(const CLI::App& command, const Words& words, RenderOptions options) {
+    options.scene = words.source();
+    options.settings = words.settings;
+    options.settings.method = *method_from_name(words.method);
+    if (command.count("--max-depth"))
+        options.max_depth = words.max_depth;
+    if (command.count("--spp"))
+        options.spp = words.spp;
+    if (command.count("--time"))
+        options.time = words.time;
+    options.clock = words.clock == "cpu" ? Clock::cpu : Clock::wall;
+    if (!words.size.empty())
+        options.size = parse_size(words.size);
+    if (command.count("--recon"))
+        options.norms = parse_norms(words.norms);
+    options.alpha = words.alpha;
+    options.threads = words.threads;
+    return run_render(options);
+}
+
+void add_render(CLI::App& app, Words& words, RenderOptions& options) {
+    CLI::App& command = *app.add_subcommand("render", "render a scene to an EXR file");
+    add_scene(command, words, true);
+    add_settings(command, words);
+    command.add_option("-m,--method", words.method, "pt, pr, gpt or gpr")
+        ->check(CLI::IsMember({"pt", "pr", "gpt", "gpr"}))
+        ->capture_default_str();
+    command.add_option("--spp", words.spp, "samples a pixel (default 16)")->check(CLI::Range(1, 100000000));
+    command.add_option("--time", words.time, "seconds of rendering, without loading")->check(CLI::PositiveNumber);
+    command.add_option("--clock", words.clock, "what --time counts: wall or cpu")
+        ->check(CLI::IsMember({"wall", "cpu"}))
+        ->capture_default_str();
+    command.add_option("--recon", words.norms,
+                       "none, l2, l1, or several: one layer each (default l2 with gradients)");
+    command.add_option("-o,--output", options.output, "EXR file to write")->required();
+    command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
+    command.add_flag("--buffers", options.buffers, "primal, dx, dy and direct as layers of the EXR file, too");
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+    CLI::App& command = *app.add_subcommand("compare", "errors of an image against one or two references");
+    command.add_option("image", options.image, "EXR file")->required();
+    command.add_option("reference", options.reference, "EXR file")->required();
+    command.add_option("reference2", options.reference2, "an independent second one: errors without its noise");
+    command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
+    command.add_flag("--json", options.json, "print JSON");
+}
+
+void add_view(CLI::App& app, Words& words, ViewOptions& options) {
+    CLI::App& command = *app.add_subcommand("view", "explore a scene in a window");
+    add_scene(command, words, false);
+    add_settings(command, words);
+    command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
+    command.add_option("--screenshot", options.screenshot,
+                       "save the window as PNG when all panes have --spp, and quit");
+    command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
+}
+
+int view(const CLI::App& command, const Words& words, ViewOptions options) {
+    const SceneSource source = words.source();
+    const int threads = words.threads;
+    options.scene_name = to_string(source);
+    options.loader = [source, threads](std::vector<std::string>& notes) {
+        ThreadPool pool(threads);
+        const OpenedScene opened = open_scene(source, pool);
+        for (const LoadNote& note : opened.notes)
+            notes.push_back(note.where.to_string() + ": " + note.text);
+        return opened.scene;
+    };
+    for (PaneSettings& pane : options.panes) {
+        const Method method = pane.render.method;
+        pane.render = words.settings;
+        pane.render.method = method;
+        pane.reconstruction.alpha = words.alpha;
+    }
+    if (command.count("--max-depth"))
+        options.max_depth = words.max_depth;
+    if (!words.size.empty())
+        options.render_size = {SizeChoice::Base::custom, 1, parse_size(words.size)};
+    options.threads = threads;
+    options.spp = words.spp;
+    const int result = run_view(options);
+    if (result != view_needs_display)
+        return result;
+    ContactSheetOptions sheet;
+    sheet.scene = source;
+    sheet.threads = threads;
+    if (!words.size.empty())
+        sheet.size = parse_size(words.size);
+    if (!options.screenshot.empty())
+        sheet.output = options.screenshot;
+    fmt::print(stderr, "There is no display: rendering the viewer's comparison to {} instead.\n",
+               sheet.output.string());
+    return run_contact_sheet(sheet);
+}
+
+} // namespace
+
+int run_command_line(int argc, char** argv) {
+    CLI::App app("Tessera: explore light transport by path reuse", "tessera");
+    app.set_version_flag("--version", TESSERA_VERSION);
+    app.require_subcommand(1);
+    Words render_words, view_words, info_words;
+    RenderOptions render_options;
+    CompareOptions compare_options;
+    ViewOptions view_options;
+    add_view(app, view_words, view_options);
+    add_render(app, render_words, render_options);
+    add_compare(app, compare_options);
+    CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
+    add_scene(info, info_words, true);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_ok : exit_bad_input;
+    }
+    if (app.got_subcommand("render"))
+        return render(*app.get_subcommand("render"), render_words, render_options);
+    if (app.got_subcommand("view"))
+        return view(*app.get_subcommand("view"), view_words, view_options);
+    if (app.got_subcommand("compare"))
+        return run_compare(compare_options);
+    if (app.got_subcommand("info"))
+        return run_info(info_words.source());
+    return exit_ok;
+}
+
+} // namespace tessera

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tessera {
+
+/// Throws BadInput where no file can be made at `path`: better before a render than after it.
+void check_writable(const std::filesystem::path& path);
+
+/// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+} // namespace tessera

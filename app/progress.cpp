@@ -1,0 +1,40 @@
+#include "app/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+namespace tessera {
+
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+    if (drawn_)
+        fmt::print(stderr, "\n");
+}
+
+void Progress::update(double done, double seconds, const std::string& detail) {
+    done = std::clamp(done, 0.0, 1.0);
+    const std::string left = done > 0 && done < 1 ? fmt::format(", {:.0f} s left", seconds / done - seconds) : "";
+    if (!terminal_) {
+        const int tenths = static_cast<int>(done * 10);
+        if (tenths == tenths_)
+            return;
+        tenths_ = tenths;
+        fmt::print(stderr, "{}: {:3.0f} %, {}{}\n", what_, 100 * done, detail, left);
+        return;
+    }
+    if (drawn_ && done < 1 && seconds - drawn_at_ < 0.1)
+        return;
+    constexpr int width = 30;
+    const int filled = static_cast<int>(done * width);
+    fmt::print(stderr, "\r{} [{:#>{}}{:.>{}}] {:3.0f} %, {}{}   ", what_, "", filled, "", width - filled,
+               100 * done, detail, left);
+    std::fflush(stderr);
+    drawn_ = true;
+    drawn_at_ = seconds;
+}
+
+} // namespace tessera

@@ -1,0 +1,132 @@
+#include "app/render.h"
+
+#include "app/exit_codes.h"
+#include "app/output_file.h"
+#include "app/process_usage.h"
+#include "app/progress.h"
+#include "app/stats.h"
+#include "render/load/exr.h"
+#include "render/session/render.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+std::atomic<bool> interrupted = false;
+
+/// While it lives, Ctrl-C asks for an end after the current pass; a second one ends the process.
+class InterruptGuard {
+public:
+    InterruptGuard() {
+        interrupted = false;
+        std::signal(SIGINT, [](int) {
+            interrupted = true;
+            std::signal(SIGINT, SIG_DFL);
+        });
+    }
+    ~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
+};
+
+/// What is asked for, with everything left open filled in from the scene.
+struct Plan {
+    RenderSettings settings;
+    glm::ivec2 size;
+    int spp; ///< 0: by time
+    std::vector<Norm> norms;
+};
+
+Plan make_plan(const RenderOptions& options, const Scene& scene) {
+    Plan plan{options.settings, options.size.value_or(scene.size()), 0, options.norms};
+    plan.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
+    plan.spp = options.spp.value_or(options.time ? 0 : 16);
+    if (plan.norms.empty())
+        plan.norms = {has_gradients(plan.settings.method) ? Norm::l2 : Norm::none};
+    return plan;
+}
+
+/// Share of the work done, by whichever limit is nearer.
+double share_done(const RenderOptions& options, const Plan& plan, const Render& render) {
+    double done = plan.spp > 0 ? static_cast<double>(render.spp()) / plan.spp : 0;
+    if (options.time)
+        done = std::max(done,
+                        (options.clock == Clock::cpu ? render.cpu_seconds() : render.seconds()) / *options.time);
+    return done;
+}
+
+void render_passes(const RenderOptions& options, const Plan& plan, Render& render, ThreadPool& pool) {
+    const InterruptGuard guard;
+    Progress progress(fmt::format("{} {}x{}", short_name(plan.settings.method), plan.size.x, plan.size.y));
+    double done = 0;
+    do {
+        render.pass(pool);
+        done = share_done(options, plan, render);
+        const std::string target = plan.spp > 0 ? fmt::format(" of {}", plan.spp) : "";
+        progress.update(done, render.seconds(), fmt::format("{}{} spp", render.spp(), target));
+    } while (done < 1 && !interrupted);
+}
+
+ExrFile assemble(const RenderOptions& options, const GradientImages& images,
+                 std::vector<ReconstructionStats>& recon, const std::vector<Norm>& norms, ThreadPool& pool) {
+    ExrFile file;
+    const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
+        pool.parallel_for(count, [&body](int i, int) { body(i); });
+    };
+    for (Norm norm : norms) {
+        const double cpu = process_cpu_seconds();
+        Reconstruction r = reconstruct(images, {norm, options.alpha}, parallel_for);
+        recon.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
+        file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
+    }
+    if (!options.buffers)
+        return file;
+    file.layers.push_back({"primal", images.primal});
+    if (images.has_gradients()) {
+        file.layers.push_back({"dx", images.dx});
+        file.layers.push_back({"dy", images.dy});
+    }
+    file.layers.push_back({"direct", images.very_direct});
+    return file;
+}
+
+} // namespace
+
+int run_render(const RenderOptions& options) {
+    check(options.settings);
+    check_writable(options.output);
+    if (!options.stats.empty())
+        check_writable(options.stats);
+    ThreadPool pool(options.threads);
+    const OpenedScene opened = open_scene(options.scene, pool);
+    for (const LoadNote& note : opened.notes)
+        fmt::print(stderr, "note: {}: {}\n", note.where.to_string(), note.text);
+
+    const Plan plan = make_plan(options, *opened.scene);
+    Render render(opened.scene, opened.scene->camera(), plan.size, plan.settings);
+    render_passes(options, plan, render, pool);
+    if (render.counters().refused_samples > 0)
+        fmt::print(stderr, "warning: {} samples were not finite and were left out (seed {})\n",
+                   render.counters().refused_samples, plan.settings.seed);
+
+    std::vector<ReconstructionStats> recon;
+    ExrFile file = assemble(options, render.images(), recon, plan.norms, pool);
+    const nlohmann::json settings =
+        settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
+    file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};
+    write_exr(options.output, file);
+    if (!options.stats.empty())
+        write_text(options.stats,
+                   stats_json(settings, opened, render, pool.size(), recon, interrupted).dump(2) + "\n");
+    fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
+               render.seconds(), render.cpu_seconds());
+    return exit_ok;
+}
+
+} // namespace tessera

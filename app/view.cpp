@@ -1,0 +1,159 @@
+#include "app/view.h"
+
+#include "ui/screenshot.h"
+#include "ui/surface.h"
+#include "ui/viewer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+
+namespace tessera {
+
+namespace {
+
+constexpr int screenshot_spp = 16;
+constexpr int bad_input = 2;
+
+using Clock = std::chrono::steady_clock;
+
+void print_line(const std::string& line) {
+    std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
+}
+
+/// A picture file in the current folder that is named after the time.
+std::filesystem::path dated_picture() {
+    const std::time_t now = std::time(nullptr);
+    char name[64];
+    std::strftime(name, sizeof name, "tessera-%Y%m%d-%H%M%S.png", std::localtime(&now));
+    return std::filesystem::current_path() / name;
+}
+
+/// What is done between frames: pictures of the window, and the log of how long things took.
+class FrameWatch {
+public:
+    FrameWatch(const ViewOptions& options, Surface& surface, Viewer& viewer, Clock::time_point start)
+        : options_(options), surface_(surface), viewer_(viewer), start_(start) {}
+
+    /// False: the work is done.
+    bool after_frame() {
+        log_times();
+        save_if_wished();
+        return options_.screenshot.empty() || take_screenshot();
+    }
+
+    int exit_code() const { return exit_code_; }
+
+private:
+    void log_times() {
+        if (!options_.log_actions)
+            return;
+        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+        if (!window_seen_)
+            print_line("time window " + std::to_string(seconds));
+        window_seen_ = true;
+        const auto& panes = viewer_.state().panes;
+        const auto pictures = std::count_if(panes.begin(), panes.end(),
+                                            [](const PaneState& pane) { return pane.snapshot != nullptr; });
+        for (; pictures_seen_ < pictures; ++pictures_seen_)
+            print_line("time picture " + std::to_string(seconds));
+    }
+
+    // Waits for the menu that the wish came from to close.
+    void save_if_wished() {
+        ViewerState& state = viewer_.state();
+        wish_age_ = state.save_picture ? wish_age_ + 1 : 0;
+        if (wish_age_ < 3)
+            return;
+        state.save_picture = false;
+        try {
+            const std::filesystem::path file = dated_picture();
+            write_png(file, read_screen(surface_.pixels()));
+            state.add_message(Message::Kind::note, "Saved " + file.string());
+        } catch (const std::exception& e) {
+            state.add_message(Message::Kind::error, e.what());
+        }
+        surface_.wake();
+    }
+
+    bool take_screenshot() {
+        for (const Message& message : viewer_.state().messages) {
+            if (message.kind == Message::Kind::error)
+                return fail(message.text);
+        }
+        if (!viewer_.settled(viewer_.state().spp_limit))
+            return true;
+        try {
+            write_png(options_.screenshot, read_screen(surface_.pixels()));
+        } catch (const std::exception& e) {
+            return fail(e.what());
+        }
+        return false;
+    }
+
+    bool fail(const std::string& text) {
+        std::fprintf(stderr, "%s\n", text.c_str());
+        exit_code_ = bad_input;
+        return false;
+    }
+
+    const ViewOptions& options_;
+    Surface& surface_;
+    Viewer& viewer_;
+    Clock::time_point start_;
+    bool window_seen_ = false;
+    std::ptrdiff_t pictures_seen_ = 0;
+    int wish_age_ = 0;
+    int exit_code_ = 0;
+};
+
+std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
+    const SurfaceOptions wanted{"Tessera - " + options.scene_name, options.window_size, options.ui_scale,
+                                !options.screenshot.empty()};
+    std::string error;
+    std::unique_ptr<Surface> surface = open_window(wanted, error);
+    if (!surface && !options.screenshot.empty())
+        surface = open_offscreen(wanted, error);
+    return surface;
+}
+
+ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
+    ViewerOptions result;
+    result.panes = options.panes;
+    result.max_depth = options.max_depth;
+    result.size = options.render_size;
+    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
+    result.show_panel = options.show_panel;
+    if (options.log_actions)
+        result.log = print_line;
+    result.log_controls = options.log_actions;
+    result.wake = [&surface] { surface.wake(); };
+    return result;
+}
+
+} // namespace
+
+std::vector<PaneSettings> ViewOptions::default_panes() {
+    std::vector<PaneSettings> panes(2);
+    panes[0].render.method = Method::pt;
+    panes[1].render.method = Method::gpr;
+    return panes;
+}
+
+int run_view(const ViewOptions& options) {
+    const Clock::time_point start = Clock::now();
+    const std::unique_ptr<Surface> surface = open_surface(options);
+    if (!surface)
+        return view_needs_display;
+    Session session(static_cast<int>(options.panes.size()), options.threads, [&] { surface->wake(); });
+    Viewer viewer(session, viewer_options(options, *surface));
+    viewer.load(options.scene_name, options.loader);
+    FrameWatch watch(options, *surface, viewer, start);
+    surface->run(viewer, [&] { return watch.after_frame(); });
+    return watch.exit_code();
+}
+
+} // namespace tessera

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "ui/render_size.h"
+#include "ui/scene_load.h"
+#include "ui/viewer_state.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// What run_view returns where there is neither a display nor a way to draw without one: the caller may render the
+/// same comparison headless.
+inline constexpr int view_needs_display = -1;
+
+/// `tessera view`.
+struct ViewOptions {
+    std::string scene_name; ///< for title and messages
+    SceneLoader loader;     ///< makes the scene, in the background
+    std::vector<PaneSettings> panes = default_panes();
+    std::optional<int> max_depth; ///< otherwise the scene decides
+    SizeChoice render_size;
+    int threads = 0; ///< of the renderer; 0: one a hardware thread
+    glm::ivec2 window_size{1440, 810};
+    float ui_scale = 0; ///< of text and controls; 0: as the display says
+    int spp = 0;        ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
+    bool show_panel = true;
+    std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end
+    bool log_actions = false;         ///< a line on stdout for every change of state, and where controls lie
+
+    /// PT and G-PR.
+    static std::vector<PaneSettings> default_panes();
+};
+
+/// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
+/// message is on stderr), or view_needs_display.
+int run_view(const ViewOptions& options);
+
+} // namespace tessera

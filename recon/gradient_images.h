@@ -1,0 +1,18 @@
+#pragma once
+
+#include "recon/image.h"
+
+namespace tessera {
+
+/// What a gradient-domain method measures, as means over the samples taken; all images of one size.
+/// A method without gradients leaves dx and dy empty.
+struct GradientImages {
+    RgbImage primal;      ///< radiance without what is in very_direct
+    RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and means nothing
+    RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
+    RgbImage very_direct; ///< emission seen by the camera itself; added after the reconstruction
+
+    bool has_gradients() const { return !dx.empty() && !dy.empty(); }
+};
+
+} // namespace tessera

@@ -1,0 +1,109 @@
+#include "recon/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/ext/vector_double3.hpp>
+
+namespace tessera {
+
+namespace {
+
+double mean_channel(glm::dvec3 c) { return (c.r + c.g + c.b) / 3; }
+
+void check_sizes(const RgbImage& a, const RgbImage& b) {
+    if (a.width() != b.width() || a.height() != b.height())
+        throw std::invalid_argument("images to compare differ in size");
+    if (a.empty())
+        throw std::invalid_argument("images to compare are empty");
+}
+
+/// Means without the given share of the largest values; what is not a number counts as the largest.
+double trimmed_mean(std::vector<double> values, double share) {
+    for (double& value : values)
+        if (std::isnan(value))
+            value = std::numeric_limits<double>::infinity();
+    const auto drop = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + drop, values.end(), std::greater<>());
+    const double sum = std::accumulate(values.begin() + drop, values.end(), 0.0);
+    return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - drop);
+}
+
+/// The sum of values over pieces of an image, and how many pixels it has.
+struct Piece {
+    double sum = 0;
+    double pixels = 0;
+};
+
+std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
+    const int columns = (values.width() + edge - 1) / edge;
+    const int rows = (values.height() + edge - 1) / edge;
+    std::vector<Piece> pieces(static_cast<std::size_t>(columns) * rows);
+    for (int y = 0; y < values.height(); ++y) {
+        for (int x = 0; x < values.width(); ++x) {
+            Piece& piece = pieces[static_cast<std::size_t>(y / edge) * columns + x / edge];
+            piece.sum += values(x, y);
+            piece.pixels += 1;
+        }
+    }
+    return pieces;
+}
+
+} // namespace
+
+ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference) {
+    check_sizes(image, reference);
+    const auto count = static_cast<double>(image.size());
+    ErrorMetrics metrics;
+    std::vector<double> relative(image.size());
+    double image_sum = 0, reference_sum = 0, relative_sum = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const glm::dvec3 value = image.data()[i], truth = reference.data()[i];
+        const glm::dvec3 error = value - truth;
+        relative[i] = mean_channel(error * error / (truth * truth + relative_mse_epsilon));
+        relative_sum += relative[i];
+        metrics.mse += mean_channel(error * error) / count;
+        metrics.mape += mean_channel(glm::abs(error) / (glm::abs(truth) + mape_epsilon)) / count;
+        metrics.bad_pixels += !std::isfinite(value.r + value.g + value.b);
+        image_sum += mean_channel(value);
+        reference_sum += mean_channel(truth);
+    }
+    metrics.relative_mse = relative_sum / count;
+    metrics.relative_mse_trimmed = trimmed_mean(std::move(relative), 1e-4);
+    metrics.mean_ratio = image_sum / reference_sum;
+    return metrics;
+}
+
+FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
+                                        const RgbImage& reference2) {
+    check_sizes(image, reference1);
+    check_sizes(image, reference2);
+    Image<double> products(image.width(), image.height());
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const glm::dvec3 value = image.data()[i], r1 = reference1.data()[i], r2 = reference2.data()[i];
+        const glm::dvec3 r = (r1 + r2) / 2.0;
+        products.data()[i] = mean_channel((value - r1) * (value - r2) / (r * r + relative_mse_epsilon));
+    }
+    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
+    const std::vector<Piece> pieces = pieces_of(products, image.size() < few_pixels ? 1 : block_edge);
+    const auto count = static_cast<double>(image.size());
+    const auto piece_count = static_cast<double>(pieces.size());
+    FloorFreeError error;
+    for (const Piece& piece : pieces)
+        error.relative_mse += piece.sum / count;
+    // Pixels near each other err alike, blocks hardly. The variance of a mean over pieces of unequal size
+    // [Cochran 1977, 6.4].
+    double variance = 0;
+    for (const Piece& piece : pieces)
+        variance += std::pow((piece.sum - piece.pixels * error.relative_mse) / count, 2);
+    error.standard_error = piece_count > 1 ? std::sqrt(variance * piece_count / (piece_count - 1)) : 0;
+    return error;
+}
+
+} // namespace tessera

@@ -1,0 +1,153 @@
+#include "recon/poisson_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tessera {
+
+namespace {
+
+const float* values(const Rgb* pixels) { return &pixels->x; }
+
+/// Row y of an image and of its neighbours; at a border the row itself stands for the neighbour that is not there.
+struct Rows {
+    Rows(const RgbImage& image, int y)
+        : here(values(image.row(y))), above(values(image.row(std::max(y - 1, 0)))),
+          below(values(image.row(std::min(y + 1, image.height() - 1)))) {}
+
+    const float* here;
+    const float* above;
+    const float* below;
+};
+
+/// Value i (3 a pixel) of b - A image, or of b alone. `left` and `right` say whether the pixel has such a neighbour.
+class RowEquation {
+public:
+    RowEquation(const PoissonProblem& problem, int y)
+        : weight_(problem.alpha * problem.alpha), up_(y > 0), down_(y < problem.primal.height() - 1),
+          primal_(values(problem.primal.row(y))), dx_(values(problem.dx.row(y))), dy_(problem.dy, y) {}
+
+    template <bool left, bool right, bool up, bool down>
+    float right_side(int i) const {
+        float sum = weight_ * primal_[i];
+        if constexpr (left)
+            sum += dx_[i - 3];
+        if constexpr (right)
+            sum -= dx_[i];
+        if constexpr (up)
+            sum += dy_.above[i];
+        if constexpr (down)
+            sum -= dy_.here[i];
+        return sum;
+    }
+
+    template <bool left, bool right, bool up, bool down>
+    float defect(const Rows& image, int i) const {
+        const double own = image.here[i];
+        double sum = static_cast<double>(weight_) * (primal_[i] - own);
+        if constexpr (left)
+            sum += dx_[i - 3] - (own - image.here[i - 3]);
+        if constexpr (right)
+            sum -= dx_[i] - (image.here[i + 3] - own);
+        if constexpr (up)
+            sum += dy_.above[i] - (own - image.above[i]);
+        if constexpr (down)
+            sum -= dy_.here[i] - (image.below[i] - own);
+        return static_cast<float>(sum);
+    }
+
+    bool up() const { return up_; }
+    bool down() const { return down_; }
+
+private:
+    float weight_;
+    bool up_, down_;
+    const float* primal_;
+    const float* dx_;
+    Rows dy_;
+};
+
+struct RightSide {
+    const RowEquation& equation;
+    template <bool left, bool right, bool up, bool down>
+    float at(int i) const {
+        return equation.right_side<left, right, up, down>(i);
+    }
+};
+
+struct Defect {
+    const RowEquation& equation;
+    const Rows& image;
+    template <bool left, bool right, bool up, bool down>
+    float at(int i) const {
+        return equation.defect<left, right, up, down>(image, i);
+    }
+};
+
+/// Writes pixels [begin, end) of a row of `width`; only the border pixels lack a neighbour at their side.
+template <bool up, bool down, class Source>
+void write_row(const Source& source, int width, int begin, int end, float* out) {
+    const auto write = [&]<bool left, bool right>(int first, int last) {
+        for (int i = 3 * first; i < 3 * last; ++i)
+            out[i - 3 * begin] = source.template at<left, right, up, down>(i);
+    };
+    if (width == 1)
+        return write.template operator()<false, false>(begin, end);
+    if (begin == 0 && end > 0)
+        write.template operator()<false, true>(0, 1);
+    write.template operator()<true, true>(std::max(begin, 1), std::min(end, width - 1));
+    if (end == width && begin < width)
+        write.template operator()<true, false>(width - 1, width);
+}
+
+template <class Source>
+void write_row(const RowEquation& equation, const Source& source, int width, int begin, int end, float* out) {
+    if (equation.up() && equation.down())
+        write_row<true, true>(source, width, begin, end, out);
+    else if (equation.up())
+        write_row<true, false>(source, width, begin, end, out);
+    else if (equation.down())
+        write_row<false, true>(source, width, begin, end, out);
+    else
+        write_row<false, false>(source, width, begin, end, out);
+}
+
+} // namespace
+
+void poisson_right_side(const PoissonProblem& problem, int y, int begin, int end, float* out) {
+    const RowEquation equation(problem, y);
+    write_row(equation, RightSide{equation}, problem.primal.width(), begin, end, out);
+}
+
+void poisson_defect(const PoissonProblem& problem, const RgbImage& image, int y, int begin, int end, float* out) {
+    const RowEquation equation(problem, y);
+    const Rows rows(image, y);
+    write_row(equation, Defect{equation, rows}, problem.primal.width(), begin, end, out);
+}
+
+double poisson_residual(const PoissonProblem& problem, const RgbImage& image, const ParallelFor& parallel_for) {
+    const int width = image.width(), height = image.height();
+    std::vector<double> defects(height), right_sides(height);
+    parallel_for(height, [&](int y) {
+        std::vector<float> row(3 * static_cast<std::size_t>(width));
+        const auto squared_norm = [&] {
+            double sum = 0;
+            for (const float value : row)
+                sum += static_cast<double>(value) * value;
+            return sum;
+        };
+        poisson_defect(problem, image, y, 0, width, row.data());
+        defects[y] = squared_norm();
+        poisson_right_side(problem, y, 0, width, row.data());
+        right_sides[y] = squared_norm();
+    });
+    double defect = 0, right_side = 0;
+    for (int y = 0; y < height; ++y) {
+        defect += defects[y];
+        right_side += right_sides[y];
+    }
+    return defect == 0 ? 0 : std::sqrt(defect / right_side);
+}
+
+} // namespace tessera

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "recon/image.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+/// One named RGB image of an EXR file; the empty name is the file's plain R, G, B.
+struct ExrLayer {
+    std::string name; ///< "primal" becomes the channels primal.R, primal.G, primal.B
+    RgbImage image;
+};
+
+/// A single-part EXR in 32-bit floats: layers of one size and string attributes of the header.
+struct ExrFile {
+    std::vector<ExrLayer> layers;
+    std::map<std::string, std::string> attributes;
+};
+
+/// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
+void write_exr(const std::filesystem::path& path, const ExrFile& file);
+
+/// Reads every layer with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part),
+/// and the header's string attributes. Throws std::runtime_error that names the file.
+ExrFile read_exr(const std::filesystem::path& path);
+
+} // namespace tessera

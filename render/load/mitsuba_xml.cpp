@@ -1,0 +1,158 @@
+#include "render/load/mitsuba_xml.h"
+
+#include "render/load/bsdf_plugins.h"
+#include "render/load/emitter_plugins.h"
+#include "render/load/load_context.h"
+#include "render/load/numbers.h"
+#include "render/load/plugin_table.h"
+#include "render/load/scene_variables.h"
+#include "render/load/shape_plugins.h"
+#include "render/load/view_plugins.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <tuple>
+
+namespace tessera {
+
+namespace {
+
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw LoadError({file.string(), 0, 0}, "this is a folder, not a scene file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw LoadError({file.string(), 0, 0}, std::string("cannot open the file: ") + std::strerror(errno));
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (stream.bad())
+        throw LoadError({file.string(), 0, 0}, "cannot read the file");
+    return text;
+}
+
+void collect_ids(LoadContext& context, const XmlDocument& document) {
+    const std::vector<XmlElement> elements = document.elements();
+    for (const XmlElement& element : elements) {
+        if (!element.has("id") || element.tag() == "ref" || element.tag() == "alias")
+            continue;
+        const std::string id = element.attribute("id");
+        const auto [entry, is_new] = context.ids.emplace(id, element);
+        if (!is_new)
+            element.fail("the id '" + id + "' is already that of the <" + std::string(entry->second.tag()) +
+                             "> at " + entry->second.position().to_string(),
+                         "id");
+    }
+    for (const XmlElement& element : elements)
+        if (element.tag() == "alias")
+            context.ids.insert_or_assign(element.required("as"), context.resolve_id(element));
+}
+
+void read_material(LoadContext& context, const XmlElement& element) {
+    material_of(context, element);
+}
+
+void read_nothing(LoadContext&, const XmlElement&) {}
+
+// The elements right below <scene>.
+constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> scene_elements[] = {
+    {"integrator", read_integrator}, {"bsdf", read_material},   {"shape", add_shape},
+    {"emitter", add_scene_emitter},  {"default", read_nothing}, // replaced in the text by now
+    {"alias", read_nothing},                                    // among the ids by now
+    {"texture", read_nothing},                                  // read where it is referred to
+};
+
+void read_scene(LoadContext& context, const XmlElement& root) {
+    bool has_sensor = false;
+    for (const XmlElement& element : root.children()) {
+        const std::string tag(element.tag());
+        if (tag == "sensor") {
+            if (has_sensor)
+                context.notes.push_back({element.position(), "only the first sensor is used"});
+            else
+                read_sensor(context, element);
+            has_sensor = true;
+        } else if (const auto* known = find_plugin(scene_elements, tag)) {
+            known->read(context, element);
+        } else {
+            context.notes.push_back({element.position(), "<" + tag + "> is not known and not used"});
+        }
+    }
+    if (!has_sensor)
+        context.notes.push_back(
+            {root.position(), "the scene has no sensor: a camera at the origin looks along +z"});
+}
+
+bool has_old_syntax(const XmlElement& root, std::vector<LoadNote>& notes) {
+    if (!root.has("version")) {
+        notes.push_back({root.position(), "the scene names no version; Mitsuba 3's defaults are used"});
+        return false;
+    }
+    const std::string version = root.attribute("version");
+    const auto major = parse_number(version.substr(0, version.find('.')));
+    if (!major)
+        root.fail("'" + version + "' is not a version", "version");
+    return *major < 2;
+}
+
+/// By place, each once: what is referred to twice is read twice.
+void order_notes(std::vector<LoadNote>& notes) {
+    const auto key = [](const LoadNote& n) { return std::tie(n.where.line, n.where.column, n.text); };
+    std::stable_sort(notes.begin(), notes.end(),
+                     [&](const LoadNote& a, const LoadNote& b) { return key(a) < key(b); });
+    notes.erase(std::unique(notes.begin(), notes.end(),
+                            [&](const LoadNote& a, const LoadNote& b) { return key(a) == key(b); }),
+                notes.end());
+}
+
+LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
+                 const SceneVariables& variables, const ParallelFor& parallel_for) {
+    const Stopwatch parsing;
+    LoadContext context;
+    context.folder = std::move(folder);
+    XmlDocument document(std::move(text), name);
+    substitute_variables(document, variables, context.notes);
+    const XmlElement root = document.root();
+    if (root.tag() != "scene")
+        root.fail("a scene file begins with <scene>, not with <" + std::string(root.tag()) + ">");
+    context.old_syntax = has_old_syntax(root, context.notes);
+    collect_ids(context, document);
+    read_scene(context, root);
+
+    LoadedScene result;
+    result.parse_seconds = parsing.seconds();
+    const Stopwatch reading;
+    context.jobs.run(parallel_for, context.notes);
+    result.file_seconds = reading.seconds();
+    order_notes(context.notes);
+    result.description = std::move(context.scene);
+    result.notes = std::move(context.notes);
+    return result;
+}
+
+} // namespace
+
+LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables,
+                             const ParallelFor& parallel_for) {
+    return load(read_text(file), file.string(), file.parent_path(), variables, parallel_for);
+}
+
+LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables,
+                              const ParallelFor& parallel_for) {
+    return load(std::string(xml), name, {}, variables, parallel_for);
+}
+
+} // namespace tessera

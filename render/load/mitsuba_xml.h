@@ -1,0 +1,34 @@
+#pragma once
+
+#include "recon/parallel.h"
+#include "render/load/messages.h"
+#include "render/scene/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+struct LoadedScene {
+    SceneDescription description;
+    std::vector<LoadNote> notes; ///< in order of the file; nothing is ignored or replaced without one
+    double parse_seconds = 0;    ///< wall time for the XML
+    double file_seconds = 0;     ///< wall time for meshes and textures
+};
+
+/// `-D name=value` of the command line: replaces the <default> of that name.
+using SceneVariables = std::map<std::string, std::string>;
+
+/// Reads a Mitsuba scene (0.6 or 3.x syntax). Paths in the file are relative to its folder.
+/// Throws LoadError with file, line and column.
+LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
+                             const ParallelFor& parallel_for = serial_for);
+
+/// The same for a scene in memory, which has no files beside it; `name` stands in messages.
+LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables = {},
+                              const ParallelFor& parallel_for = serial_for);
+
+} // namespace tessera

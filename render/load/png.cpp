@@ -1,0 +1,71 @@
+#include "render/load/png.h"
+
+#include "render/load/temporary_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace tessera {
+
+namespace {
+
+void append(void* bytes, void* data, int size) {
+    auto& out = *static_cast<std::vector<char>*>(bytes);
+    const char* first = static_cast<const char*>(data);
+    out.insert(out.end(), first, first + size);
+}
+
+std::vector<char> encode_png(const RgbImage& image, float exposure) {
+    const float scale = std::exp2(exposure);
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(3 * image.size());
+    for (const Rgb& c : image)
+        for (int channel = 0; channel < 3; ++channel)
+            pixels.push_back(srgb_byte(scale * c[channel]));
+    std::vector<char> bytes;
+    if (image.empty() || !stbi_write_png_to_func(append, &bytes, image.width(), image.height(), 3, pixels.data(),
+                                                 3 * image.width()))
+        throw std::runtime_error("the image cannot be encoded");
+    return bytes;
+}
+
+} // namespace
+
+std::uint8_t srgb_byte(float linear) {
+    // IEC 61966-2-1. Comparisons with NaN are false.
+    if (!(linear > 0))
+        return 0;
+    const float v = std::min(linear, 1.0f);
+    const float encoded = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
+    try {
+        const std::vector<char> bytes = encode_png(image, exposure);
+        TemporaryFile temporary(path);
+        std::ofstream out;
+        out.exceptions(std::ios::failbit | std::ios::badbit);
+        out.open(temporary.path(), std::ios::binary);
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        out.close();
+        temporary.commit();
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
+    }
+}
+
+} // namespace tessera

@@ -1,0 +1,154 @@
+#include "render/load/properties.h"
+
+#include "render/load/colors.h"
+#include "render/load/transforms.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+namespace tessera {
+
+namespace {
+
+void expect_tag(const XmlElement& element, std::initializer_list<std::string_view> tags) {
+    if (std::find(tags.begin(), tags.end(), element.tag()) != tags.end())
+        return;
+    element.fail("'" + element.attribute("name") + "' must be of type <" + std::string(*tags.begin()) +
+                 ">, not <" + std::string(element.tag()) + ">");
+}
+
+} // namespace
+
+std::string snake_case(std::string_view name) {
+    const auto is_upper = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+    std::string result;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if (i > 0 && is_upper(name[i]) && !is_upper(name[i - 1]) && name[i - 1] != '_')
+            result += '_';
+        result += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+    }
+    return result;
+}
+
+Properties::Properties(const XmlElement& plugin, std::vector<LoadNote>& notes)
+    : element_(plugin), type_(plugin.required("type")), notes_(&notes) {
+    for (const XmlElement& child : plugin.children()) {
+        Parameter parameter{child, snake_case(child.attribute("name"))};
+        const auto same = [&](const Parameter& p) { return !p.name.empty() && p.name == parameter.name; };
+        const auto earlier = std::find_if(parameters_.begin(), parameters_.end(), same);
+        if (earlier != parameters_.end()) {
+            note(child, "'" + parameter.name + "' stands here for the second time; this one counts");
+            *earlier = parameter;
+        } else {
+            parameters_.push_back(parameter);
+        }
+    }
+}
+
+std::string Properties::name() const {
+    return element_.has("id") ? element_.attribute("id") : type_;
+}
+
+bool Properties::has(std::string_view parameter) const {
+    return std::any_of(parameters_.begin(), parameters_.end(),
+                       [&](const Parameter& p) { return p.name == parameter; });
+}
+
+std::optional<XmlElement> Properties::take(std::string_view parameter) {
+    for (Parameter& p : parameters_) {
+        if (p.name != parameter)
+            continue;
+        p.used = true;
+        return p.element;
+    }
+    return {};
+}
+
+float Properties::number(std::string_view parameter, float fallback) {
+    const auto element = take(parameter);
+    if (!element)
+        return fallback;
+    expect_tag(*element, {"float", "integer"});
+    return element->number("value");
+}
+
+int Properties::integer(std::string_view parameter, int fallback) {
+    const auto element = take(parameter);
+    if (!element)
+        return fallback;
+    expect_tag(*element, {"integer"});
+    const double value = element->number("value");
+    if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+        element->fail("'" + element->attribute("value") + "' is not an integer", "value");
+    return static_cast<int>(value);
+}
+
+bool Properties::boolean(std::string_view parameter, bool fallback) {
+    const auto element = take(parameter);
+    if (!element)
+        return fallback;
+    expect_tag(*element, {"boolean"});
+    const std::string value = snake_case(element->required("value"));
+    if (value != "true" && value != "false")
+        element->fail("'" + value + "' is neither 'true' nor 'false'", "value");
+    return value == "true";
+}
+
+std::string Properties::text(std::string_view parameter, const std::string& fallback) {
+    const auto element = take(parameter);
+    if (!element)
+        return fallback;
+    expect_tag(*element, {"string"});
+    return element->required("value");
+}
+
+Rgb Properties::color(std::string_view parameter, Rgb fallback) {
+    const auto element = take(parameter);
+    return element ? read_color(*element, fallback, *notes_) : fallback;
+}
+
+glm::mat4 Properties::transform(std::string_view parameter) {
+    const auto element = take(parameter);
+    if (!element)
+        return glm::mat4(1.0f);
+    expect_tag(*element, {"transform"});
+    return read_transform(*element);
+}
+
+std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {
+    std::vector<XmlElement> result;
+    for (Parameter& p : parameters_) {
+        if (p.used || !wanted(p.element))
+            continue;
+        p.used = true;
+        result.push_back(p.element);
+    }
+    return result;
+}
+
+void Properties::ignore(std::initializer_list<std::string_view> parameters) {
+    for (std::string_view parameter : parameters)
+        take(parameter);
+}
+
+void Properties::ignore_all() {
+    for (Parameter& p : parameters_)
+        p.used = true;
+}
+
+void Properties::note(const XmlElement& where, const std::string& text) const {
+    notes_->push_back({where.position(), text});
+}
+
+void Properties::report_unused() const {
+    for (const Parameter& p : parameters_) {
+        if (p.used)
+            continue;
+        const std::string what = p.name.empty() ? "<" + std::string(p.element.tag()) + ">" : "'" + p.name + "'";
+        note(p.element, what + " of " + std::string(element_.tag()) + " '" + type_ + "' is not used");
+    }
+}
+
+} // namespace tessera

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+namespace tessera {
+
+/// A file that is written under a temporary name beside its own and takes its own name only when it is complete.
+/// So whatever happens, there is never half a file under that name.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(std::filesystem::path final_path);
+    ~TemporaryFile(); ///< removes the file unless it was committed
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const std::filesystem::path& path() const { return temporary_; }
+
+    /// Renames the file. Throws std::filesystem::filesystem_error.
+    void commit();
+
+private:
+    std::filesystem::path final_;
+    std::filesystem::path temporary_;
+};
+
+} // namespace tessera

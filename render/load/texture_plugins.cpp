@@ -1,0 +1,140 @@
+#include "render/load/texture_plugins.h"
+
+#include "render/load/colors.h"
+#include "render/load/image_files.h"
+#include "render/load/plugin_table.h"
+#include "render/load/transforms.h"
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// to_uv of Mitsuba 3, or the scale and offset of 0.6.
+glm::mat3 uv_transform(Properties& p) {
+    if (const auto element = p.take("to_uv"))
+        return read_uv_transform(*element);
+    const float scale = p.number("uvscale", 1);
+    return {p.number("uscale", scale), 0, 0, 0, p.number("vscale", scale), 0, p.number("uoffset", 0),
+            p.number("voffset", 0),    1};
+}
+
+Filter filter_parameter(Properties& p) {
+    const std::string name = p.text("filter_type", "bilinear");
+    if (name == "nearest")
+        return Filter::nearest;
+    // The prefiltered look-ups of 0.6 come to the same for many samples a pixel.
+    if (name != "bilinear" && name != "trilinear" && name != "ewa")
+        p.note(*p.take("filter_type"), "the filter '" + name + "' is replaced by 'bilinear'");
+    return Filter::bilinear;
+}
+
+Wrap wrap_parameter(Properties& p) {
+    std::string parameter = "wrap_mode";
+    if (!p.has(parameter) && p.has("wrap_mode_u")) {
+        parameter = "wrap_mode_u";
+        if (p.text("wrap_mode_v", "repeat") != p.text("wrap_mode_u", "repeat"))
+            p.note("the wrap mode of u is used for v, too");
+    }
+    const std::string name = p.text(parameter, "repeat");
+    if (name == "clamp")
+        return Wrap::clamp;
+    if (name == "mirror")
+        return Wrap::mirror;
+    if (name != "repeat")
+        p.note(*p.take(parameter), "the wrap mode '" + name + "' is replaced by 'repeat'");
+    return Wrap::repeat;
+}
+
+/// Whether bytes are sRGB: `raw` of Mitsuba 3, `gamma` of 0.6 (1: linear, -1: sRGB).
+bool srgb_parameter(Properties& p) {
+    const bool raw = p.boolean("raw", false);
+    const float gamma = p.number("gamma", raw ? 1.0f : -1.0f);
+    if (gamma != 1 && gamma != -1)
+        p.note(*p.take("gamma"), "the gamma is replaced by the curve of sRGB");
+    return gamma != 1;
+}
+
+std::shared_ptr<const Bitmap> bitmap(LoadContext& context, Properties& p, bool srgb) {
+    const LoadContext::File file = context.take_file(p);
+    auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb}];
+    if (!shared) {
+        shared = std::make_shared<Bitmap>();
+        context.jobs.add(file.parameter, [target = shared, path = file.path, srgb] {
+            *target = read_bitmap(path, srgb);
+            return std::string();
+        });
+    }
+    return shared;
+}
+
+Texture read_bitmap_texture(LoadContext& context, Properties& p) {
+    Texture texture;
+    texture.kind = BitmapTexture{bitmap(context, p, srgb_parameter(p)), filter_parameter(p), wrap_parameter(p)};
+    texture.to_uv = uv_transform(p);
+    p.ignore({"max_anisotropy", "cache", "format", "accel"}); // of speed and memory
+    return texture;
+}
+
+Texture read_checkerboard(LoadContext& context, Properties& p) {
+    CheckerboardTexture checkerboard;
+    const auto field = [&](std::string_view name, Rgb fallback) {
+        const Texture color = texture_parameter(context, p, name, fallback);
+        if (color.is_constant())
+            return std::get<Rgb>(color.kind);
+        p.note(*p.take(name), "a texture in a checkerboard is replaced by a constant colour");
+        return fallback;
+    };
+    checkerboard.color0 = field("color0", checkerboard.color0);
+    checkerboard.color1 = field("color1", checkerboard.color1);
+    Texture texture;
+    texture.kind = checkerboard;
+    texture.to_uv = uv_transform(p);
+    return texture;
+}
+
+constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
+    {"bitmap", read_bitmap_texture},
+    {"checkerboard", read_checkerboard},
+};
+
+} // namespace
+
+Texture read_texture(LoadContext& context, const XmlElement& element) {
+    const NestingGuard guard(context, element);
+    Properties properties(element, context.notes);
+    const auto* plugin = find_plugin(plugins, properties.type());
+    if (!plugin) {
+        properties.note("the texture '" + properties.type() + "' is not known; magenta stands for it");
+        return marking_color;
+    }
+    const Texture texture = plugin->read(context, properties);
+    properties.report_unused();
+    return texture;
+}
+
+Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback) {
+    const auto parameter = properties.take(name);
+    if (!parameter)
+        return fallback;
+    const XmlElement target = context.resolve(*parameter);
+    if (target.tag() == "texture")
+        return read_texture(context, target);
+    return read_color(target, fallback, context.notes);
+}
+
+Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback) {
+    Texture texture = texture_parameter(context, properties, name, fallback);
+    if (Rgb* color = std::get_if<Rgb>(&texture.kind)) {
+        if (color->r < 0 || color->g < 0 || color->b < 0)
+            properties.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
+        if (color->r > 1 || color->g > 1 || color->b > 1) {
+            properties.note(*properties.take(name), "'" + std::string(name) + "' is above 1 and cut there");
+            *color = glm::min(*color, Rgb(1));
+        }
+    }
+    return texture;
+}
+
+} // namespace tessera

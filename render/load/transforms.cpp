@@ -1,0 +1,127 @@
+#include "render/load/transforms.h"
+
+#include <cmath>
+#include <functional>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+glm::vec3 triple(const XmlElement& element, const char* attribute) {
+    const auto values = element.numbers(attribute);
+    if (values.size() != 3)
+        element.fail("'" + element.attribute(attribute) + "' must be three numbers", attribute);
+    return {values[0], values[1], values[2]};
+}
+
+/// Either value="x y z" (or one number for all three where `uniform`), or attributes x, y and z.
+glm::vec3 components(const XmlElement& element, float fallback, bool uniform) {
+    if (element.has("value")) {
+        const auto values = element.numbers("value");
+        if (uniform && values.size() == 1)
+            return glm::vec3(values[0]);
+        return triple(element, "value");
+    }
+    glm::vec3 result(fallback);
+    static constexpr const char* names[] = {"x", "y", "z"};
+    for (int i = 0; i < 3; ++i)
+        if (element.has(names[i]))
+            result[i] = element.number(names[i]);
+    return result;
+}
+
+glm::mat4 matrix_of_rows(const XmlElement& element) {
+    const auto v = element.numbers("value");
+    if (v.size() != 16 && v.size() != 9)
+        element.fail("a matrix has 16 numbers, or 9; here are " + std::to_string(v.size()), "value");
+    const std::size_t rows = v.size() == 16 ? 4 : 3;
+    glm::mat4 m(1.0f);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < rows; ++column)
+            m[static_cast<int>(column)][static_cast<int>(row)] = v[row * rows + column];
+    return m;
+}
+
+/// Nine numbers stand for a map of the plane: its translation belongs into the fourth column.
+glm::mat4 planar_matrix(const XmlElement& element) {
+    const glm::mat4 m = matrix_of_rows(element);
+    if (element.numbers("value").size() == 16)
+        return m;
+    glm::mat4 result(1.0f);
+    result[0] = {m[0][0], m[0][1], 0, 0};
+    result[1] = {m[1][0], m[1][1], 0, 0};
+    result[3] = {m[2][0], m[2][1], 0, 1};
+    return result;
+}
+
+/// Looks along +z with +x to the left, as Mitsuba's cameras do.
+glm::mat4 look_at(const XmlElement& element) {
+    const glm::vec3 origin = triple(element, "origin");
+    const glm::vec3 target = triple(element, "target");
+    if (origin == target)
+        element.fail("origin and target of a lookat are the same point", "target");
+    const glm::vec3 forward = glm::normalize(target - origin);
+    glm::vec3 up = element.has("up") ? triple(element, "up") : glm::vec3(0);
+    if (up == glm::vec3(0)) // any that is not the direction itself
+        up = std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 left = glm::cross(up, forward);
+    if (glm::length(left) < 1e-6f * glm::length(up))
+        element.fail("a lookat's up must not be its direction", "up");
+    glm::mat4 m(1.0f);
+    m[0] = glm::vec4(glm::normalize(left), 0);
+    m[1] = glm::vec4(glm::cross(forward, glm::normalize(left)), 0);
+    m[2] = glm::vec4(forward, 0);
+    m[3] = glm::vec4(origin, 1);
+    return m;
+}
+
+glm::mat4 rotation(const XmlElement& element, bool planar) {
+    const bool has_axis = element.has("value") || element.has("x") || element.has("y") || element.has("z");
+    const glm::vec3 axis = planar && !has_axis ? glm::vec3(0, 0, 1) : components(element, 0, false);
+    if (glm::length(axis) == 0)
+        element.fail("a rotation needs an axis");
+    return glm::rotate(glm::mat4(1.0f), glm::radians(element.number("angle")), glm::normalize(axis));
+}
+
+glm::mat4 step(const XmlElement& element, bool planar) {
+    const std::string_view tag = element.tag();
+    if (tag == "matrix")
+        return planar ? planar_matrix(element) : matrix_of_rows(element);
+    if (tag == "lookat" || tag == "look_at" || tag == "lookAt")
+        return look_at(element);
+    if (tag == "translate")
+        return glm::translate(glm::mat4(1.0f), components(element, 0, false));
+    if (tag == "scale")
+        return glm::scale(glm::mat4(1.0f), components(element, 1, true));
+    if (tag == "rotate")
+        return rotation(element, planar);
+    element.fail("<" + std::string(tag) + "> is no step of a transform");
+}
+
+glm::mat4 product_of_steps(const XmlElement& transform, bool planar) {
+    glm::mat4 result(1.0f);
+    for (const XmlElement& child : transform.children())
+        result = step(child, planar) * result;
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(result[i / 4][i % 4]))
+            transform.fail("the transform's numbers are too large");
+    return result;
+}
+
+} // namespace
+
+glm::mat4 read_transform(const XmlElement& transform) {
+    return product_of_steps(transform, false);
+}
+
+glm::mat3 read_uv_transform(const XmlElement& transform) {
+    const glm::mat4 m = product_of_steps(transform, true);
+    return {m[0][0], m[0][1], 0, m[1][0], m[1][1], 0, m[3][0], m[3][1], 1};
+}
+
+} // namespace tessera

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "render/load/xml_document.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace tessera {
+
+/// The product of a <transform>'s steps (matrix, lookat, translate, rotate, scale); the first step is applied to a
+/// point first. Throws LoadError.
+glm::mat4 read_transform(const XmlElement& transform);
+
+/// The same for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
+glm::mat3 read_uv_transform(const XmlElement& transform);
+
+} // namespace tessera

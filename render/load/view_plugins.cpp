@@ -1,0 +1,124 @@
+#include "render/load/view_plugins.h"
+
+#include "render/load/numbers.h"
+#include "render/load/plugin_table.h"
+
+#include <cmath>
+
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr int unlimited_depth = 65;
+constexpr int largest_film = 16384; // pixels a side
+
+FovAxis fov_axis_parameter(Properties& p) {
+    static constexpr Plugin<FovAxis> axes[] = {{"x", FovAxis::x},
+                                               {"y", FovAxis::y},
+                                               {"diagonal", FovAxis::diagonal},
+                                               {"smaller", FovAxis::smaller},
+                                               {"larger", FovAxis::larger}};
+    const std::string name = p.text("fov_axis", "x");
+    const auto* axis = find_plugin(axes, name);
+    if (!axis)
+        p.take("fov_axis")->fail("'" + name + "' is no axis: x, y, diagonal, smaller or larger", "value");
+    return axis->read;
+}
+
+/// "50mm", on 35 mm film: across the diagonal of 36 by 24 mm.
+float fov_of_focal_length(Properties& p) {
+    std::string text = p.text("focal_length", "50mm");
+    if (text.ends_with("mm"))
+        text.resize(text.size() - 2);
+    const auto length = parse_number(text);
+    if (!length || *length <= 0)
+        p.take("focal_length")->fail("'" + text + "' is not a length in mm", "value");
+    return glm::degrees(2 * std::atan(std::hypot(36.0f, 24.0f) / (2 * static_cast<float>(*length))));
+}
+
+void read_lens(Properties& p, Camera& camera) {
+    if (!p.has("fov")) {
+        camera.fov = fov_of_focal_length(p);
+        camera.fov_axis = FovAxis::diagonal;
+        p.ignore({"fov_axis"});
+        return;
+    }
+    camera.fov = p.number("fov", camera.fov);
+    camera.fov_axis = fov_axis_parameter(p);
+    if (!(camera.fov > 0 && camera.fov < 180))
+        p.take("fov")->fail("the field of view must be between 0 and 180 degrees", "value");
+}
+
+void read_placement(Properties& p, Camera& camera) {
+    camera.to_world = p.transform("to_world");
+    if (!(std::abs(glm::determinant(glm::mat3(camera.to_world))) > 0))
+        p.take("to_world")->fail("the camera's transform is flat");
+}
+
+int film_side(Properties& p, std::string_view name, int fallback) {
+    const int side = p.integer(name, fallback);
+    if (side < 1 || side > largest_film)
+        p.take(name)->fail(
+            "the film's " + std::string(name) + " must be from 1 to " + std::to_string(largest_film), "value");
+    return side;
+}
+
+void note_filter(LoadContext& context, const XmlElement& element) {
+    Properties p(element, context.notes);
+    if (p.type() != "box")
+        p.note("the reconstruction filter '" + p.type() + "' is not used: pixels are means over a box");
+}
+
+void read_film(LoadContext& context, const XmlElement& element) {
+    Properties p(element, context.notes);
+    context.scene.size = {film_side(p, "width", 768), film_side(p, "height", 576)};
+    for (const XmlElement& filter : context.take_nested(p, "rfilter"))
+        note_filter(context, filter);
+    // How Mitsuba would write its file.
+    p.ignore({"file_format", "pixel_format", "component_format", "banner", "gamma", "exposure", "tonemap_method",
+              "attach_log", "high_quality_edges", "compensate"});
+    p.report_unused();
+}
+
+} // namespace
+
+void read_integrator(LoadContext& context, const XmlElement& element) {
+    const NestingGuard guard(context, element);
+    Properties p(element, context.notes);
+    const int depth = p.integer("max_depth", -1);
+    if (depth < -1 || depth == 0)
+        p.take("max_depth")->fail("'max_depth' must be at least 1, or -1 for no limit", "value");
+    context.scene.max_depth = depth == -1 ? unlimited_depth : depth;
+    if (p.type() == "path") {
+        p.ignore({"rr_depth", "strict_normals"});
+        p.report_unused();
+        return;
+    }
+    // Integrators that add something (aov, moment, adaptive) hold the one that says how light travels.
+    const std::vector<XmlElement> nested = context.take_nested(p, "integrator");
+    p.note("the integrator '" + p.type() + "' is not used: the method is chosen in Tessera");
+    if (!nested.empty())
+        read_integrator(context, nested[0]);
+}
+
+void read_sensor(LoadContext& context, const XmlElement& element) {
+    Properties p(element, context.notes);
+    if (p.type() != "perspective")
+        p.note("the sensor '" + p.type() + "' is replaced by 'perspective'");
+    read_placement(p, context.scene.camera);
+    read_lens(p, context.scene.camera);
+    for (const XmlElement& film : context.take_nested(p, "film"))
+        read_film(context, film);
+    context.take_nested(p, "sampler"); // how many samples there are is the viewer's choice
+    p.ignore({"near_clip", "far_clip"});
+    if (p.type() == "thinlens")
+        p.ignore({"aperture_radius", "focus_distance"}); // what the note says
+    else
+        p.ignore({"focus_distance"});
+    p.report_unused();
+}
+
+} // namespace tessera

@@ -1,0 +1,132 @@
+#include "render/load/xml_document.h"
+
+#include "render/load/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+namespace {
+
+constexpr const char* white_space = " \t\r\n";
+
+/// The offset of an attribute's value, given that of the element's name; npos when it is not found. The parser
+/// keeps no offsets of attributes, and a message should point at the number, not at the tag.
+std::size_t value_offset(const std::string& text, std::size_t element, std::string_view wanted) {
+    std::size_t at = text.find_first_of(" \t\r\n/>", element);
+    while (at != std::string::npos) {
+        const std::size_t begin = text.find_first_not_of(white_space, at);
+        const std::size_t equals = text.find_first_of("=>", begin);
+        if (equals == std::string::npos || text[equals] == '>')
+            break;
+        const std::size_t open = text.find_first_of("\"'", equals);
+        const std::size_t close = open == std::string::npos ? open : text.find(text[open], open + 1);
+        if (close == std::string::npos)
+            break;
+        const std::size_t name_end = std::min(text.find_first_of(" \t\r\n=", begin), equals);
+        if (std::string_view(text).substr(begin, name_end - begin) == wanted)
+            return open + 1;
+        at = close + 1;
+    }
+    return std::string::npos;
+}
+
+} // namespace
+
+XmlDocument::XmlDocument(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+    line_starts_.push_back(0);
+    for (std::size_t i = 0; i < text_.size(); ++i)
+        if (text_[i] == '\n')
+            line_starts_.push_back(i + 1);
+    const auto result = tree_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+    if (result)
+        return;
+    // At the end of a file the offset is one past the last character; the last line is shown then.
+    const std::size_t last = text_.empty() ? 0 : text_.find_last_not_of(white_space);
+    const std::size_t offset =
+        std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)),
+                              last == std::string::npos ? 0 : last);
+    const FilePosition where = position(offset);
+    throw LoadError(where, std::string("the XML is broken: ") + result.description(), source_line(where.line));
+}
+
+XmlElement XmlDocument::root() const {
+    return XmlElement(*this, tree_.document_element());
+}
+
+std::vector<XmlElement> XmlDocument::elements() const {
+    struct Walker : pugi::xml_tree_walker {
+        explicit Walker(const XmlDocument& d) : document(d) {}
+        bool for_each(pugi::xml_node& node) override {
+            if (node.type() == pugi::node_element)
+                found.emplace_back(document, node);
+            return true;
+        }
+        const XmlDocument& document;
+        std::vector<XmlElement> found;
+    };
+    Walker walker(*this);
+    pugi::xml_node top = tree_; // traverse() changes nothing but is not const
+    top.traverse(walker);
+    return walker.found;
+}
+
+FilePosition XmlDocument::position(pugi::xml_node node, const char* attribute) const {
+    if (node.offset_debug() < 0)
+        return {name_, 0, 0};
+    const auto element = static_cast<std::size_t>(node.offset_debug());
+    const std::size_t value = attribute ? value_offset(text_, element, attribute) : std::string::npos;
+    return position(value != std::string::npos ? value : element - std::min<std::size_t>(element, 1));
+}
+
+FilePosition XmlDocument::position(std::size_t offset) const {
+    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+    const std::size_t line = static_cast<std::size_t>(after - line_starts_.begin()); // counted from 1
+    return {name_, static_cast<int>(line), static_cast<int>(offset - line_starts_[line - 1]) + 1};
+}
+
+std::string XmlDocument::source_line(int line) const {
+    if (line < 1 || static_cast<std::size_t>(line) > line_starts_.size())
+        return {};
+    const std::size_t begin = line_starts_[static_cast<std::size_t>(line) - 1];
+    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    return text_.substr(begin, end - begin);
+}
+
+std::string XmlElement::required(const char* name) const {
+    if (!has(name))
+        fail("<" + std::string(tag()) + "> needs the attribute '" + name + "'");
+    return attribute(name);
+}
+
+std::vector<XmlElement> XmlElement::children() const {
+    std::vector<XmlElement> result;
+    for (pugi::xml_node child : node_.children())
+        if (child.type() == pugi::node_element)
+            result.emplace_back(*document_, child);
+    return result;
+}
+
+LoadError XmlElement::error(const std::string& text, const char* attribute) const {
+    const FilePosition where = position(attribute);
+    return LoadError(where, text, document_->source_line(where.line));
+}
+
+float XmlElement::number(const char* name) const {
+    const std::string text = required(name);
+    const auto value = parse_number(text);
+    if (!value || !std::isfinite(static_cast<float>(*value)))
+        fail("'" + text + "' is not a number", name);
+    return static_cast<float>(*value);
+}
+
+std::vector<float> XmlElement::numbers(const char* name) const {
+    const std::string text = required(name);
+    const auto values = parse_numbers(text);
+    if (!values)
+        fail("'" + text + "' is not a list of numbers", name);
+    return *values;
+}
+
+} // namespace tessera

@@ -1,0 +1,34 @@
+#include "render/method/pass.h"
+
+namespace tessera {
+
+namespace {
+
+/// The difference of two neighbours that share the light of their base paths: T = {k, n}.
+Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker) {
+    share_light(pass, pair, Roulette::none, worker);
+    return worker.shared[1] - worker.shared[0];
+}
+
+} // namespace
+
+/// Gradient-domain path tracing [Kettunen 2015]: the primal is path tracing's, each gradient has a sampling set of
+/// its own.
+void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
+    worker.base.trace(pass, worker.tracer,
+                      PixelRect{area.x0, area.y0, area.x1 + 1, area.y1 + 1}.clipped(pass.size));
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+            const BasePath& path = worker.base.at(x, y);
+            PixelSample sample{path.radiance, Rgb(0), Rgb(0), path.very_direct};
+            if (x + 1 < pass.size.x)
+                sample.dx = gradient(pass, {x, y, x + 2, y + 1}, worker);
+            if (y + 1 < pass.size.y)
+                sample.dy = gradient(pass, {x, y, x + 1, y + 2}, worker);
+            film.add(x, y, sample, worker.counters);
+        }
+}
+
+} // namespace tessera

@@ -1,0 +1,102 @@
+#include "render/method/pass.h"
+
+#include <cmath>
+
+namespace tessera {
+
+glm::vec2 Pass::subpixel() const {
+    // The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
+    const Random start(settings.seed, 0xffffffffu, 0);
+    const glm::vec2 offset = start.draw_2d(0, Draw::direction);
+    const double n = index;
+    const double u = offset.x + n * 0.7548776662466927;
+    const double v = offset.y + n * 0.5698402909980532;
+    const auto in_unit = [](double a) { return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f); };
+    return {in_unit(u), in_unit(v)};
+}
+
+glm::ivec2 Pass::tile_origin() const {
+    const glm::vec2 u =
+        Random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(index)).draw_2d(0, Draw::direction);
+    return -glm::ivec2(u * static_cast<float>(settings.tile));
+}
+
+void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
+    rect_ = rect;
+    const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+    if (paths_.size() < count)
+        paths_.resize(count);
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+            trace_pixel(pass, tracer, x, y, paths_[index(x, y)]);
+}
+
+std::vector<PixelRect> blocks_of(const Pass& pass) {
+    constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
+    const int tile = pass.settings.tile;
+    const int edge = tile * std::max(1, usual_edge / tile);
+    const glm::ivec2 origin = pass.tile_origin();
+    std::vector<PixelRect> blocks;
+    for (int y = origin.y; y < pass.size.y; y += edge)
+        for (int x = origin.x; x < pass.size.x; x += edge)
+            if (!PixelRect{x, y, x + edge, y + edge}.clipped(pass.size).empty())
+                blocks.push_back({x, y, x + edge, y + edge});
+    return blocks;
+}
+
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    switch (pass.settings.method) {
+    case Method::pt:
+        return render_pt(pass, block, worker, film);
+    case Method::pr:
+        return render_pr(pass, block, worker, film);
+    case Method::gpt:
+        return render_gpt(pass, block, worker, film);
+    case Method::gpr:
+        return render_gpr(pass, block, worker, film);
+    }
+}
+
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
+    const Ray ray = pass.camera.ray(glm::vec2(x, y) + pass.subpixel(), pass.size);
+    trace_base_path(tracer, ray, pass.settings.max_depth, pass.random(x, y), path);
+}
+
+namespace {
+
+/// Probability that a base path is reused.
+float reuse_probability(const RenderSettings& settings, const BasePath& path) {
+    if (settings.rr_delta <= 0)
+        return 1;
+    return std::clamp(luminance(path.radiance) / settings.rr_delta, settings.q_min, 1.0f);
+}
+
+} // namespace
+
+void share_light(const Pass& pass, PixelRect set, Roulette roulette, Worker& worker) {
+    worker.set.clear();
+    for (int y = set.y0; y < set.y1; ++y)
+        for (int x = set.x0; x < set.x1; ++x)
+            worker.set.push_back(&worker.base.at(x, y));
+    worker.shared.assign(worker.set.size(), Rgb(0));
+
+    int k = 0;
+    for (int y = set.y0; y < set.y1; ++y)
+        for (int x = set.x0; x < set.x1; ++x, ++k) {
+            const BasePath& path = *worker.set[static_cast<std::size_t>(k)];
+            if (is_black(path.radiance))
+                continue;
+            float q = 1;
+            if (roulette == Roulette::reuse) {
+                q = reuse_probability(pass.settings, path);
+                ++worker.counters.reusable_paths;
+                if (pass.random(x, y).draw(0, Draw::survival) >= q) {
+                    ++worker.counters.skipped_paths;
+                    continue;
+                }
+            }
+            worker.reuse.share(worker.set, k, 1 / q, worker.shared);
+        }
+}
+
+} // namespace tessera

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "render/film.h"
+#include "render/method/settings.h"
+#include "render/path/path_reuse.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace tessera {
+
+/// A rectangle of pixels: first column and row, and one past the last.
+struct PixelRect {
+    int x0, y0, x1, y1;
+
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+    PixelRect clipped(glm::ivec2 size) const {
+        return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
+    }
+};
+
+/// One sample a pixel of a whole image: what all its blocks have in common.
+struct Pass {
+    const Scene& scene;
+    const Camera& camera;
+    glm::ivec2 size;
+    const RenderSettings& settings;
+    int index; ///< counts from 0
+
+    /// The position within every pixel at which this pass samples: one for all pixels, so that the values of the
+    /// box filter cancel in gradients [Bauszat 2017, 3.2]. A low-discrepancy sequence over passes.
+    glm::vec2 subpixel() const;
+
+    /// Where the tile grid begins, in (-tile, 0]: moved every pass, so that no pixel is always at a tile's edge.
+    glm::ivec2 tile_origin() const;
+
+    Random random(int x, int y) const {
+        return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
+                      static_cast<std::uint32_t>(index));
+    }
+};
+
+/// The base paths of a rectangle of pixels.
+class BaseBlock {
+public:
+    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect);
+    const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
+
+private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>((y - rect_.y0) * rect_.width() + x - rect_.x0);
+    }
+
+    PixelRect rect_{0, 0, 0, 0};
+    std::vector<BasePath> paths_; // never shrinks, so that vertices keep their memory
+};
+
+/// What a worker carries from block to block: memory and counts.
+struct Worker {
+    Worker(const Scene& scene, const RenderSettings& settings)
+        : tracer{scene, counters}, reuse(tracer, settings.shift_threshold) {}
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    Counters counters;
+    double cpu_seconds = 0;
+    Tracer tracer;
+    PathReuse reuse;
+    BaseBlock base;
+    BasePath path;
+    std::vector<const BasePath*> set; ///< base paths of the sampling set at hand
+    std::vector<Rgb> shared;          ///< what its pixels got
+};
+
+/// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
+/// image.
+std::vector<PixelRect> blocks_of(const Pass& pass);
+
+/// Renders one block of blocks_of() into the film with the pass's method.
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+
+/// Traces the path of one sample of this pass.
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
+
+enum class Roulette { none, reuse };
+
+/// Lets the pixels of `set`, a part of worker.base, share the light of their base paths; worker.shared then holds
+/// what each has got, row by row. With Roulette::reuse, a path of luminance L is reused with probability
+/// q = clamp(L / delta, q_min, 1) and weighs 1/q; else it adds nothing anywhere [Bauszat 2017, 3.3].
+void share_light(const Pass& pass, PixelRect set, Roulette roulette, Worker& worker);
+
+// The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.
+void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+
+} // namespace tessera

@@ -1,0 +1,115 @@
+#include "render/path/base_path.h"
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Next-event estimation at v: a point on a light, weighted against BSDF sampling by the balance heuristic
+/// [Veach 1997, 9.2.2].
+void sample_light(const Tracer& tracer, const Random& random, int index, BaseVertex& v) {
+    const LightTable& lights = tracer.scene.lights();
+    const Vertex& x = v.vertex;
+    v.light_brings = Rgb(0);
+    if (lights.empty() || x.bsdf.roughness() <= 0)
+        return;
+    const LightPoint light =
+        lights.sample(random.draw(index, Draw::emitter), random.draw_2d(index, Draw::emitter_position));
+    const glm::vec3 d = light.position - x.position;
+    const float facing = -glm::dot(d, light.normal);
+    if (!(facing > 0))
+        return; // behind the light, or on it
+    const float distance2 = glm::dot(d, d);
+    const float distance = std::sqrt(distance2);
+    const glm::vec3 direction = d / distance;
+    v.to_light = x.to_local(direction);
+    const BsdfValue b = x.bsdf.evaluate(x.to_previous, v.to_light);
+    if (is_black(b.f_cos))
+        return;
+    if (tracer.occluded(tracer.between(x.position, x.geometric_normal, light.position, light.normal, direction)))
+        return;
+    v.light = light;
+    v.light_pdf_w = light.pdf_a * distance2 * distance / facing;
+    v.light_pdf_sum = v.light_pdf_w + b.pdf_w;
+    v.light_brings = b.f_cos * light.radiance / v.light_pdf_sum;
+}
+
+/// The emission of the next vertex, found by BSDF sampling at v.
+void add_hit(BaseVertex& v, const Vertex& next, glm::vec3 direction) {
+    v.hit_pdf_w = 0;
+    v.hit_brings = Rgb(0);
+    if (next.emitter_pdf_a <= 0)
+        return;
+    const LightPoint light = next.light_toward(-direction);
+    if (is_black(light.radiance))
+        return;
+    v.hit_pdf_w = v.is_delta ? 0 : light.pdf_a / v.next_geometry; // per area over geometry is per solid angle
+    v.hit_brings = light.radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
+}
+
+/// Samples the BSDF at the last vertex and appends what lies in that direction; false: the path ends.
+bool extend(const Tracer& tracer, const Random& random, int index, BasePath& path) {
+    BaseVertex& next = path.spare();
+    BaseVertex& v = path[path.size() - 1];
+    const Vertex& x = v.vertex;
+    const auto s =
+        x.bsdf.sample(x.to_previous, random.draw(index, Draw::lobe), random.draw_2d(index, Draw::direction));
+    if (!s)
+        return false;
+    const glm::vec3 direction = x.to_world(s->to_next);
+    if (!tracer.next(x, direction, next.vertex))
+        return false;
+    const glm::vec3 d = next.vertex.position - x.position;
+    const float distance2 = glm::dot(d, d);
+    v.next_geometry = std::abs(glm::dot(next.vertex.geometric_normal, direction)) / distance2;
+    if (!(v.next_geometry > 0) || !(distance2 > 0))
+        return false;
+    v.to_next = s->to_next;
+    v.f_cos = s->f_cos;
+    v.pdf_w = s->pdf_w;
+    v.is_delta = s->is_delta;
+    v.scatter = s->scatter;
+    add_hit(v, next.vertex, direction);
+    path.keep();
+    return true;
+}
+
+/// Sums the light from the far end to the camera, so that each vertex knows what arrives from beyond it.
+void gather(BasePath& path) {
+    Rgb toward_camera(0);
+    for (int i = path.size() - 1; i >= 0; --i) {
+        BaseVertex& v = path[i];
+        v.arriving = toward_camera;
+        toward_camera = v.light_brings;
+        if (i + 1 < path.size())
+            toward_camera += v.f_cos * (v.hit_brings + v.arriving) / v.pdf_w;
+    }
+    path.radiance = toward_camera;
+}
+
+} // namespace
+
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, int max_depth, const Random& random,
+                     BasePath& path) {
+    path.clear();
+    path.very_direct = path.radiance = Rgb(0);
+    ++tracer.counters.camera_paths;
+    BaseVertex& primary = path.spare();
+    if (!tracer.closest(camera_ray, primary.vertex))
+        return;
+    path.keep();
+    path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
+    // Emitter sampling at x_i makes i + 1 edges, and so does going on to x_{i+1} for its emission.
+    for (int i = 1; i < max_depth; ++i) {
+        sample_light(tracer, random, i, path[path.size() - 1]);
+        if (!extend(tracer, random, i, path))
+            break;
+    }
+    if (path.size() == max_depth)
+        path[max_depth - 1].light_brings = Rgb(0); // the last vertex is there for its emission alone
+    tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
+    gather(path);
+}
+
+} // namespace tessera

@@ -1,0 +1,33 @@
+#include "render/path/light_paths.h"
+
+namespace tessera {
+
+void LightPaths::reset(const BasePath& path, float threshold) {
+    carried_.clear();
+    step_connectable_.clear();
+    join_ = 0;
+    last_alive_ = -1;
+    const int count = path.size();
+    Rgb throughput(1);
+    for (int i = 0; i < count; ++i) {
+        const BaseVertex& v = path[i];
+        carried_.push_back(throughput * v.light_brings);
+        if (i + 1 == count) {
+            carried_.emplace_back(0);
+            break;
+        }
+        throughput *= v.f_cos / v.pdf_w;
+        carried_.push_back(throughput * v.hit_brings);
+        step_connectable_.push_back(!v.is_delta && is_connectable(v.vertex, threshold));
+        if (i > 0 && step_is_connectable(i - 1) && step_is_connectable(i)) {
+            join_ = i;
+            carried_.push_back(throughput * v.arriving);
+            break;
+        }
+    }
+    for (int slot = 0; slot < slot_count(); ++slot)
+        if (!is_black(carried(slot)))
+            last_alive_ = slot;
+}
+
+} // namespace tessera

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "render/path/base_path.h"
+
+#include <vector>
+
+namespace tessera {
+
+/// Whether offsets can be joined at a scattering by connecting two points: its roughness is above the threshold.
+/// Decided alike for base and offset, or a shift would not be its own inverse.
+inline bool is_connectable(const Vertex& x, float threshold) {
+    return x.bsdf.roughness() > threshold;
+}
+
+/// The light paths that a base path carries, as slots in the order of their ends, and what each brings. All light
+/// paths through the same vertices beyond the join share their ratios of value and of density, so they are one
+/// slot, the tail: the suffix is summed once. Vertices count from 0 here: vertex 0 is x_1.
+class LightPaths {
+public:
+    /// Lists the light paths of `path`; keeps no reference to it.
+    void reset(const BasePath& path, float threshold);
+
+    static int emitter_slot(int vertex) { return 2 * vertex; } ///< ends by emitter sampling at the vertex
+    static int hit_slot(int vertex) { return 2 * vertex + 1; } ///< ends by BSDF sampling there hitting an emitter
+    int tail_slot() const { return 2 * join_ + 2; }            ///< ends further on; only where has_join()
+
+    /// The vertex at which offsets join the base path: the first j >= 1 for which j-1 and j are connectable.
+    int join() const { return join_; }
+    bool has_join() const { return join_ > 0; }
+
+    int slot_count() const { return static_cast<int>(carried_.size()); }
+
+    /// What the slot brings to the base's own pixel: f / sum of pdfs, radiance.
+    Rgb carried(int slot) const { return carried_[static_cast<std::size_t>(slot)]; }
+    bool is_alive(int slot) const { return slot <= last_alive_ && !is_black(carried(slot)); }
+    /// The last slot that carries light; -1: none does.
+    int last_alive() const { return last_alive_; }
+
+    /// Whether the step from the vertex onward (there is one) is connectable.
+    bool step_is_connectable(int vertex) const { return step_connectable_[static_cast<std::size_t>(vertex)] != 0; }
+
+private:
+    std::vector<Rgb> carried_;
+    std::vector<char> step_connectable_;
+    int join_ = 0;
+    int last_alive_ = -1;
+};
+
+} // namespace tessera

@@ -1,0 +1,297 @@
+#include "render/path/shift.h"
+
+#include "render/path/half_vector.h"
+
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+void OffsetPaths::reset(int slots, int offsets) {
+    offsets_ = offsets;
+    const std::size_t count = static_cast<std::size_t>(slots) * static_cast<std::size_t>(offsets);
+    density_.assign(count, 0.0f);
+    value_.assign(count, Rgb(0));
+}
+
+void PendingEdges::reset(int groups) {
+    if (groups_.size() < static_cast<std::size_t>(groups))
+        groups_.resize(static_cast<std::size_t>(groups));
+    used_ = groups;
+    for (int g = 0; g < groups; ++g) {
+        groups_[static_cast<std::size_t>(g)].segments.clear();
+        groups_[static_cast<std::size_t>(g)].offsets.clear();
+    }
+}
+
+void PendingEdges::add(int group, const Segment& segment, int offset, int first_slot, int end_slot) {
+    Group& g = groups_[static_cast<std::size_t>(group)];
+    g.segments.push_back(segment);
+    g.offsets.push_back(offset);
+    g.first_slot = first_slot;
+    g.end_slot = end_slot;
+}
+
+void PendingEdges::resolve(const Tracer& tracer, OffsetPaths& paths, std::vector<std::uint8_t>& blocked) {
+    for (int i = 0; i < used_; ++i) {
+        const Group& g = groups_[static_cast<std::size_t>(i)];
+        hidden_.resize(g.segments.size());
+        tracer.occluded(g.segments, hidden_.data());
+        for (std::size_t e = 0; e < g.segments.size(); ++e) {
+            if (!hidden_[e])
+                continue;
+            blocked[static_cast<std::size_t>(g.offsets[e])] = 1;
+            for (int slot = g.first_slot; slot < g.end_slot; ++slot)
+                paths.fail(slot, g.offsets[e]);
+        }
+    }
+}
+
+namespace {
+
+/// What the way from the camera to the current offset vertex has cost: products of ratios, each of them a single
+/// number (never products of densities, which underflow).
+struct Prefix {
+    float density = 1; ///< pdf of the offset with its Jacobians over the base's
+    Rgb value{1};      ///< f of the offset with its Jacobians over the base's pdf
+};
+
+/// One shift at work: walks the base path and the offset path side by side.
+class ShiftWalk {
+public:
+    ShiftWalk(const Tracer& tracer, float threshold, const BasePath& base, const LightPaths& light, int offset,
+              OffsetPaths& paths, PendingEdges& edges)
+        : tracer_(tracer), threshold_(threshold), base_(base), light_(light), offset_(offset), paths_(paths),
+          edges_(edges) {}
+
+    ShiftOutcome run(const Vertex& primary);
+
+private:
+    const BaseVertex& base(int i) const { return base_[i]; }
+    bool alive_from(int slot) const { return slot <= light_.last_alive(); }
+
+    void shift_light(int i, const Vertex& y);
+    void connect_light(int i, const Vertex& y);
+    void bounce_to_light(int i, const Vertex& y);
+    void end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, glm::vec3 direction, const Vertex& hit,
+                      float base_pdf_sum, bool is_delta);
+    void set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum,
+                       const LightPoint& light, float light_pdf_w);
+    bool connect_vertex(int i, const Vertex& y);
+    void connect_beyond(int next, glm::vec3 to_previous, const Prefix& prefix);
+    bool bounce(int i, const Vertex& y, Vertex& next);
+    std::optional<CopiedScatter> copy_scatter(int i, const Vertex& y);
+    void note(ShiftOutcome outcome) {
+        if (outcome_ == ShiftOutcome::ok)
+            outcome_ = outcome;
+    }
+
+    const Tracer& tracer_;
+    const float threshold_;
+    const BasePath& base_;
+    const LightPaths& light_;
+    const int offset_;
+    OffsetPaths& paths_;
+    PendingEdges& edges_;
+    Prefix prefix_;
+    ShiftOutcome outcome_ = ShiftOutcome::ok;
+};
+
+ShiftOutcome ShiftWalk::run(const Vertex& primary) {
+    const Vertex* y = &primary;
+    Vertex moved; // y once it is beyond the first bounce
+    const int count = base_.size();
+    bool light_is_connected = false; // emitter sampling at x_i went the way y_{i-1} -> x_i
+    for (int i = 0; i < count; ++i) {
+        if (light_.is_alive(LightPaths::emitter_slot(i)) && !light_is_connected)
+            shift_light(i, *y);
+        if (i + 1 == count || !alive_from(LightPaths::hit_slot(i)))
+            break;
+        light_is_connected = false;
+        if (light_.step_is_connectable(i)) {
+            if (!connect_vertex(i, *y))
+                break;
+            if (light_.join() == i + 1 || !alive_from(LightPaths::hit_slot(i + 1)))
+                break;
+            light_is_connected = is_connectable(base(i + 1).vertex, threshold_);
+        }
+        if (!bounce(i, *y, moved))
+            break;
+        y = &moved;
+    }
+    return outcome_;
+}
+
+/// The end of a light path at the light, by either strategy: both could have made it, so both count.
+void ShiftWalk::set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum,
+                              const LightPoint& light, float light_pdf_w) {
+    const float scale = jacobian / base_pdf_sum;
+    paths_.set(slot, offset_, prefix_.density * (pdf_w + light_pdf_w) * scale,
+               prefix_.value * f_cos * light.radiance * scale);
+}
+
+void ShiftWalk::shift_light(int i, const Vertex& y) {
+    const bool connectable = is_connectable(base(i).vertex, threshold_);
+    if (y.bsdf.roughness() <= 0 || connectable != is_connectable(y, threshold_))
+        return note(ShiftOutcome::kind_mismatch);
+    connectable ? connect_light(i, y) : bounce_to_light(i, y);
+}
+
+/// Emitter sampling at x_i: the offset is joined to the same point of the light.
+void ShiftWalk::connect_light(int i, const Vertex& y) {
+    const BaseVertex& x = base(i);
+    const glm::vec3 d = x.light.position - y.position;
+    const float distance2 = glm::dot(d, d);
+    const glm::vec3 direction = d / std::sqrt(distance2);
+    const float cos_light = -glm::dot(direction, x.light.normal);
+    if (!(cos_light > 0) || !(distance2 > 0))
+        return note(ShiftOutcome::no_light);
+    const BsdfValue b = y.bsdf.evaluate(y.to_previous, y.to_local(direction));
+    if (is_black(b.f_cos))
+        return note(ShiftOutcome::no_light);
+    // pdf_a of the light is the same for all, so the ratio of the solid angles is the inverse of that of the pdfs.
+    const float light_pdf_w = x.light.pdf_a * distance2 / cos_light;
+    const int slot = LightPaths::emitter_slot(i);
+    set_light_end(slot, b.pdf_w, x.light_pdf_w / light_pdf_w, b.f_cos, x.light_pdf_sum, x.light, light_pdf_w);
+    edges_.add(slot, tracer_.between(y.position, y.geometric_normal, x.light.position, x.light.normal, direction),
+               offset_, slot, slot + 1);
+}
+
+/// Emitter sampling at a vertex too glossy to connect: the half vector is copied, and the ray must find a light.
+void ShiftWalk::bounce_to_light(int i, const Vertex& y) {
+    const BaseVertex& x = base(i);
+    const std::optional<CopiedScatter> s = copy_half_vector(x.vertex, x.to_light, y);
+    if (!s)
+        return note(ShiftOutcome::no_light);
+    const glm::vec3 direction = y.to_world(s->to_next);
+    Vertex hit;
+    if (!tracer_.next(y, direction, hit))
+        return note(ShiftOutcome::outside);
+    end_at_light(LightPaths::emitter_slot(i), *s, y.position, direction, hit, x.light_pdf_sum, false);
+}
+
+/// A copied scatter, from `origin` along `direction`, that ends the light path at `hit`: a light, or else it
+/// fails.
+void ShiftWalk::end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, glm::vec3 direction,
+                             const Vertex& hit, float base_pdf_sum, bool is_delta) {
+    const LightPoint light = hit.light_toward(-direction);
+    if (is_black(light.radiance))
+        return note(ShiftOutcome::no_light);
+    const glm::vec3 d = hit.position - origin;
+    const float light_pdf_w =
+        is_delta ? 0 : light.pdf_a * glm::dot(d, d) / std::abs(glm::dot(light.normal, direction));
+    set_light_end(slot, s.pdf_w, s.jacobian, s.f_cos, base_pdf_sum, light, light_pdf_w);
+}
+
+/// Joins y to x_{i+1}: for its emission, for emitter sampling there, and beyond it if that is where offsets join.
+/// False: nothing can be shifted any more.
+bool ShiftWalk::connect_vertex(int i, const Vertex& y) {
+    if (!is_connectable(y, threshold_)) {
+        note(ShiftOutcome::kind_mismatch);
+        return false;
+    }
+    const BaseVertex& x = base(i);
+    const Vertex& next = base(i + 1).vertex;
+    const glm::vec3 d = next.position - y.position;
+    const float distance2 = glm::dot(d, d);
+    const glm::vec3 direction = d / std::sqrt(distance2);
+    const float geometry = std::abs(glm::dot(next.geometric_normal, direction)) / distance2;
+    if (!(geometry > 0) || !(distance2 > 0)) {
+        note(ShiftOutcome::no_light);
+        return true;
+    }
+    const BsdfValue b = y.bsdf.evaluate(y.to_previous, y.to_local(direction));
+    if (is_black(b.f_cos)) {
+        note(ShiftOutcome::no_light);
+        return true;
+    }
+    const float jacobian = geometry / x.next_geometry;
+    if (light_.is_alive(LightPaths::hit_slot(i))) {
+        const LightPoint light = next.light_toward(-direction);
+        set_light_end(LightPaths::hit_slot(i), b.pdf_w, jacobian, b.f_cos, x.pdf_w + x.hit_pdf_w, light,
+                      light.pdf_a / geometry);
+    }
+    const float scale = jacobian / x.pdf_w;
+    const Prefix joined{prefix_.density * b.pdf_w * scale, prefix_.value * b.f_cos * scale};
+    connect_beyond(i + 1, next.to_local(-direction), joined);
+
+    const int end = light_.join() == i + 1 ? light_.tail_slot() + 1 : LightPaths::emitter_slot(i + 1) + 1;
+    edges_.add(LightPaths::hit_slot(i),
+               tracer_.between(y.position, y.geometric_normal, next.position, next.geometric_normal, direction),
+               offset_, LightPaths::hit_slot(i), end);
+    return true;
+}
+
+/// The light that comes to x_next, seen from another direction than the base's. Nothing else changes.
+void ShiftWalk::connect_beyond(int next, glm::vec3 to_previous, const Prefix& joined) {
+    const BaseVertex& x = base(next);
+    const Prefix before = std::exchange(prefix_, joined);
+    if (light_.is_alive(LightPaths::emitter_slot(next)) && is_connectable(x.vertex, threshold_)) {
+        const BsdfValue b = x.vertex.bsdf.evaluate(to_previous, x.to_light);
+        set_light_end(LightPaths::emitter_slot(next), b.pdf_w, 1, b.f_cos, x.light_pdf_sum, x.light,
+                      x.light_pdf_w);
+    }
+    if (light_.join() == next && alive_from(LightPaths::hit_slot(next))) {
+        const BsdfValue b = x.vertex.bsdf.evaluate(to_previous, x.to_next);
+        if (light_.is_alive(LightPaths::hit_slot(next))) {
+            const float scale = 1 / x.pdf_w; // hit_brings is the radiance times pdf_w over the summed pdfs
+            paths_.set(LightPaths::hit_slot(next), offset_,
+                       joined.density * (b.pdf_w + x.hit_pdf_w) / (x.pdf_w + x.hit_pdf_w),
+                       joined.value * b.f_cos * x.hit_brings * scale);
+        }
+        paths_.set(light_.tail_slot(), offset_, joined.density * b.pdf_w / x.pdf_w,
+                   joined.value * b.f_cos * x.arriving / x.pdf_w);
+    }
+    prefix_ = before;
+}
+
+/// The scatter at x_i done again at y: both must be of one kind.
+std::optional<CopiedScatter> ShiftWalk::copy_scatter(int i, const Vertex& y) {
+    const BaseVertex& x = base(i);
+    if (x.is_delta) {
+        const std::optional<CopiedScatter> s = copy_delta(x.scatter, y);
+        if (!s)
+            note(x.scatter == Scatter::transmit && y.bsdf.roughness() <= 0 ? ShiftOutcome::total_reflection
+                                                                           : ShiftOutcome::kind_mismatch);
+        return s;
+    }
+    if (y.bsdf.roughness() <= 0 || is_connectable(x.vertex, threshold_) != is_connectable(y, threshold_)) {
+        note(ShiftOutcome::kind_mismatch);
+        return {};
+    }
+    const std::optional<CopiedScatter> s = copy_half_vector(x.vertex, x.to_next, y);
+    if (!s)
+        note(ShiftOutcome::no_light);
+    return s;
+}
+
+/// Copies the scatter at x_i and makes `next` y_{i+1}, what lies there; `next` may be y itself. False: the shift
+/// ends.
+bool ShiftWalk::bounce(int i, const Vertex& y, Vertex& next) {
+    const BaseVertex& x = base(i);
+    const std::optional<CopiedScatter> s = copy_scatter(i, y);
+    if (!s)
+        return false;
+    const glm::vec3 direction = y.to_world(s->to_next);
+    const glm::vec3 origin = y.position;
+    if (!tracer_.next(y, direction, next)) {
+        note(ShiftOutcome::outside);
+        return false;
+    }
+    // From a connectable vertex, an emitter is reached by connecting (done before); else by this very ray.
+    if (!light_.step_is_connectable(i) && light_.is_alive(LightPaths::hit_slot(i)))
+        end_at_light(LightPaths::hit_slot(i), *s, origin, direction, next, x.pdf_w + x.hit_pdf_w, x.is_delta);
+    const float scale = s->jacobian / x.pdf_w;
+    prefix_ = {prefix_.density * s->pdf_w * scale, prefix_.value * s->f_cos * scale};
+    return true;
+}
+
+} // namespace
+
+ShiftOutcome shift(const Tracer& tracer, float threshold, const BasePath& base, const LightPaths& light,
+                   const Vertex& primary, int offset, OffsetPaths& paths, PendingEdges& edges) {
+    return ShiftWalk(tracer, threshold, base, light, offset, paths, edges).run(primary);
+}
+
+} // namespace tessera

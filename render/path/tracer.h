@@ -1,0 +1,52 @@
+#pragma once
+
+#include "render/method/counters.h"
+#include "render/path/vertex.h"
+#include "render/scene/scene.h"
+
+#include <optional>
+#include <span>
+
+namespace tessera {
+
+/// Shoots the rays of paths and counts them.
+struct Tracer {
+    const Scene& scene;
+    Counters& counters;
+
+    /// Makes `vertex` what the ray meets first. False: it meets nothing.
+    bool closest(const Ray& ray, Vertex& vertex) const {
+        ++counters.closest_hit_rays;
+        const std::optional<Hit> hit = scene.intersector().closest(ray);
+        if (hit)
+            make_vertex(scene, *hit, ray, vertex);
+        return hit.has_value();
+    }
+
+    /// Makes `vertex` what lies in a unit direction (world) from another one, which may be the same object. False:
+    /// nothing does.
+    bool next(const Vertex& from, glm::vec3 direction, Vertex& vertex) const {
+        return closest(
+            {scene.intersector().off_surface(from.position, from.geometric_normal, direction), direction}, vertex);
+    }
+
+    /// The stretch between two surfaces, which lie in the unit direction `direction` of each other.
+    Segment between(glm::vec3 from, glm::vec3 from_normal, glm::vec3 to, glm::vec3 to_normal,
+                    glm::vec3 direction) const {
+        return {scene.intersector().off_surface(from, from_normal, direction),
+                scene.intersector().off_surface(to, to_normal, -direction)};
+    }
+
+    bool occluded(const Segment& segment) const {
+        ++counters.occlusion_rays;
+        return scene.intersector().occluded(segment);
+    }
+
+    /// The same for segments that share an end, as packets; writes 1 for a blocked one.
+    void occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
+        counters.occlusion_rays += segments.size();
+        scene.intersector().occluded(segments, blocked);
+    }
+};
+
+} // namespace tessera

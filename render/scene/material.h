@@ -1,0 +1,48 @@
+#pragma once
+
+#include "render/bsdf/bsdf.h"
+#include "render/scene/texture.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tessera {
+
+struct DiffuseMaterial {
+    Texture reflectance{Rgb(0.5f)};
+};
+
+/// A conductor; alpha below the smallest that microfacet theory can hold in floats means a perfect mirror.
+struct ConductorMaterial {
+    MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+    Texture alpha{Rgb(0)}; ///< roughness, the red channel counts; constant 0: perfectly smooth
+    Rgb eta{0};            ///< index of refraction relative to the outside; eta = 0, k = 1: reflects all
+    Rgb k{1};              ///< absorption, likewise
+    Texture specular_reflectance{Rgb(1)};
+};
+
+/// A perfectly smooth boundary between two dielectrics.
+struct DielectricMaterial {
+    float eta = 1.5046f / 1.000277f; ///< inside over outside
+    Texture specular_reflectance{Rgb(1)};
+    Texture specular_transmittance{Rgb(1)};
+};
+
+/// What a surface is made of, before textures are looked up.
+struct Material {
+    std::string name;
+    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial> kind;
+    bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
+
+    /// The BSDF at uv, as plain numbers.
+    Bsdf resolve(glm::vec2 uv) const;
+
+    /// The textures it looks up, constant ones among them.
+    std::vector<const Texture*> textures() const;
+
+    /// Whether uv matters.
+    bool is_textured() const;
+};
+
+} // namespace tessera

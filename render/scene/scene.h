@@ -1,0 +1,72 @@
+#pragma once
+
+#include "render/scene/camera.h"
+#include "render/scene/light.h"
+#include "render/scene/material.h"
+#include "render/scene/mesh.h"
+#include "render/trace/intersector.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// All that a scene file says, and nothing derived: what a loader fills in.
+struct SceneDescription {
+    std::vector<Shape> shapes;
+    std::vector<Material> materials;
+    std::vector<AreaLight> area_lights;
+    Camera camera;
+    glm::ivec2 size{768, 576}; ///< of the film, pixels
+    int max_depth = 65; ///< edges of a light path, as in Mitsuba: 1 is emission only; -1 in a file becomes 65
+};
+
+/// What a hit needs of its shape, close together; pointers into the shape's mesh.
+struct ShapeRecord {
+    const glm::uvec3* triangles;
+    const glm::vec3* normals; ///< null: every triangle has its own normal
+    const glm::vec2* uvs;     ///< null: none, or nothing looks them up
+    const Material* material;
+    Rgb emitted;         ///< radiance given off on the front side
+    float emitter_pdf_a; ///< 0: no light
+};
+
+/// A scene ready to be rendered: immutable, shared by all who render it.
+class Scene {
+public:
+    /// Builds the light tables and the BVH. Materials without area and shapes without triangles are harmless.
+    explicit Scene(SceneDescription description);
+    Scene(const Scene&) = delete; // records point into it
+    Scene& operator=(const Scene&) = delete;
+
+    const std::vector<Shape>& shapes() const { return description_.shapes; }
+    const std::vector<Material>& materials() const { return description_.materials; }
+    const SceneDescription& description() const { return description_; }
+    const Camera& camera() const { return description_.camera; }
+    glm::ivec2 size() const { return description_.size; }
+    int max_depth() const { return description_.max_depth; }
+    const LightTable& lights() const { return lights_; }
+    const Intersector& intersector() const { return intersector_; }
+    const ShapeRecord& record(std::uint32_t shape) const { return records_[shape]; }
+
+    /// A sphere around all triangles.
+    glm::vec3 center() const { return center_; }
+    float radius() const { return radius_; }
+
+    std::size_t triangle_count() const;
+    double bvh_seconds() const { return bvh_seconds_; }
+
+private:
+    SceneDescription description_;
+    LightTable lights_;
+    Intersector intersector_;
+    std::vector<ShapeRecord> records_;
+    glm::vec3 center_{0};
+    float radius_ = 1;
+    double bvh_seconds_ = 0;
+};
+
+} // namespace tessera

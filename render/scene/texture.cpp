@@ -1,0 +1,105 @@
+#include "render/scene/texture.h"
+
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+namespace {
+
+const std::array<float, 256> srgb_to_linear = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double v = static_cast<double>(i) / 255;
+        table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}();
+
+/// Brings a coordinate into [0, 1]; one that is not finite becomes 0.
+float wrap(float t, Wrap mode) {
+    switch (mode) {
+    case Wrap::repeat:
+        t -= std::floor(t);
+        break;
+    case Wrap::mirror:
+        t -= 2 * std::floor(t / 2);
+        t = t > 1 ? 2 - t : t;
+        break;
+    case Wrap::clamp:
+        t = glm::clamp(t, 0.0f, 1.0f);
+        break;
+    }
+    return t >= 0 && t <= 1 ? t : 0.0f;
+}
+
+/// The pixel that stands for one just beyond the edge.
+int wrap(int i, int size, Wrap mode) {
+    if (i < 0)
+        return mode == Wrap::repeat ? size - 1 : 0;
+    if (i >= size)
+        return mode == Wrap::repeat ? 0 : size - 1;
+    return i;
+}
+
+Rgb nearest(const Bitmap& bitmap, glm::vec2 uv) {
+    const int x = static_cast<int>(uv.x * static_cast<float>(bitmap.width));
+    const int y = static_cast<int>(uv.y * static_cast<float>(bitmap.height));
+    return bitmap.texel(glm::min(x, bitmap.width - 1), glm::min(y, bitmap.height - 1));
+}
+
+/// Pixels count at their centres, (i + 1/2) / size.
+Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
+    const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
+    const float left = std::floor(x);
+    const float top = std::floor(y);
+    const int x0 = wrap(static_cast<int>(left), bitmap.width, mode);
+    const int x1 = wrap(static_cast<int>(left) + 1, bitmap.width, mode);
+    const int y0 = wrap(static_cast<int>(top), bitmap.height, mode);
+    const int y1 = wrap(static_cast<int>(top) + 1, bitmap.height, mode);
+    const Rgb upper = glm::mix(bitmap.texel(x0, y0), bitmap.texel(x1, y0), x - left);
+    const Rgb lower = glm::mix(bitmap.texel(x0, y1), bitmap.texel(x1, y1), x - left);
+    return glm::mix(upper, lower, y - top);
+}
+
+Rgb look_up(Rgb constant, glm::vec2) {
+    return constant;
+}
+
+Rgb look_up(const BitmapTexture& texture, glm::vec2 uv) {
+    const Bitmap& bitmap = *texture.bitmap;
+    uv = {wrap(uv.x, texture.wrap), wrap(uv.y, texture.wrap)};
+    return texture.filter == Filter::nearest ? nearest(bitmap, uv) : bilinear(bitmap, uv, texture.wrap);
+}
+
+Rgb look_up(const CheckerboardTexture& texture, glm::vec2 uv) {
+    const bool right = uv.x - std::floor(uv.x) > 0.5f;
+    const bool lower = uv.y - std::floor(uv.y) > 0.5f;
+    return right == lower ? texture.color0 : texture.color1;
+}
+
+} // namespace
+
+Rgb Bitmap::texel(int x, int y) const {
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    if (bytes.empty())
+        return floats[i];
+    const std::uint8_t* const p = bytes.data() + 3 * i;
+    if (srgb)
+        return {srgb_to_linear[p[0]], srgb_to_linear[p[1]], srgb_to_linear[p[2]]};
+    return Rgb(p[0], p[1], p[2]) * (1.0f / 255);
+}
+
+Rgb Texture::evaluate(glm::vec2 uv) const {
+    if (const Rgb* constant = std::get_if<Rgb>(&kind))
+        return *constant;
+    const glm::vec2 at(to_uv * glm::vec3(uv, 1));
+    return std::visit([&](const auto& k) { return look_up(k, at); }, kind);
+}
+
+} // namespace tessera

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "render/film.h"
+#include "render/method/settings.h"
+#include "render/scene/scene.h"
+#include "render/session/thread_pool.h"
+
+#include <memory>
+#include <stop_token>
+
+namespace tessera {
+
+/// A render in progress: a film and the passes it has seen.
+class Render {
+public:
+    /// Throws std::invalid_argument for a size or settings outside their limits.
+    Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
+           const RenderSettings& settings);
+
+    /// Takes one more sample at every pixel. False: stopped on the way; the render is then good for nothing more.
+    bool pass(ThreadPool& pool, std::stop_token stop = {});
+
+    int spp() const { return spp_; }
+    double seconds() const { return seconds_; }         ///< wall time of all passes
+    double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
+    const Counters& counters() const { return counters_; }
+    const RenderSettings& settings() const { return settings_; }
+    GradientImages images() const { return film_.means(spp_); }
+
+private:
+    std::shared_ptr<const Scene> scene_;
+    Camera camera_;
+    glm::ivec2 size_;
+    RenderSettings settings_;
+    Film film_;
+    Counters counters_;
+    int spp_ = 0;
+    double seconds_ = 0;
+    double cpu_seconds_ = 0;
+};
+
+/// Throws std::invalid_argument, naming the setting, where one is outside its limits.
+void check(const RenderSettings& settings);
+
+} // namespace tessera

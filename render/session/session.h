@@ -1,0 +1,83 @@
+#pragma once
+
+#include "render/scene/scene.h"
+#include "render/session/snapshot.h"
+#include "render/session/thread_pool.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tessera {
+
+class Render;
+
+/// What a pane asks for. Any change is a new request, which starts the pane's render anew.
+struct RenderRequest {
+    std::shared_ptr<const Scene> scene;
+    Camera camera;
+    glm::ivec2 size{0};
+    RenderSettings settings;
+    int spp_limit = 0; ///< passes after which to rest; 0: none
+};
+
+/// Renders the panes of a viewer in the background: passes of the panes in turn, so that each has had about the
+/// same time, and their reconstructions on a thread of their own (newest snapshot wins). No call waits for a
+/// worker: all may be made from the UI's thread at every frame.
+class Session {
+public:
+    /// `threads` as in ThreadPool. `on_publish` is called from a worker whenever a pane has a new snapshot or a
+    /// message; it must be quick and thread-safe (glfwPostEmptyEvent).
+    Session(int panes, int threads, std::function<void()> on_publish = {});
+    ~Session();
+
+    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped.
+    /// Returns the generation that snapshots of this request will carry.
+    std::uint64_t submit(int pane, RenderRequest request);
+
+    /// Settings of the pane's reconstruction; a change reconstructs the newest snapshot again, renders nothing.
+    void set_reconstruction(int pane, const ReconstructionSettings& settings);
+
+    void set_paused(bool paused);
+    bool paused() const;
+
+    /// The pane's newest snapshot; null before the first. It may answer an older request: compare generations.
+    std::shared_ptr<const Snapshot> latest(int pane) const;
+
+    /// Messages of errors in workers since the last call (what, with pixel, sample and seed where there is one).
+    std::vector<std::string> take_messages();
+
+private:
+    struct Pane;
+    void render_loop(std::stop_token stop);
+    void reconstruct_loop(std::stop_token stop);
+    Pane* next_pane();
+    Pane* unpublished_pane();
+    void render_pass(Pane& pane);
+    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
+    void rest(Pane& pane, std::uint64_t generation);
+    void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);
+    void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
+                              std::stop_token stop);
+
+    mutable std::mutex mutex_;
+    std::condition_variable_any render_wake_;
+    std::condition_variable_any reconstruct_wake_;
+    std::vector<std::unique_ptr<Pane>> panes_;
+    std::vector<std::string> messages_;
+    std::function<void()> on_publish_;
+    bool paused_ = false;
+    std::uint64_t generation_ = 0;
+    ThreadPool pool_;
+    std::jthread render_thread_;
+    std::jthread reconstruct_thread_;
+};
+
+} // namespace tessera

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "recon/gradient_images.h"
+#include "recon/reconstruct.h"
+#include "render/method/counters.h"
+#include "render/method/settings.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace tessera {
+
+/// What a pane shows: the state of a render after a whole number of passes. Immutable once published.
+struct Snapshot {
+    std::uint64_t generation = 0; ///< of the request that it answers
+    bool coarse = false;          ///< a first look at a fraction of the size asked for
+    int spp = 0;                  ///< samples a pixel
+    double seconds = 0;           ///< wall time spent on this pane's passes
+    double cpu_seconds = 0;       ///< CPU time of all workers for these passes
+    RenderSettings settings;
+    Counters counters;
+    std::shared_ptr<const GradientImages> images;
+
+    /// Of the newest pass that has been reconstructed, perhaps an older one than `images`; empty at first.
+    std::shared_ptr<const Reconstruction> reconstruction;
+    int reconstruction_spp = 0; ///< the samples a pixel that it stands on
+};
+
+} // namespace tessera

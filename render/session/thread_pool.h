@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace tessera {
+
+/// Threads that run the iterations of one loop at a time. Own threads, not TBB's, so that the thread sanitizer
+/// sees every synchronisation.
+class ThreadPool {
+public:
+    /// `threads` >= 1 threads work on a loop, the caller among them; 0: one a hardware thread.
+    explicit ThreadPool(int threads = 0);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    int size() const { return static_cast<int>(threads_.size()) + 1; }
+
+    /// Runs body(i, worker) for i in [0, count), worker in [0, size()); returns when all are done. Once `stop` is
+    /// asked for, iterations not yet begun are left out. The first exception thrown by a body is thrown again
+    /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
+    void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
+
+private:
+    struct Loop;
+    void work(int worker);
+
+    std::mutex callers_; // held by the caller whose loop runs
+    std::mutex mutex_;   // guards what follows
+    std::condition_variable wake_;
+    std::condition_variable done_;
+    Loop* loop_ = nullptr;
+    std::uint64_t generation_ = 0;
+    bool quit_ = false;
+    std::vector<std::thread> threads_;
+};
+
+} // namespace tessera

@@ -1,0 +1,198 @@
+#include "render/trace/intersector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#if TESSERA_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace tessera {
+
+namespace {
+
+constexpr int packet_size = 8;
+
+/// Embree loses its footing far before floats end.
+constexpr float farthest = 1e18f;
+
+bool is_sound(glm::vec3 v) {
+    // A NaN fails every comparison.
+    return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest;
+}
+
+void on_error(void*, RTCError code, const char* text) {
+    throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " + (text ? text : ""));
+}
+
+RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
+    RTCRay ray;
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = 0;
+    ray.tfar = tfar;
+    ray.time = 0;
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
+
+void set_ray(RTCRay8& packet, int lane, const Segment& s) {
+    const glm::vec3 direction = s.to - s.from;
+    packet.org_x[lane] = s.from.x;
+    packet.org_y[lane] = s.from.y;
+    packet.org_z[lane] = s.from.z;
+    packet.dir_x[lane] = direction.x;
+    packet.dir_y[lane] = direction.y;
+    packet.dir_z[lane] = direction.z;
+    packet.tnear[lane] = 0;
+    packet.tfar[lane] = 1;
+    packet.time[lane] = 0;
+    packet.mask[lane] = ~0u;
+    packet.id[lane] = 0;
+    packet.flags[lane] = 0;
+}
+
+// The two versions of Embree differ in how a query is told its wishes.
+#if TESSERA_EMBREE_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& ray) {
+    rtcIntersect1(scene, &ray, nullptr);
+}
+void test_occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &ray, nullptr);
+}
+void test_occluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &rays, &arguments);
+}
+#else
+void intersect(RTCScene scene, RTCRayHit& ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray);
+}
+void test_occluded(RTCScene scene, RTCRay& ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+}
+void test_occluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &rays);
+}
+#endif
+
+/// Copies a mesh into Embree's own buffers, which it pads as it needs.
+void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
+    if (mesh.triangles.empty())
+        return;
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
+    std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+    auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
+/// The largest magnitude of a coordinate.
+float extent(const std::vector<Shape>& shapes) {
+    float largest = 0;
+    for (const Shape& shape : shapes)
+        for (glm::vec3 p : shape.mesh.positions)
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return largest;
+}
+
+} // namespace
+
+struct Intersector::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~Impl() {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+};
+
+Intersector::Intersector() = default;
+Intersector::~Intersector() = default;
+Intersector::Intersector(Intersector&&) noexcept = default;
+Intersector& Intersector::operator=(Intersector&&) noexcept = default;
+
+Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_unique<Impl>()) {
+    impl_->device = rtcNewDevice(nullptr);
+    if (!impl_->device)
+        throw std::runtime_error("Embree did not start");
+    rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
+    impl_->scene = rtcNewScene(impl_->device);
+    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        attach(impl_->device, impl_->scene, shapes[i].mesh, static_cast<unsigned>(i));
+    rtcCommitScene(impl_->scene);
+    smallest_coordinate_ = extent(shapes) / 8;
+}
+
+std::optional<Hit> Intersector::closest(const Ray& ray) const {
+    if (!is_sound(ray.origin) || !is_sound(ray.direction))
+        return {};
+    RTCRayHit query;
+    query.ray = make_ray(ray.origin, ray.direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    intersect(impl_->scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return {};
+    return Hit{query.hit.geomID,
+               query.hit.primID,
+               {query.hit.u, query.hit.v},
+               query.ray.tfar,
+               {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+}
+
+bool Intersector::occluded(const Segment& segment) const {
+    if (!is_sound(segment.from) || !is_sound(segment.to))
+        return true;
+    RTCRay ray = make_ray(segment.from, segment.to - segment.from, 1);
+    test_occluded(impl_->scene, ray);
+    return ray.tfar < 0;
+}
+
+void Intersector::occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
+    alignas(32) int valid[packet_size];
+    alignas(32) RTCRay8 packet;
+    for (std::size_t start = 0; start < segments.size(); start += packet_size) {
+        const int count = static_cast<int>(std::min<std::size_t>(packet_size, segments.size() - start));
+        for (int lane = 0; lane < packet_size; ++lane) {
+            const Segment& s = segments[start + static_cast<std::size_t>(std::min(lane, count - 1))];
+            const bool sound = is_sound(s.from) && is_sound(s.to);
+            valid[lane] = lane < count && sound ? -1 : 0;
+            set_ray(packet, lane, sound ? s : Segment{});
+        }
+        test_occluded(impl_->scene, valid, packet);
+        for (int lane = 0; lane < count; ++lane)
+            blocked[start + static_cast<std::size_t>(lane)] = !valid[lane] || packet.tfar[lane] < 0;
+    }
+}
+
+} // namespace tessera

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "render/scene/mesh.h"
+#include "render/trace/ray.h"
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+struct Hit {
+    std::uint32_t shape;
+    std::uint32_t triangle;
+    glm::vec2 barycentric;      ///< weights of the second and third corner
+    float distance;             ///< along the unit direction of the ray
+    glm::vec3 geometric_normal; ///< not unit: on the side from which the corners run counter-clockwise
+};
+
+/// A stretch of space that light must cross: open at both ends.
+struct Segment {
+    glm::vec3 from;
+    glm::vec3 to;
+};
+
+/// The only place that knows Embree. Every ray is checked on its way in: one that is not finite hits nothing (the
+/// Embree of Debian would end the process).
+class Intersector {
+public:
+    Intersector();
+    explicit Intersector(const std::vector<Shape>& shapes); ///< keeps no reference to the shapes
+    ~Intersector();
+    Intersector(Intersector&&) noexcept;
+    Intersector& operator=(Intersector&&) noexcept;
+
+    /// The first triangle on the ray, beyond its origin.
+    std::optional<Hit> closest(const Ray& ray) const;
+
+    bool occluded(const Segment& segment) const;
+
+    /// A point moved off its surface by some hundred units in the last place, toward the side of `direction`: the
+    /// end of a ray that must not meet the surface itself (after [Waechter and Binder, Ray Tracing Gems, ch. 6],
+    /// with steps in proportion to the scene, so that its units do not matter). A hit's position has an error of
+    /// some units in the last place of the ray's origin and length, also where the coordinate itself is near zero.
+    glm::vec3 off_surface(glm::vec3 position, glm::vec3 geometric_normal, glm::vec3 direction) const {
+        const float step = std::copysign(1.0f / 65536, glm::dot(geometric_normal, direction));
+        return position + step * geometric_normal * glm::max(glm::abs(position), smallest_coordinate_);
+    }
+
+    /// As occluded(), for segments that share one end or nearly so: packets. Writes 1 for a blocked one.
+    void occluded(std::span<const Segment> segments, std::uint8_t* blocked) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    float smallest_coordinate_ = 0; // what a step off a surface takes a coordinate for at least
+};
+
+} // namespace tessera

@@ -1,0 +1,10 @@
+#!/bin/sh
+# ./test.sh [ctest options]: installs what is missing, builds with warnings as errors, and runs every test that is not
+# labelled slow.
+set -eu
+root=$(cd "$(dirname "$0")" && pwd)
+. "$root/scripts/setup.sh"
+
+install_packages build test
+build test -DTESSERA_WERROR=ON
+exec ctest --test-dir "$root/build/test" -LE slow --output-on-failure --no-tests=error -j "$(nproc)" "$@"

@@ -1,0 +1,82 @@
+// Times of the reconstruction, as CPU time of the whole process. Arguments: width, height, threads (and, for L2,
+// 1000 alpha).
+
+#include <atomic>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "recon/poisson_direct.h"
+#include "recon/reconstruct.h"
+
+namespace {
+
+using namespace tessera;
+
+RgbImage noise(int width, int height, std::uint32_t seed, float mean) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> uniform(mean - 0.5f, mean + 0.5f);
+    RgbImage image(width, height);
+    for (Rgb& c : image)
+        c = {uniform(engine), uniform(engine), uniform(engine)};
+    return image;
+}
+
+ParallelFor threads_for(int threads) {
+    if (threads == 1)
+        return serial_for;
+    return [threads](int count, const std::function<void(int)>& body) {
+        std::atomic<int> next = 0;
+        const auto work = [&] {
+            for (int i = next++; i < count; i = next++)
+                body(i);
+        };
+        std::vector<std::jthread> others;
+        for (int i = 1; i < threads; ++i)
+            others.emplace_back(work);
+        work();
+    };
+}
+
+void l2_solve(benchmark::State& state) {
+    const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
+    const RgbImage primal = noise(width, height, 1, 1), dx = noise(width, height, 2, 0), dy = noise(width, height, 3, 0);
+    const PoissonProblem problem{primal, dx, dy, 0.001f * static_cast<float>(state.range(3))};
+    const ParallelFor parallel_for = threads_for(static_cast<int>(state.range(2)));
+    PoissonSolver solver(width, height);
+    RgbImage image;
+    solver.solve(problem, image, parallel_for);
+    for (auto _ : state)
+        solver.solve(problem, image, parallel_for);
+}
+
+void reconstruction(benchmark::State& state, Norm norm) {
+    const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
+    const GradientImages images{noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
+    const ParallelFor parallel_for = threads_for(static_cast<int>(state.range(2)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(reconstruct(images, {norm, 0.2f}, parallel_for));
+}
+
+void sizes(benchmark::internal::Benchmark* benchmark) {
+    benchmark->Args({1280, 720, 1, 200})->Args({1280, 720, 2, 200})->Args({1280, 720, 1, 1});
+    // No transform fits these: a prime width, two primes, the common laptop, one with a large gap to the next fit.
+    for (const auto& [width, height] : {std::pair{1279, 720}, {1279, 719}, {1366, 768}, {1201, 701}})
+        benchmark->Args({width, height, 1, 200});
+    benchmark->Args({640, 360, 1, 200})->Args({1920, 1080, 1, 200});
+    benchmark->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
+BENCHMARK(l2_solve)->Apply(sizes);
+BENCHMARK_CAPTURE(reconstruction, l2, Norm::l2)
+    ->Args({1280, 720, 1})->Args({1280, 720, 2})
+    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK_CAPTURE(reconstruction, l1, Norm::l1)
+    ->Args({1280, 720, 1})->Args({1280, 720, 2})
+    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+
+} // namespace
+
+BENCHMARK_MAIN();

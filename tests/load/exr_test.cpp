@@ -1,0 +1,141 @@
+#include "render/load/exr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "render/load/png.h"
+#include "tests/recon/test_images.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, gone at its end.
+class ImageOutput : public testing::Test {
+protected:
+    ImageOutput() { fs::create_directories(folder_); }
+    ~ImageOutput() override { fs::remove_all(folder_); }
+
+    fs::path file(const char* name) const { return folder_ / name; }
+    std::size_t files_in_folder() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+private:
+    fs::path folder_ = fs::temp_directory_path() / ("tessera-exr-test-" + std::to_string(::getpid()));
+};
+
+std::string message_of(const auto& action) {
+    try {
+        action();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "no exception";
+}
+
+bool same_bits(const RgbImage& a, const RgbImage& b) {
+    return a.width() == b.width() && a.height() == b.height() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {
+    ExrFile written;
+    written.layers = {{"", test::random_image(37, 23, 1)},
+                      {"primal", test::random_image(37, 23, 2)},
+                      {"dx", test::random_image(37, 23, 3)}};
+    written.layers[0].image(3, 4) = Rgb(std::numeric_limits<float>::infinity(), 1e38f, 1e-42f);
+    written.attributes = {{"tessera:method", "gpr"}, {"empty", ""}};
+    write_exr(file("a.exr"), written);
+    const ExrFile read = read_exr(file("a.exr"));
+    ASSERT_EQ(read.layers.size(), 3u);
+    for (const ExrLayer& layer : written.layers) {
+        const auto same_name = [&](const ExrLayer& other) { return other.name == layer.name; };
+        const auto found = std::find_if(read.layers.begin(), read.layers.end(), same_name);
+        ASSERT_NE(found, read.layers.end()) << layer.name;
+        EXPECT_TRUE(same_bits(found->image, layer.image)) << layer.name;
+    }
+    EXPECT_EQ(read.layers.front().name, "");
+    EXPECT_EQ(read.attributes.at("tessera:method"), "gpr");
+    EXPECT_EQ(read.attributes.at("empty"), "");
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ImageOutput, OnePixelIsAnImage) {
+    write_exr(file("a.exr"), {{{"", RgbImage(1, 1, Rgb(1, 2, 3))}}, {}});
+    EXPECT_EQ(read_exr(file("a.exr")).layers.front().image(0, 0), Rgb(1, 2, 3));
+}
+
+TEST_F(ImageOutput, ReplacesAnOlderFile) {
+    for (const float value : {1.0f, 2.0f})
+        write_exr(file("a.exr"), {{{"", RgbImage(8, 8, Rgb(value))}}, {}});
+    EXPECT_EQ(read_exr(file("a.exr")).layers.front().image(7, 7), Rgb(2));
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ImageOutput, TruncatedFilesAreRefusedByName) {
+    write_exr(file("a.exr"), {{{"", test::random_image(64, 64, 1)}}, {{"key", "value"}}});
+    std::ifstream in(file("a.exr"), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    for (const double share : {0.0, 0.001, 0.01, 0.02, 0.1, 0.5, 0.99}) {
+        std::ofstream(file("b.exr"), std::ios::binary)
+            .write(bytes.data(), static_cast<std::streamsize>(share * static_cast<double>(bytes.size())));
+        const std::string message = message_of([&] { read_exr(file("b.exr")); });
+        EXPECT_NE(message.find("b.exr"), std::string::npos) << share << ": " << message;
+    }
+}
+
+TEST_F(ImageOutput, MissingAndForeignFilesAreRefusedByName) {
+    EXPECT_NE(message_of([&] { read_exr(file("none.exr")); }).find("none.exr"), std::string::npos);
+    std::ofstream(file("text.exr")) << "this is no image at all, but it has a few bytes";
+    EXPECT_NE(message_of([&] { read_exr(file("text.exr")); }).find("text.exr"), std::string::npos);
+}
+
+TEST_F(ImageOutput, UnwritablePathsAreRefusedByNameAndLeaveNothing) {
+    const RgbImage image(4, 4);
+    fs::create_directories(file("taken.exr") / "inside");
+    for (const char* name : {"no/such/folder/a.exr", "taken.exr"}) {
+        EXPECT_NE(message_of([&] { write_exr(file(name), {{{"", image}}, {}}); }).find(name), std::string::npos);
+        EXPECT_NE(message_of([&] { write_png(file(name), image); }).find(name), std::string::npos);
+    }
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ImageOutput, RefusesLayersOfDifferentSizesAndNone) {
+    EXPECT_THROW(write_exr(file("a.exr"), {{{"", RgbImage(4, 4)}, {"dx", RgbImage(5, 4)}}, {}}), std::runtime_error);
+    EXPECT_THROW(write_exr(file("a.exr"), {}), std::runtime_error);
+    EXPECT_EQ(files_in_folder(), 0u);
+}
+
+TEST_F(ImageOutput, PngIsWrittenWhole) {
+    write_png(file("a.png"), RgbImage(16, 9, Rgb(0.5f)), 1);
+    std::ifstream in(file("a.png"), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    EXPECT_NE(bytes.find("IEND"), std::string::npos);
+    EXPECT_EQ(files_in_folder(), 1u);
+    EXPECT_THROW(write_png(file("b.png"), RgbImage()), std::runtime_error);
+}
+
+TEST(Srgb, CodesOfKnownValues) {
+    EXPECT_EQ(srgb_byte(0), 0);
+    EXPECT_EQ(srgb_byte(-1), 0);
+    EXPECT_EQ(srgb_byte(std::nanf("")), 0);
+    EXPECT_EQ(srgb_byte(1), 255);
+    EXPECT_EQ(srgb_byte(1e30f), 255);
+    EXPECT_EQ(srgb_byte(0.18f), 118);
+    EXPECT_EQ(srgb_byte(0.0021f), 7);
+}
+
+} // namespace
+} // namespace tessera

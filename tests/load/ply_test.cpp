@@ -1,0 +1,175 @@
+#include "render/load/mesh_files.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+const std::string properties = "property float x\nproperty float y\nproperty double z\nproperty uchar quality\n"
+                               "property list uchar short neighbours\n"
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "property float s\nproperty float t\n";
+
+std::string header(const std::string& format, const std::string& index_types) {
+    return "ply\r\nformat " + format + " 1.0\ncomment made by hand\nobj_info none\nelement camera 1\n" +
+           "property int width\nelement vertex 4\n" + properties + "element face 2\nproperty list " + index_types +
+           " vertex_indices\nproperty float area\nelement edge 1\nproperty int a\nend_header\n";
+}
+
+/// Writes values one after another, in either byte order.
+class Bytes {
+public:
+    explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
+
+    template <class T>
+    Bytes& add(T value) {
+        char raw[sizeof(T)];
+        std::memcpy(raw, &value, sizeof(T));
+        if (big_endian_)
+            std::reverse(raw, raw + sizeof(T));
+        bytes_.append(raw, sizeof(T));
+        return *this;
+    }
+    const std::string& string() const { return bytes_; }
+
+private:
+    bool big_endian_;
+    std::string bytes_;
+};
+
+template <class Count, class Index>
+std::string binary_square(bool big_endian, const std::string& types) {
+    Bytes b(big_endian);
+    b.add<std::int32_t>(640);
+    for (int i = 0; i < 4; ++i) {
+        const float x = i == 1 || i == 2;
+        const float y = i >= 2;
+        b.add(x).add(y).add(0.5).add<std::uint8_t>(7).add<std::uint8_t>(2).add<std::int16_t>(1).add<std::int16_t>(
+            2);
+        b.add(0.0f).add(0.0f).add(1.0f).add(x).add(y);
+    }
+    b.add<Count>(4);
+    for (int i = 0; i < 4; ++i)
+        b.add(static_cast<Index>(i));
+    b.add(1.0f);
+    b.add<Count>(2).add(static_cast<Index>(0)).add(static_cast<Index>(1)).add(0.0f); // a line: no triangle
+    b.add<std::int32_t>(5);
+    return header(big_endian ? "binary_big_endian" : "binary_little_endian", types) + b.string();
+}
+
+const std::string ascii_square = header("ascii", "uint8 int32") + "640\n"
+                                                                  "0 0 0.5 7 2 1 2 0 0 1 0 0\n"
+                                                                  "1 0 5e-1 7 0 0 0 1 1 0\r\n"
+                                                                  "+1 1 .5 7 1 3 0 0 1 1 1\n"
+                                                                  "0 1 0.5 7 0 0 0 1 0 1\n"
+                                                                  "4 0 1 2 3 1.0\n"
+                                                                  "2 0 1 0\n"
+                                                                  "5";
+
+void expect_square(const Mesh& mesh) {
+    EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {0, 1, 0.5f}}));
+    EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(4, {0, 0, 1}));
+    EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+std::string error_of(const std::string& bytes) {
+    try {
+        parse_ply(bytes);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+/// A text with some vertices and faces.
+std::string small(const std::string& vertices, const std::string& faces, int vertex_count = 3,
+                  int face_count = 1) {
+    return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
+           "\nproperty list int int vertex_index\nend_header\n" + vertices + faces;
+}
+
+const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+
+} // namespace
+
+TEST(Ply, AllFormatsAndTypes) {
+    expect_square(parse_ply(ascii_square));
+    for (const bool big_endian : {false, true}) {
+        expect_square(parse_ply(binary_square<std::uint8_t, std::int32_t>(big_endian, "uchar int")));
+        expect_square(parse_ply(binary_square<std::uint8_t, std::uint32_t>(big_endian, "uint8 uint")));
+        expect_square(parse_ply(binary_square<std::int8_t, std::uint8_t>(big_endian, "int8 uchar")));
+        expect_square(parse_ply(binary_square<std::uint16_t, std::int16_t>(big_endian, "ushort short")));
+        expect_square(parse_ply(binary_square<std::int32_t, std::uint16_t>(big_endian, "int uint16")));
+    }
+}
+
+TEST(Ply, FacesMayStandFirst) {
+    const Mesh mesh =
+        parse_ply("ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\n"
+                  "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                  "3 2 1 0\n" +
+                  three);
+    EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{2, 1, 0}}));
+    EXPECT_TRUE(mesh.normals.empty());
+    EXPECT_TRUE(mesh.uvs.empty());
+}
+
+TEST(Ply, TruncatedAnywhereItThrowsOrLoads) {
+    for (const std::string& whole : {ascii_square, binary_square<std::uint8_t, std::int32_t>(false, "uchar int"),
+                                     binary_square<std::uint8_t, std::int32_t>(true, "uchar int")}) {
+        for (std::size_t length = 0; length < whole.size(); ++length) {
+            const std::string message = error_of(whole.substr(0, length));
+            // Of a text, the last number may go; of a binary file, nothing.
+            if (length + 1 < whole.size()) {
+                EXPECT_NE(message, "no error") << length;
+            }
+        }
+    }
+}
+
+TEST(Ply, AnyByteMayBeWrong) {
+    for (const std::string& whole :
+         {ascii_square, binary_square<std::uint8_t, std::int32_t>(false, "uchar int")}) {
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            for (const char replacement : {'\0', '\xff', '9', ' ', '\n', '-', '\x7f'}) {
+                std::string broken = whole;
+                broken[i] = replacement;
+                const std::string message = error_of(broken); // no crash, no hang
+                EXPECT_FALSE(message.empty());
+            }
+    }
+}
+
+TEST(Ply, Errors) {
+    EXPECT_EQ(error_of(small(three, "3 0 1 2\n")), "no error");
+    EXPECT_EQ(error_of(small(three, "3 0 1 3\n")), "a face refers to vertex 3, but there are 3");
+    EXPECT_EQ(error_of(small(three, "3 0 1 -1\n")), "face 0: there can be no vertex -1.000000");
+    EXPECT_EQ(error_of(small(three, "3 0 1 1.5\n")), "face 0: there can be no vertex 1.500000");
+    EXPECT_EQ(error_of(small(three, "-3 0 1 1\n")), "face 0: a list cannot have the length -3.000000");
+    EXPECT_EQ(error_of(small(three, "3 0 1")), "face 0: the file ends too early");
+    EXPECT_EQ(error_of(small("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its y is not a finite number");
+    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e300\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its z is not a finite number");
+    EXPECT_EQ(error_of(small("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
+    EXPECT_EQ(error_of(small(three, "3 0 1 2\n", 3, 1000000000)),
+              "the header promises 1000000000 rows of 'face', but the file ends too early for them");
+    EXPECT_EQ(error_of("ply\nformat ascii 2.0\nend_header\n"),
+              "line 2: the format must be 'ascii', 'binary_little_endian' or 'binary_big_endian', version 1.0");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"), "line 3: '-1' is not a count");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty text x\nend_header\n"),
+              "line 4: the type 'text' is not known");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
+              "vertex 0: there is no x, y and z");
+    EXPECT_EQ(error_of("ply\nend_header\n"), "line 2: the header names no format");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "line 3: the header has no end");
+    EXPECT_EQ(error_of(""), "line 1: the header has no end");
+    // Rows of nothing take no time, however many.
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement void 99999999999999999\nend_header\n"), "no error");
+}
+
+} // namespace tessera

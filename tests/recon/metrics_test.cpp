@@ -1,0 +1,114 @@
+#include "recon/metrics.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "tests/recon/test_images.h"
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+TEST(Metrics, OfKnownImages) {
+    const RgbImage reference(4, 3, Rgb(2)), image(4, 3, Rgb(3));
+    const ErrorMetrics m = measure_error(image, reference);
+    EXPECT_NEAR(m.relative_mse, 1 / 4.001, 1e-12);
+    EXPECT_NEAR(m.relative_mse_trimmed, 1 / 4.001, 1e-12);
+    EXPECT_NEAR(m.mse, 1, 1e-12);
+    EXPECT_NEAR(m.mape, 1 / 2.01, 1e-12);
+    EXPECT_NEAR(m.mean_ratio, 1.5, 1e-12);
+    EXPECT_EQ(m.bad_pixels, 0u);
+}
+
+TEST(Metrics, AreMeansOverChannels) {
+    const RgbImage reference(2, 1, Rgb(0));
+    RgbImage image(reference);
+    image(1, 0) = Rgb(0, 0, 3);
+    const ErrorMetrics m = measure_error(image, reference);
+    EXPECT_NEAR(m.mse, 9.0 / 6, 1e-12);
+    EXPECT_NEAR(m.relative_mse, 9.0 / 6 / 0.001, 1e-8);
+}
+
+TEST(Metrics, OfEqualImagesAreNil) {
+    const RgbImage image = random_image(13, 7, 2, 5);
+    const ErrorMetrics m = measure_error(image, image);
+    EXPECT_EQ(m.relative_mse, 0);
+    EXPECT_EQ(m.mape, 0);
+    EXPECT_EQ(m.mean_ratio, 1);
+}
+
+TEST(Metrics, TrimmedLeavesTheWorstPixelsOut) {
+    const RgbImage reference(200, 100, Rgb(1)); // 0.01 % are 2 pixels
+    RgbImage image(200, 100, Rgb(1.1f));
+    image(3, 4) = Rgb(1e6f);
+    image(50, 60) = Rgb(1e5f);
+    const ErrorMetrics m = measure_error(image, reference);
+    EXPECT_GT(m.relative_mse, 1e6);
+    EXPECT_NEAR(m.relative_mse_trimmed, 0.01 / 1.001, 1e-6);
+}
+
+TEST(Metrics, PixelsThatAreNotFiniteAreCounted) {
+    const RgbImage reference(200, 100, Rgb(1));
+    RgbImage image(reference);
+    image(3, 4).g = NAN;
+    image(5, 6).r = INFINITY;
+    const ErrorMetrics m = measure_error(image, reference);
+    EXPECT_EQ(m.bad_pixels, 2u);
+    EXPECT_FALSE(std::isfinite(m.relative_mse));
+    EXPECT_EQ(m.relative_mse_trimmed, 0);
+}
+
+TEST(Metrics, RefuseOtherSizes) {
+    EXPECT_THROW(measure_error(RgbImage(2, 3), RgbImage(3, 2)), std::invalid_argument);
+    EXPECT_THROW(measure_error(RgbImage(), RgbImage()), std::invalid_argument);
+    EXPECT_THROW(measure_floor_free_error(RgbImage(2, 3), RgbImage(2, 3), RgbImage(3, 3)), std::invalid_argument);
+}
+
+RgbImage plus(RgbImage image, const RgbImage& noise) {
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] += noise.data()[i];
+    return image;
+}
+
+TEST(FloorFreeError, IsUnbiased) {
+    const int width = 160, height = 120;
+    const RgbImage truth(width, height, Rgb(1));
+    const auto noisy = [&](std::uint32_t seed, float deviation) {
+        return plus(truth, random_image(width, height, seed, 0, deviation));
+    };
+    double sum = 0, variance = 0;
+    constexpr int rounds = 20;
+    for (std::uint32_t i = 0; i < rounds; ++i) {
+        const RgbImage image = noisy(3 * i, 0.1f), r1 = noisy(3 * i + 1, 0.05f), r2 = noisy(3 * i + 2, 0.05f);
+        const FloorFreeError error = measure_floor_free_error(image, r1, r2);
+        // Against one noisy reference the error has a floor.
+        EXPECT_NEAR(measure_error(image, r1).relative_mse, 0.0125, 0.0005);
+        sum += error.relative_mse;
+        variance += error.standard_error * error.standard_error;
+    }
+    // (I - t)^2 is 0.01 in the mean; 1 / (r^2 + epsilon) is 1 + 3 var(r) - epsilon, var(r) = 0.00125, to first order.
+    const double expected = 0.01 * (1 + 3 * 0.00125 - 0.001);
+    EXPECT_NEAR(sum / rounds, expected, 4 * std::sqrt(variance) / rounds);
+    EXPECT_LT(std::sqrt(variance) / rounds, 1e-4 * 0.5);
+}
+
+TEST(FloorFreeError, IsNilForTheTruthWithinItsStandardError) {
+    const RgbImage truth(160, 120, Rgb(1));
+    double squares = 0;
+    constexpr int rounds = 30;
+    for (std::uint32_t i = 0; i < rounds; ++i) {
+        const RgbImage r1 = plus(truth, random_image(160, 120, 2 * i + 100, 0, 0.02f));
+        const RgbImage r2 = plus(truth, random_image(160, 120, 2 * i + 101, 0, 0.02f));
+        const FloorFreeError error = measure_floor_free_error(truth, r1, r2);
+        squares += std::pow(error.relative_mse / error.standard_error, 2);
+    }
+    // The sum of 30 squares of about standard normal numbers.
+    EXPECT_GT(squares, 10);
+    EXPECT_LT(squares, 65);
+}
+
+} // namespace
+} // namespace tessera

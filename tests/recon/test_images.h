@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include <glm/ext/vector_double3.hpp>
+
+#include "recon/image.h"
+
+namespace tessera::test {
+
+/// Normally distributed channels.
+inline RgbImage random_image(int width, int height, std::uint32_t seed, float mean = 0, float deviation = 1) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<float> normal(mean, deviation);
+    RgbImage image(width, height);
+    for (Rgb& c : image)
+        c = {normal(engine), normal(engine), normal(engine)};
+    return image;
+}
+
+inline RgbImage x_differences(const RgbImage& image) {
+    RgbImage result(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x + 1 < image.width(); ++x)
+            result(x, y) = image(x + 1, y) - image(x, y);
+    return result;
+}
+
+inline RgbImage y_differences(const RgbImage& image) {
+    RgbImage result(image.width(), image.height());
+    for (int y = 0; y + 1 < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            result(x, y) = image(x, y + 1) - image(x, y);
+    return result;
+}
+
+inline glm::dvec3 mean_color(const RgbImage& image) {
+    glm::dvec3 sum(0);
+    for (const Rgb& c : image)
+        sum += glm::dvec3(c);
+    return sum / static_cast<double>(image.size());
+}
+
+inline double largest(const RgbImage& image) {
+    double result = 0;
+    for (const Rgb& c : image)
+        for (int channel = 0; channel < 3; ++channel)
+            result = std::max(result, std::abs(static_cast<double>(c[channel])));
+    return result;
+}
+
+/// The largest difference of a channel, relative to the largest value of `expected`.
+inline double relative_difference(const RgbImage& image, const RgbImage& expected) {
+    RgbImage difference(image);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        difference.data()[i] -= expected.data()[i];
+    return largest(difference) / largest(expected);
+}
+
+} // namespace tessera::test

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/scene/scene.h"
+
+#include <cstdint>
+
+namespace tessera::test {
+
+/// Means and their standard errors, per pixel and channel.
+struct Measured {
+    RgbImage mean;
+    RgbImage standard_error;
+};
+
+/// The judge: a path tracer without emitter sampling and without weights, with random numbers of its own; light is
+/// counted only where a path runs into it. Nothing of the estimators under test is in it but vertices and BSDF
+/// sampling. Very direct light is left out.
+Measured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
+
+} // namespace tessera::test

@@ -1,0 +1,102 @@
+#include "tests/support/scene_builder.h"
+
+#include "render/sampling.h"
+
+#include <glm/geometric.hpp>
+
+namespace tessera::test {
+
+int SceneBuilder::material(Material m) {
+    description_.materials.push_back(std::move(m));
+    return static_cast<int>(description_.materials.size()) - 1;
+}
+
+int SceneBuilder::diffuse(Rgb reflectance) {
+    return material({"diffuse", DiffuseMaterial{{reflectance}}, true});
+}
+
+int SceneBuilder::conductor(float alpha, MicrofacetDistribution distribution) {
+    ConductorMaterial m;
+    m.distribution = distribution;
+    m.alpha = Texture(Rgb(alpha));
+    m.eta = Rgb(1.65746f, 0.880369f, 0.521229f);
+    m.k = Rgb(9.22387f, 6.26952f, 4.837f);
+    return material({"conductor", m, true});
+}
+
+int SceneBuilder::mirror() {
+    return material({"mirror", ConductorMaterial{}, true});
+}
+
+int SceneBuilder::glass(float eta) {
+    DielectricMaterial m;
+    m.eta = eta;
+    return material({"glass", m, false});
+}
+
+int SceneBuilder::light(Rgb radiance) {
+    description_.area_lights.push_back({radiance});
+    return static_cast<int>(description_.area_lights.size()) - 1;
+}
+
+void SceneBuilder::quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int material, int light) {
+    Shape shape;
+    shape.name = "quad";
+    shape.mesh.positions = {corner, corner + edge1, corner + edge1 + edge2, corner + edge2};
+    shape.mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    shape.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    shape.material = material;
+    shape.area_light = light;
+    description_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::sphere(glm::vec3 center, float radius, int material, int rings) {
+    Shape shape;
+    shape.name = "sphere";
+    const int around = 2 * rings;
+    for (int i = 0; i <= rings; ++i)
+        for (int j = 0; j <= around; ++j) {
+            const float theta = pi * static_cast<float>(i) / static_cast<float>(rings);
+            const float phi = 2 * pi * static_cast<float>(j) / static_cast<float>(around);
+            const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+            shape.mesh.positions.push_back(center + radius * n);
+            shape.mesh.normals.push_back(n);
+            shape.mesh.uvs.emplace_back(static_cast<float>(j) / static_cast<float>(around), 0.0f);
+        }
+    const auto row = static_cast<unsigned>(around + 1);
+    for (unsigned i = 0; i < static_cast<unsigned>(rings); ++i)
+        for (unsigned j = 0; j + 1 < row; ++j) {
+            const unsigned a = i * row + j;
+            if (i > 0)
+                shape.mesh.triangles.push_back({a, a + row, a + 1});
+            if (i + 1 < static_cast<unsigned>(rings))
+                shape.mesh.triangles.push_back({a + 1, a + row, a + row + 1});
+        }
+    shape.material = material;
+    description_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::room(const std::vector<int>& m) {
+    quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, m[0]);
+    quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, m[1]);
+    quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, m[2]);
+    quad({-1, -1, 1}, {0, 0, -2}, {0, 2, 0}, m[3]);
+    quad({1, -1, -1}, {0, 0, 2}, {0, 2, 0}, m[4]);
+}
+
+glm::mat4 look_at(glm::vec3 origin, glm::vec3 target, glm::vec3 up) {
+    const glm::vec3 forward = glm::normalize(target - origin);
+    const glm::vec3 left = glm::normalize(glm::cross(up, forward));
+    const glm::vec3 top = glm::cross(forward, left);
+    return {glm::vec4(left, 0), glm::vec4(top, 0), glm::vec4(forward, 0), glm::vec4(origin, 1)};
+}
+
+void SceneBuilder::camera(glm::vec3 origin, glm::vec3 target, float fov) {
+    description_.camera = {look_at(origin, target), fov, FovAxis::x};
+}
+
+std::shared_ptr<const Scene> SceneBuilder::build() const {
+    return std::make_shared<const Scene>(description_);
+}
+
+} // namespace tessera::test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "render/scene/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tessera::test {
+
+/// Puts small scenes together in code.
+class SceneBuilder {
+public:
+    int material(Material m);
+    int diffuse(Rgb reflectance);
+    int conductor(float alpha, MicrofacetDistribution distribution = MicrofacetDistribution::ggx);
+    int mirror();
+    int glass(float eta = 1.5f);
+    int light(Rgb radiance);
+
+    /// A parallelogram; its front is the side of cross(edge1, edge2).
+    void quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int material, int light = -1);
+    void sphere(glm::vec3 center, float radius, int material, int rings = 24);
+    /// The walls of a room [-1, 1]^3 without its front wall (z = 1), seen from inside, in the order floor,
+    /// ceiling, back, left, right.
+    void room(const std::vector<int>& materials);
+
+    void camera(glm::vec3 origin, glm::vec3 target, float fov);
+
+    std::shared_ptr<const Scene> build() const;
+
+private:
+    SceneDescription description_;
+};
+
+/// Mitsuba's lookat.
+glm::mat4 look_at(glm::vec3 origin, glm::vec3 target, glm::vec3 up = {0, 1, 0});
+
+struct TestScene {
+    std::string name;
+    std::shared_ptr<const Scene> scene;
+    int max_depth;
+    float shift_threshold = 0.001f;
+};
+
+/// Small scenes, each for one thing that an estimator can get wrong.
+std::vector<TestScene> all_test_scenes();
+
+} // namespace tessera::test

@@ -1,0 +1,133 @@
+#include "tests/support/scene_builder.h"
+
+namespace tessera::test {
+
+namespace {
+
+const Rgb white(0.75f);
+const Rgb red(0.63f, 0.065f, 0.05f);
+const Rgb green(0.14f, 0.45f, 0.091f);
+
+/// A diffuse room, lit by half of its ceiling, so that a naive path tracer finds the light often.
+struct Room : SceneBuilder {
+    int w = diffuse(white), r = diffuse(red), g = diffuse(green), black = diffuse(Rgb(0));
+    int lamp = light(Rgb(5, 4, 3));
+
+    explicit Room(int floor = -1, int back = -1) {
+        room({floor < 0 ? w : floor, w, back < 0 ? w : back, r, g});
+        ceiling_light(black);
+        camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    }
+    void ceiling_light(int material) { quad({-0.7f, 0.98f, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, material, lamp); }
+};
+
+std::shared_ptr<const Scene> diffuse_room() {
+    return Room().build();
+}
+
+std::shared_ptr<const Scene> room_with_floor(int (*make)(SceneBuilder&)) {
+    Room r;
+    const int m = make(r);
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, m);
+    r.sphere({0.35f, -0.55f, 0}, 0.35f, m);
+    return r.build();
+}
+
+std::shared_ptr<const Scene> glossy() {
+    return room_with_floor([](SceneBuilder& b) { return b.conductor(0.1f); });
+}
+std::shared_ptr<const Scene> beckmann() {
+    return room_with_floor([](SceneBuilder& b) { return b.conductor(0.3f, MicrofacetDistribution::beckmann); });
+}
+std::shared_ptr<const Scene> nearly_mirror() {
+    return room_with_floor([](SceneBuilder& b) { return b.conductor(0.02f); });
+}
+std::shared_ptr<const Scene> mirror_floor() {
+    return room_with_floor([](SceneBuilder& b) { return b.mirror(); });
+}
+std::shared_ptr<const Scene> glass_ball() {
+    Room r;
+    r.sphere({-0.1f, -0.3f, 0.1f}, 0.6f, r.glass());
+    return r.build();
+}
+
+/// Slats between the tile's points and the rest of the room.
+std::shared_ptr<const Scene> blinds() {
+    Room r;
+    for (int i = 0; i < 7; ++i)
+        r.quad({-0.9f, -0.8f + 0.25f * static_cast<float>(i), 0.3f}, {1.8f, 0, 0}, {0, 0.1f, 0.05f}, r.w);
+    return r.build();
+}
+
+std::shared_ptr<const Scene> texture_edges() {
+    Room r;
+    DiffuseMaterial checker;
+    checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.1f, 0), Rgb(0, 0.2f, 0.8f)};
+    checker.reflectance.to_uv = glm::mat3(7.0f);
+    const int m = r.material({"checker", checker, true});
+    r.quad({-0.98f, -0.9f, -0.9f}, {1.96f, 0, 0}, {0, 1.8f, 0}, m);
+    return r.build();
+}
+
+std::shared_ptr<const Scene> grazing() {
+    Room r;
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
+    r.camera({0, -0.9f, 2.4f}, {0, -0.97f, 0}, 40);
+    return r.build();
+}
+
+/// Mirror, glass, glossy and diffuse side by side within every tile.
+std::shared_ptr<const Scene> patchwork() {
+    Room r;
+    const int materials[] = {r.mirror(), r.conductor(0.05f), r.w, r.glass(), r.conductor(0.3f), r.r};
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j)
+            r.quad({-0.9f + 0.3f * static_cast<float>(i), -0.9f + 0.3f * static_cast<float>(j), -0.2f},
+                   {0.28f, 0, 0}, {0, 0.28f, 0}, materials[(i + 2 * j) % 6]);
+    return r.build();
+}
+
+/// The lamp reflects light too, stands free and has a dark back; a one-sided wall is black from behind.
+std::shared_ptr<const Scene> shining_wall() {
+    Room r;
+    r.quad({-0.5f, -0.6f, -0.3f}, {0.8f, 0, -0.3f}, {0, 0.9f, 0}, r.w, r.lamp);
+    const int one_sided = r.material({"one-sided", DiffuseMaterial{{white}}, false});
+    r.quad({0.5f, -0.5f, 0.2f}, {-0.3f, 0, 0}, {0, 0.7f, 0}, one_sided);
+    return r.build();
+}
+
+std::shared_ptr<const Scene> no_light() {
+    SceneBuilder b;
+    const int w = b.diffuse(white);
+    b.room({w, w, w, w, w});
+    b.camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    return b.build();
+}
+
+} // namespace
+
+std::vector<TestScene> all_test_scenes() {
+    return {
+        {"diffuse", diffuse_room(), 5},
+        {"depth_1", diffuse_room(), 1},
+        {"depth_2", diffuse_room(), 2},
+        {"depth_3", diffuse_room(), 3},
+        {"depth_20", diffuse_room(), 20},
+        {"glossy", glossy(), 5},
+        {"beckmann", beckmann(), 5},
+        {"nearly_mirror", nearly_mirror(), 5},
+        {"glossy_half_vectors", glossy(), 5, 0.15f},
+        {"nearly_mirror_half_vectors", nearly_mirror(), 6, 0.05f},
+        {"mirror", mirror_floor(), 5},
+        {"glass", glass_ball(), 7},
+        {"blinds", blinds(), 4},
+        {"texture_edges", texture_edges(), 4},
+        {"grazing", grazing(), 4},
+        {"patchwork", patchwork(), 5},
+        {"patchwork_half_vectors", patchwork(), 5, 0.1f},
+        {"shining_wall", shining_wall(), 4},
+        {"no_light", no_light(), 4},
+    };
+}
+
+} // namespace tessera::test

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "render/method/settings.h"
+#include "render/scene/scene.h"
+#include "tests/support/naive.h"
+
+#include <string>
+
+namespace tessera::test {
+
+/// What a method measured, from independent runs with seeds of their own.
+struct MethodMeasured {
+    Measured primal, dx, dy;
+};
+MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
+                       int runs, int passes);
+
+/// How far two measurements lie apart, in units of their common standard error.
+struct ZResult {
+    int count = 0;          ///< pixels and channels compared
+    double largest = 0;     ///< |z|
+    double mean_square = 0; ///< about 1 when the two agree
+    double shift = 0;       ///< mean z: a small bias in one direction over all pixels shows here first
+    double limit = 0;       ///< for `largest`: passed by chance once in 10^4 images
+    bool passes() const;
+    std::string to_string() const;
+};
+ZResult z_test(const Measured& a, const Measured& b);
+
+/// Of dx from neighbours that were measured independently.
+Measured difference_x(const Measured& image);
+Measured difference_y(const Measured& image);
+
+} // namespace tessera::test

@@ -1,0 +1,198 @@
+#include "ui/actions.h"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+ViewerState two_panes() {
+    ViewerState state;
+    state.panes.resize(2);
+    state.panes[0].settings.render.method = Method::pt;
+    state.panes[1].settings.render.method = Method::gpr;
+    state.active_pane = 1;
+    return state;
+}
+
+Shortcut key(Key k) {
+    return {k, false, false, 0};
+}
+Shortcut character(char c) {
+    return {Key::none, false, false, c};
+}
+
+void type(ViewerState& state, Shortcut shortcut, bool entering_text = false) {
+    const Shortcut typed[] = {shortcut};
+    run_shortcuts(typed, entering_text, state);
+}
+
+const Action& action(const std::string& name) {
+    for (const Action& a : actions()) {
+        if (a.name == name)
+            return a;
+    }
+    throw std::runtime_error("no action " + name);
+}
+
+TEST(Actions, EveryOneHasNameHelpAndItsOwnShortcut) {
+    std::set<std::string> shortcuts, names;
+    for (const Action& a : actions()) {
+        EXPECT_TRUE(names.insert(a.name).second) << a.name;
+        EXPECT_GT(std::string(a.help).size(), 5u) << a.name;
+        EXPECT_TRUE(shortcuts.insert(to_string(a.shortcut)).second) << a.name;
+        if (a.second_shortcut != Shortcut{}) {
+            EXPECT_TRUE(shortcuts.insert(to_string(a.second_shortcut)).second) << a.name;
+        }
+    }
+}
+
+TEST(Actions, NoShortcutIsAFlyingKey) {
+    for (const Action& a : actions()) {
+        for (Key fly : {Key::w, Key::a, Key::s, Key::d, Key::q, Key::e, Key::left, Key::right, Key::up, Key::down})
+            EXPECT_FALSE(a.shortcut == key(fly) || a.second_shortcut == key(fly)) << a.name;
+    }
+}
+
+TEST(Actions, MenusLieTogether) {
+    std::set<std::string> seen;
+    std::string previous;
+    for (const Action& a : actions()) {
+        if (a.menu != previous) {
+            EXPECT_TRUE(seen.insert(a.menu).second) << a.menu << " comes twice";
+        }
+        previous = a.menu;
+    }
+}
+
+TEST(Actions, EveryShortcutRunsItsAction) {
+    ViewerState state = two_panes();
+    type(state, key(Key::space));
+    EXPECT_TRUE(state.paused);
+    type(state, key(Key::space));
+    EXPECT_FALSE(state.paused);
+    type(state, key(Key::r));
+    EXPECT_TRUE(state.restart);
+    type(state, {Key::q, true, false, 0});
+    EXPECT_TRUE(state.quit);
+    type(state, {Key::s, true, false, 0});
+    EXPECT_TRUE(state.save_picture);
+    type(state, key(Key::p));
+    EXPECT_FALSE(state.show_panel);
+    type(state, key(Key::f2));
+    EXPECT_TRUE(state.show_messages);
+    type(state, key(Key::tab));
+    EXPECT_EQ(state.active_pane, 0);
+}
+
+TEST(Actions, HelpOpensByBothKeysAndCloses) {
+    ViewerState state = two_panes();
+    type(state, key(Key::f1));
+    EXPECT_TRUE(state.show_help);
+    type(state, key(Key::escape));
+    EXPECT_FALSE(state.show_help);
+    type(state, character('?'));
+    EXPECT_TRUE(state.show_help);
+    type(state, character('?'));
+    EXPECT_FALSE(state.show_help);
+}
+
+TEST(Actions, MethodsOfTheActivePaneInTurn) {
+    ViewerState state = two_panes();
+    state.active_pane = 0;
+    for (Method expected : {Method::pr, Method::gpt, Method::gpr, Method::pt}) {
+        type(state, key(Key::m));
+        EXPECT_EQ(state.panes[0].settings.render.method, expected);
+        EXPECT_EQ(state.panes[1].settings.render.method, Method::gpr);
+    }
+    type(state, {Key::m, false, true, 0});
+    EXPECT_EQ(state.panes[0].settings.render.method, Method::gpr);
+}
+
+TEST(Actions, BuffersInAllPanes) {
+    const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal},
+                                           {Key::digit3, Buffer::dx},
+                                           {Key::digit4, Buffer::dy},
+                                           {Key::digit1, Buffer::reconstruction}};
+    ViewerState state = two_panes();
+    for (const auto& [k, buffer] : keys) {
+        type(state, key(k));
+        for (const PaneState& pane : state.panes)
+            EXPECT_EQ(pane.settings.buffer, buffer);
+    }
+    EXPECT_TRUE(action("Reconstruction").checked(state));
+    EXPECT_FALSE(action("Primal").checked(state));
+}
+
+TEST(Actions, ExposureStepsAndStaysInRange) {
+    ViewerState state = two_panes();
+    type(state, character('+'));
+    EXPECT_FLOAT_EQ(state.exposure, 0.5f);
+    type(state, character('-'));
+    type(state, character('-'));
+    EXPECT_FLOAT_EQ(state.exposure, -0.5f);
+    for (int i = 0; i < 100; ++i)
+        type(state, character('='));
+    EXPECT_FLOAT_EQ(state.exposure, 10);
+    type(state, key(Key::digit0));
+    EXPECT_FLOAT_EQ(state.exposure, 0);
+}
+
+TEST(Actions, TileStepsInAllLinkedPanes) {
+    ViewerState state = two_panes();
+    type(state, character(']'));
+    EXPECT_EQ(state.panes[0].settings.render.tile, 7);
+    EXPECT_EQ(state.panes[1].settings.render.tile, 7);
+    EXPECT_EQ(state.panes[0].settings.render.method, Method::pt);
+    state.linked = false;
+    type(state, character('['));
+    EXPECT_EQ(state.panes[0].settings.render.tile, 7);
+    EXPECT_EQ(state.panes[1].settings.render.tile, 6);
+    for (int i = 0; i < 40; ++i)
+        type(state, character('['));
+    EXPECT_EQ(state.panes[1].settings.render.tile, 1);
+}
+
+TEST(Actions, TextEntryKeepsItsLetters) {
+    ViewerState state = two_panes();
+    type(state, key(Key::r), true);
+    type(state, key(Key::digit2), true);
+    type(state, character('+'), true);
+    EXPECT_FALSE(state.restart);
+    EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
+    EXPECT_FLOAT_EQ(state.exposure, 0);
+    type(state, {Key::q, true, false, 0}, true);
+    EXPECT_TRUE(state.quit);
+}
+
+TEST(Actions, CameraGoesHomeAndFliesWithKeys) {
+    ViewerState state = two_panes();
+    state.camera.set_home({}, {0, 0, 3}, 1);
+    Keyboard keyboard;
+    EXPECT_FALSE(fly_with_keys(keyboard, 0.1f, state));
+    keyboard.press(Key::w, Key::w, false, false);
+    EXPECT_TRUE(fly_with_keys(keyboard, 0.1f, state));
+    const float walked = state.camera.position().z;
+    EXPECT_GT(walked, 0);
+    keyboard.press(Key::shift, Key::shift, false, true);
+    fly_with_keys(keyboard, 0.1f, state);
+    EXPECT_GT(state.camera.position().z - walked, 2 * walked);
+    keyboard.release(Key::w);
+    keyboard.press(Key::left, Key::left, false, false);
+    EXPECT_TRUE(fly_with_keys(keyboard, 0.1f, state));
+    EXPECT_GT(state.camera.forward().x, 0); // the left of a camera without a turn is +x
+    type(state, key(Key::home));
+    EXPECT_EQ(state.camera.position(), glm::vec3(0));
+}
+
+TEST(Actions, FitUndoesZoom) {
+    ViewerState state = two_panes();
+    state.view.zoom_at({10, 10}, 4, {100, 100}, {100, 100});
+    type(state, key(Key::f));
+    EXPECT_EQ(state.view, ImageView());
+}
+
+} // namespace
+} // namespace tessera

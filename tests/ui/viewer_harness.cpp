@@ -1,0 +1,158 @@
+#include "tests/ui/viewer_harness.h"
+
+#include "tests/support/scene_builder.h"
+#include "ui/imgui_version.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+std::shared_ptr<const Scene> viewer_scene() {
+    SceneBuilder room;
+    const int white = room.diffuse(Rgb(0.75f));
+    room.room({white, white, white, room.diffuse({0.63f, 0.065f, 0.05f}), room.diffuse({0.14f, 0.45f, 0.091f})});
+    room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
+    room.sphere({0.3f, -0.55f, 0.1f}, 0.45f, white);
+    room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
+    return room.build();
+}
+
+ViewerOptions ViewerHarness::two_panes() {
+    ViewerOptions options;
+    options.panes.resize(2);
+    options.panes[0].render.method = Method::pt;
+    options.panes[1].render.method = Method::gpr;
+    options.max_depth = 4;
+    options.size = {SizeChoice::Base::custom, 1, {48, 36}};
+    return options;
+}
+
+ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options)
+    : context(size), gui(scale), session(static_cast<int>(options.panes.size()), 1),
+      viewer(session, std::move(options)) {}
+
+void ViewerHarness::frame(float seconds) {
+    gui.begin_frame(glm::vec2(context.size()), 1, seconds);
+    viewer.draw_frame();
+    gui.end_frame();
+}
+
+void ViewerHarness::frames(int count) {
+    for (int i = 0; i < count; ++i)
+        frame();
+}
+
+bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) {
+            ADD_FAILURE() << "waited in vain";
+            return false;
+        }
+        frame();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+}
+
+void ViewerHarness::load_scene() {
+    viewer.load("a room", [](std::vector<std::string>&) { return viewer_scene(); });
+    wait_until([&] {
+        return pane(0).snapshot && pane(1).snapshot && !pane(0).snapshot->coarse && !pane(1).snapshot->coarse;
+    });
+    frames(2);
+}
+
+void ViewerHarness::move_to(glm::vec2 position) {
+    send_mouse_position({position.x, position.y});
+    frames(2);
+}
+
+void ViewerHarness::press(int button) {
+    send_mouse_button(button, true);
+    frames(2);
+}
+
+void ViewerHarness::release(int button) {
+    send_mouse_button(button, false);
+    frames(3);
+}
+
+void ViewerHarness::click(glm::vec2 position) {
+    move_to(position);
+    press();
+    release();
+}
+
+void ViewerHarness::click_at(const std::string& control, float fraction) {
+    const ControlRect rect = place(control);
+    click(glm::vec2(rect.min.x + (rect.max.x - rect.min.x) * fraction, rect.center().y));
+}
+
+void ViewerHarness::choose(const std::string& control, const std::string& item) {
+    click_at(control, 0.3f);
+    click(control + "/" + item);
+}
+
+void ViewerHarness::drag(glm::vec2 from, glm::vec2 by, int button) {
+    move_to(from);
+    press(button);
+    for (int i = 1; i <= 4; ++i)
+        move_to(from + by * (static_cast<float>(i) / 4));
+    release(button);
+}
+
+void ViewerHarness::wheel(float notches) {
+    send_mouse_wheel(notches);
+    frames(2);
+}
+
+void ViewerHarness::modifiers(bool ctrl, bool shift) {
+    send_modifiers(ctrl, shift);
+    frame();
+}
+
+void ViewerHarness::type(Key key, bool ctrl, bool shift) {
+    viewer.keyboard().press(key, key, ctrl, shift);
+    viewer.keyboard().release(key);
+    frames(2);
+}
+
+void ViewerHarness::resize(glm::ivec2 size) {
+    context.resize(size);
+    frames(3);
+}
+
+ControlRect ViewerHarness::place(const std::string& control) const {
+    const auto found = viewer.controls().rects().find(control);
+    if (found != viewer.controls().rects().end())
+        return found->second;
+    ADD_FAILURE() << "no control " << control;
+    return {};
+}
+
+double ViewerHarness::brightness(const std::string& control) const {
+    const ScreenPixels pixels = screen();
+    const ControlRect rect = place(control);
+    double sum = 0;
+    int count = 0;
+    for (int y = static_cast<int>(rect.min.y); y < static_cast<int>(rect.max.y); ++y) {
+        for (int x = static_cast<int>(rect.min.x); x < static_cast<int>(rect.max.x); ++x) {
+            const std::uint8_t* p = pixels.at(x, y);
+            sum += p[0] + p[1] + p[2];
+            count += 3;
+        }
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+void ViewerHarness::save(const std::string& file) const {
+    if (const char* folder = std::getenv("TESSERA_TEST_PICTURES"))
+        write_png(std::filesystem::path(folder) / file, screen());
+}
+
+} // namespace tessera::test

@@ -1,0 +1,256 @@
+#include "tests/ui/viewer_harness.h"
+#include "ui/viewer.h"
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+TEST(Viewer, ShowsPicturesOfBothPanes) {
+    ViewerHarness h;
+    h.load_scene();
+    h.wait_until([&] { return h.pane(1).snapshot->reconstruction_spp >= 4; });
+    h.frame();
+    EXPECT_GT(h.brightness("pane0.picture"), 20);
+    EXPECT_GT(h.brightness("pane1.picture"), 20);
+    EXPECT_EQ(h.pane(0).snapshot->settings.method, Method::pt);
+    EXPECT_EQ(h.pane(1).snapshot->settings.method, Method::gpr);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    h.save("viewer.png");
+}
+
+TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
+    ViewerHarness h;
+    h.frames(3);
+    std::atomic<bool> go{false};
+    h.viewer.load("a slow one", [&](std::vector<std::string>&) {
+        while (!go)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return viewer_scene();
+    });
+    const auto start = std::chrono::steady_clock::now();
+    h.frames(3);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    EXPECT_TRUE(h.viewer.loading());
+    EXPECT_LE(h.viewer.next_frame_in(), 0.1);
+    EXPECT_EQ(h.pane(0).generation, 0u);
+    h.save("loading.png");
+    go = true;
+    h.wait_until([&] { return h.state().scene != nullptr; });
+    EXPECT_EQ(h.state().scene_name, "a slow one");
+    EXPECT_EQ(h.pane(0).settings.render.max_depth, 4);
+}
+
+TEST(Viewer, OldSceneStaysWhenTheNextFails) {
+    ViewerHarness h;
+    h.load_scene();
+    const auto scene = h.state().scene;
+    h.viewer.load("broken.xml", [](std::vector<std::string>& notes) -> std::shared_ptr<const Scene> {
+        notes.push_back("line 3: ignored");
+        throw std::runtime_error("broken.xml:7:3: no such thing");
+    });
+    h.wait_until([&] { return !h.viewer.loading(); });
+    h.frames(3);
+    EXPECT_EQ(h.state().scene, scene);
+    ASSERT_EQ(h.state().messages.size(), 2u);
+    EXPECT_EQ(h.state().messages[0].kind, Message::Kind::note);
+    EXPECT_EQ(h.state().messages[1].text, "broken.xml:7:3: no such thing");
+    EXPECT_TRUE(h.state().show_messages);
+    EXPECT_TRUE(h.has("clear_messages"));
+    h.save("messages.png");
+    h.click("clear_messages");
+    EXPECT_TRUE(h.state().messages.empty());
+    EXPECT_FALSE(h.has("clear_messages"));
+}
+
+TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
+    ViewerHarness h;
+    h.load_scene();
+    const auto expect_new = [&](int pane, bool expected, const char* what) {
+        const std::uint64_t before = h.pane(pane).generation;
+        h.frame();
+        EXPECT_EQ(h.pane(pane).generation > before, expected) << what;
+    };
+    expect_new(0, false, "nothing");
+    h.state().panes[0].settings.render.method = Method::pr;
+    expect_new(1, false, "the other pane's method");
+    h.state().panes[0].settings.render.method = Method::gpt;
+    expect_new(0, true, "method");
+    h.state().panes[0].settings.render.tile = 3;
+    expect_new(0, true, "tile");
+    h.state().camera.dolly(0.9f);
+    expect_new(1, true, "camera");
+    h.state().size.custom = {40, 30};
+    expect_new(0, true, "size");
+    h.state().restart = true;
+    expect_new(1, true, "restart");
+    h.state().exposure = 2;
+    h.state().panes[0].settings.buffer = Buffer::primal;
+    h.state().panes[0].settings.reconstruction.alpha = 1;
+    expect_new(0, false, "what changes no samples");
+}
+
+TEST(Viewer, UploadsOnlyNewPictures) {
+    ViewerHarness h;
+    h.load_scene();
+    h.state().paused = true;
+    h.wait_until([&] { return h.pane(1).snapshot->reconstruction_spp == h.pane(1).snapshot->spp; });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    h.frames(3);
+    const int uploads = h.viewer.pane_view(1).uploads(), drawings = h.viewer.pane_view(1).canvas().drawings();
+    h.frames(10);
+    EXPECT_EQ(h.viewer.pane_view(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings);
+    h.state().exposure = 1;
+    h.frames(2);
+    EXPECT_EQ(h.viewer.pane_view(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings + 1);
+    EXPECT_GT(h.viewer.next_frame_in(), 10);
+}
+
+TEST(Viewer, ReconstructionSettingsChangeThePictureWithoutSamples) {
+    ViewerHarness h;
+    h.load_scene();
+    h.state().paused = true;
+    h.wait_until([&] { return h.pane(1).snapshot->reconstruction_spp == h.pane(1).snapshot->spp; });
+    const auto before = h.pane(1).snapshot;
+    h.state().panes[1].settings.reconstruction.alpha = 5;
+    h.wait_until([&] { return h.pane(1).snapshot->reconstruction != before->reconstruction; });
+    EXPECT_EQ(h.pane(1).snapshot->generation, before->generation);
+    EXPECT_EQ(h.pane(1).snapshot->spp, before->spp);
+}
+
+TEST(Viewer, RestsAtItsLimitAndIsThenSettled) {
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.spp_limit = 3;
+    ViewerHarness h({900, 500}, 1, options);
+    EXPECT_FALSE(h.viewer.settled(3));
+    h.load_scene();
+    h.wait_until([&] { return h.viewer.settled(3); });
+    EXPECT_EQ(h.pane(0).snapshot->spp, 3);
+    EXPECT_EQ(h.pane(1).snapshot->spp, 3);
+    EXPECT_EQ(h.pane(1).snapshot->reconstruction_spp, 3);
+    h.state().restart = true;
+    h.frame();
+    EXPECT_FALSE(h.viewer.settled(3));
+}
+
+TEST(Viewer, SurvivesBeingOnePixelLarge) {
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.size = {}; // as the pane
+    ViewerHarness h({700, 400}, 1, options);
+    h.load_scene();
+    const glm::ivec2 before = h.state().request_size();
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 300), glm::ivec2(700, 3), glm::ivec2(60, 60)}) {
+        h.resize(size);
+        h.type(Key::f1);
+        h.state().show_messages = true;
+        h.frames(2);
+        h.type(Key::f1);
+    }
+    h.state().show_messages = false;
+    h.resize({700, 400});
+    EXPECT_EQ(h.state().request_size(), before);
+    h.wait_until([&] {
+        return h.pane(0).snapshot->generation == h.pane(0).generation && h.pane(0).snapshot->spp > 3 &&
+               !h.pane(0).snapshot->coarse;
+    });
+    h.frames(2);
+    EXPECT_GT(h.brightness("pane0.picture"), 20);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(Viewer, WorksAtTwoAndThreeHundredPercent) {
+    for (float scale : {2.0f, 3.0f}) {
+        ViewerHarness h({1920, 1200}, scale);
+        h.load_scene();
+        h.choose("pane0.method", "gpt");
+        EXPECT_EQ(h.pane(0).settings.render.method, Method::gpt);
+        EXPECT_GT(h.place("tile").max.y - h.place("tile").min.y, 20 * scale);
+        h.save("scale" + std::to_string(static_cast<int>(scale)) + ".png");
+    }
+}
+
+TEST(Viewer, ScaleChangesWhileRunning) {
+    ViewerHarness h;
+    h.frames(2);
+    const float before = h.place("tile").max.y - h.place("tile").min.y;
+    h.gui.set_scale(1.5f);
+    h.frames(3);
+    EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 1.5f, 2);
+}
+
+TEST(Viewer, SaysWhenAMethodHasNoGradients) {
+    ViewerHarness h;
+    h.load_scene();
+    h.state().panes[0].settings.buffer = Buffer::dx;
+    h.state().panes[1].settings.buffer = Buffer::dx;
+    h.wait_until([&] { return h.pane(1).snapshot->spp > 8; });
+    h.frames(2);
+    EXPECT_TRUE(h.viewer.pane_view(0).canvas().empty());
+    EXPECT_FALSE(h.viewer.pane_view(1).canvas().empty());
+    h.save("gradients.png");
+}
+
+TEST(Viewer, LogsChangesAndControls) {
+    std::vector<std::string> lines;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.log = [&](const std::string& line) { lines.push_back(line); };
+    options.log_controls = true;
+    ViewerHarness h({1280, 720}, 1, options);
+    h.load_scene();
+    h.choose("pane0.method", "gpr");
+    const auto said = [&](const std::string& line) {
+        return std::find(lines.begin(), lines.end(), line) != lines.end();
+    };
+    EXPECT_TRUE(said("pane 0 method pt"));
+    EXPECT_TRUE(said("pane 0 method gpr"));
+    EXPECT_TRUE(said("pane 1 method gpr"));
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
+                            [](const std::string& l) { return l.rfind("control pane0.method/gpr ", 0) == 0; }));
+    h.state().paused = true;
+    h.frames(3);
+    lines.clear();
+    h.frames(3);
+    EXPECT_TRUE(
+        std::none_of(lines.begin(), lines.end(), [](const std::string& l) { return l.rfind("control", 0) == 0; }));
+}
+
+TEST(Viewer, StatusTellsMethodSamplesTimeAndRays) {
+    PaneState pane;
+    pane.settings.render.method = Method::gpr;
+    EXPECT_EQ(status_text(pane, false, 0), "G-PR   starting");
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->generation = pane.generation = 4;
+    snapshot->spp = 12;
+    snapshot->seconds = 2;
+    snapshot->settings.method = Method::gpr;
+    snapshot->counters.closest_hit_rays = 3000000;
+    snapshot->counters.occlusion_rays = 2000000;
+    snapshot->reconstruction = std::make_shared<Reconstruction>();
+    snapshot->reconstruction_spp = 11;
+    pane.snapshot = snapshot;
+    EXPECT_EQ(status_text(pane, false, 0), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
+    EXPECT_NE(status_text(pane, true, 0).find("paused"), std::string::npos);
+    EXPECT_NE(status_text(pane, false, 12).find("done"), std::string::npos);
+}
+
+TEST(Viewer, FourPanesInAGrid) {
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.panes.resize(4);
+    options.panes[2].render.method = Method::pr;
+    options.panes[3].render.method = Method::gpt;
+    ViewerHarness h({1280, 800}, 1, options);
+    h.load_scene();
+    EXPECT_GT(h.place("pane2.picture").min.y, h.place("pane0.picture").max.y);
+    EXPECT_GT(h.place("pane3.picture").min.x, h.place("pane2.picture").max.x);
+    h.wait_until([&] { return h.pane(3).snapshot && h.pane(3).snapshot->spp > 2; });
+    h.save("four.png");
+}
+
+} // namespace
+} // namespace tessera::test

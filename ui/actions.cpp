@@ -1,0 +1,169 @@
+#include "ui/actions.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tessera {
+
+namespace {
+
+constexpr float fly_speed = 0.45f; // radii of the scene a second
+constexpr float look_speed = 1.1f; // radians a second
+constexpr float hurry = 4.0f;      // with Shift
+
+void set_buffer(ViewerState& state, Buffer buffer) {
+    for (PaneState& pane : state.panes)
+        pane.settings.buffer = buffer;
+}
+
+template <Buffer buffer>
+void show_buffer(ViewerState& state) {
+    set_buffer(state, buffer);
+}
+
+template <Buffer buffer>
+bool shows_buffer(const ViewerState& state) {
+    return std::all_of(state.panes.begin(), state.panes.end(),
+                       [](const PaneState& pane) { return pane.settings.buffer == buffer; });
+}
+
+void step_method(ViewerState& state, int step) {
+    constexpr int count = static_cast<int>(std::size(all_methods));
+    Method& method = state.active().settings.render.method;
+    method = all_methods[(static_cast<int>(method) + step + count) % count];
+}
+
+void step_tile(ViewerState& state, int step) {
+    int& tile = state.active().settings.render.tile;
+    tile = std::clamp(tile + step, 1, 16);
+    state.share_settings();
+}
+
+void step_exposure(ViewerState& state, float stops) {
+    state.exposure = std::clamp(state.exposure + stops, -10.0f, 10.0f);
+}
+
+void next_pane(ViewerState& state) {
+    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+constexpr Shortcut key(Key k) {
+    return {k, false, false, 0};
+}
+constexpr Shortcut ctrl(Key k) {
+    return {k, true, false, 0};
+}
+constexpr Shortcut shift(Key k) {
+    return {k, false, true, 0};
+}
+constexpr Shortcut character(char c) {
+    return {Key::none, false, false, c};
+}
+constexpr Shortcut no_shortcut{};
+
+using State = ViewerState;
+
+constexpr Action table[] = {
+    {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
+     key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
+    {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
+
+    {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
+     [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
+    {"Render", "Restart", "Renders all panes anew from the first sample.", key(Key::r), no_shortcut,
+     [](State& s) { s.restart = true; }, nullptr},
+    {"Render", "Next method", "The next method in the active pane.", key(Key::m), no_shortcut,
+     [](State& s) { step_method(s, 1); }, nullptr},
+    {"Render", "Previous method", "The previous method in the active pane.", shift(Key::m), no_shortcut,
+     [](State& s) { step_method(s, -1); }, nullptr},
+    {"Render", "Larger tile", "Lets a path be reused by more pixels.", character(']'), no_shortcut,
+     [](State& s) { step_tile(s, 1); }, nullptr},
+    {"Render", "Smaller tile", "Lets a path be reused by fewer pixels.", character('['), no_shortcut,
+     [](State& s) { step_tile(s, -1); }, nullptr},
+
+    {"View", "Reconstruction", "Shows the reconstructed picture in all panes.", key(Key::digit1), no_shortcut,
+     show_buffer<Buffer::reconstruction>, shows_buffer<Buffer::reconstruction>},
+    {"View", "Primal", "Shows the picture before reconstruction in all panes.", key(Key::digit2), no_shortcut,
+     show_buffer<Buffer::primal>, shows_buffer<Buffer::primal>},
+    {"View", "Gradient dx", "Shows the differences between a pixel and its right neighbour in all panes.",
+     key(Key::digit3), no_shortcut, show_buffer<Buffer::dx>, shows_buffer<Buffer::dx>},
+    {"View", "Gradient dy", "Shows the differences between a pixel and the one below in all panes.",
+     key(Key::digit4), no_shortcut, show_buffer<Buffer::dy>, shows_buffer<Buffer::dy>},
+    {"View", "Brighter", "Exposure up by half a stop.", character('+'), character('='),
+     [](State& s) { step_exposure(s, 0.5f); }, nullptr},
+    {"View", "Darker", "Exposure down by half a stop.", character('-'), no_shortcut,
+     [](State& s) { step_exposure(s, -0.5f); }, nullptr},
+    {"View", "Reset exposure", "Exposure back to 0 stops.", key(Key::digit0), no_shortcut,
+     [](State& s) { s.exposure = 0; }, nullptr},
+    {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
+     [](State& s) { s.view.fit(); }, nullptr},
+    {"View", "Next pane", "Makes the other pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
+    {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
+     [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
+    {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
+     [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
+
+    {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
+     [](State& s) { s.camera.go_home(); }, nullptr},
+
+    {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),
+     [](State& s) { s.show_help = !s.show_help; }, [](const State& s) { return s.show_help; }},
+};
+
+constexpr Gesture gesture_table[] = {
+    {"Left drag", "Orbit about the target"},
+    {"Middle drag, Shift + left drag", "Pan: what is under the cursor follows it"},
+    {"Wheel, right drag", "Dolly toward the target and away"},
+    {"W A S D, Q E", "Fly ahead, left, back, right; down, up (Shift: faster)"},
+    {"Arrow keys", "Look around"},
+    {"Ctrl + wheel", "Zoom the picture itself, in all panes"},
+    {"Ctrl + left drag", "Move the picture itself"},
+    {"Ctrl + click on a slider", "Type a value"},
+};
+
+bool matches(const Shortcut& typed, const Action& action) {
+    return typed == action.shortcut || typed == action.second_shortcut;
+}
+
+bool counts_in_text(const Shortcut& typed) {
+    return typed.ctrl || (typed.key >= Key::f1 && typed.key <= Key::f12);
+}
+
+} // namespace
+
+std::span<const Action> actions() {
+    return table;
+}
+std::span<const Gesture> gestures() {
+    return gesture_table;
+}
+
+void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerState& state) {
+    for (const Shortcut& shortcut : typed) {
+        if (entering_text && !counts_in_text(shortcut))
+            continue;
+        for (const Action& action : table) {
+            if (matches(shortcut, action))
+                action.run(state);
+        }
+    }
+    // A closing key that every overlay has.
+    if (std::find(typed.begin(), typed.end(), key(Key::escape)) != typed.end())
+        state.show_help = false;
+}
+
+bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state) {
+    const auto axis = [&](Key plus, Key minus) {
+        return static_cast<float>(keyboard.is_down(plus)) - static_cast<float>(keyboard.is_down(minus));
+    };
+    const glm::vec3 steps(axis(Key::a, Key::d), axis(Key::e, Key::q), axis(Key::w, Key::s));
+    const glm::vec2 turns(axis(Key::left, Key::right), axis(Key::up, Key::down));
+    const float speed = keyboard.is_down(Key::shift) ? hurry : 1.0f;
+    if (steps != glm::vec3(0))
+        state.camera.fly(steps * (fly_speed * speed * seconds));
+    if (turns != glm::vec2(0))
+        state.camera.look(turns.x * look_speed * seconds, turns.y * look_speed * seconds);
+    return steps != glm::vec3(0) || turns != glm::vec2(0);
+}
+
+} // namespace tessera

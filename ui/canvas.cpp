@@ -1,0 +1,63 @@
+#include "ui/canvas.h"
+
+#include "embedded/canvas_fragment_shader.h"
+#include "embedded/canvas_vertex_shader.h"
+
+#include <cmath>
+
+namespace tessera {
+
+namespace {
+constexpr glm::vec3 background_colour(0.055f, 0.058f, 0.066f);
+} // namespace
+
+CanvasShader::CanvasShader() : program_(canvas_vertex_shader, canvas_fragment_shader) {}
+
+void CanvasShader::draw(const GlTexture& image, const CanvasView& view) const {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glClearColor(background_colour.r, background_colour.g, background_colour.b, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (image.name() == 0 || view.image_extent.x <= 0 || view.image_extent.y <= 0)
+        return;
+    program_.use();
+    program_.set("image", 0);
+    program_.set("pane_size", view.pane_size);
+    program_.set("image_origin", view.image_origin);
+    program_.set("image_extent", view.image_extent);
+    program_.set("gain", std::exp2(view.exposure));
+    program_.set("is_signed", view.colour_map == ColourMap::signed_difference ? 1 : 0);
+    program_.set("is_coarse", view.coarse ? 1 : 0);
+    program_.set("background", background_colour);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, image.name());
+    vertices_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindVertexArray(0);
+    glUseProgram(0);
+}
+
+void Canvas::show(const RgbImage& image) {
+    has_image_ = !image.empty();
+    if (has_image_)
+        image_.upload(image);
+    drawn_.reset();
+}
+
+GLuint Canvas::draw(const CanvasShader& shader, const CanvasView& view) {
+    if (view.pane_size.x < 1 || view.pane_size.y < 1)
+        return 0;
+    if (drawn_ == view)
+        return framebuffer_.colour().name();
+    static const GlTexture no_image;
+    framebuffer_.resize(view.pane_size);
+    const DrawInto target(framebuffer_);
+    shader.draw(has_image_ ? image_ : no_image, view);
+    drawn_ = view;
+    ++drawings_;
+    return framebuffer_.colour().name();
+}
+
+} // namespace tessera

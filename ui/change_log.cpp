@@ -1,0 +1,83 @@
+#include "ui/change_log.h"
+
+#include <cstdio>
+
+namespace tessera {
+
+namespace {
+
+using Values = std::map<std::string, std::string>;
+
+std::string text(double number) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", number);
+    return buffer;
+}
+
+std::string text(bool on) {
+    return on ? "on" : "off";
+}
+
+void describe(const std::string& prefix, const PaneState& pane, Values& values) {
+    const RenderSettings& render = pane.settings.render;
+    values[prefix + "method"] = short_name(render.method);
+    values[prefix + "buffer"] = short_name(pane.settings.buffer);
+    values[prefix + "tile"] = std::to_string(render.tile);
+    values[prefix + "rr_delta"] = text(static_cast<double>(render.rr_delta));
+    values[prefix + "q_min"] = text(static_cast<double>(render.q_min));
+    values[prefix + "max_depth"] = std::to_string(render.max_depth);
+    values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
+    values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
+    values[prefix + "generation"] = std::to_string(pane.generation);
+    values[prefix + "spp"] = std::to_string(pane.snapshot ? pane.snapshot->spp : 0);
+}
+
+Values describe(const ViewerState& state) {
+    Values values;
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        describe("pane " + std::to_string(i) + " ", state.panes[i], values);
+    const glm::vec3 p = state.camera.position(), f = state.camera.forward();
+    char camera[160];
+    std::snprintf(camera, sizeof camera, "%.5g %.5g %.5g toward %.5g %.5g %.5g", static_cast<double>(p.x),
+                  static_cast<double>(p.y), static_cast<double>(p.z), static_cast<double>(f.x),
+                  static_cast<double>(f.y), static_cast<double>(f.z));
+    values["camera"] = camera;
+    const glm::ivec2 size = state.request_size();
+    values["size"] = std::to_string(size.x) + "x" + std::to_string(size.y);
+    values["exposure"] = text(static_cast<double>(state.exposure));
+    values["zoom"] = text(static_cast<double>(state.view.zoom()));
+    values["linked"] = text(state.linked);
+    values["paused"] = text(state.paused);
+    values["help"] = text(state.show_help);
+    values["panel"] = text(state.show_panel);
+    values["messages"] = std::to_string(state.messages.size());
+    return values;
+}
+
+} // namespace
+
+void ChangeLog::write_state(const ViewerState& state, const Sink& sink) {
+    Values now = describe(state);
+    for (const auto& [name, value] : now) {
+        const auto before = values_.find(name);
+        if (before == values_.end() || before->second != value)
+            sink(name + " " + value);
+    }
+    values_ = std::move(now);
+}
+
+void ChangeLog::write_controls(const Controls& controls, const Sink& sink) {
+    for (const auto& [id, rect] : controls.rects()) {
+        const auto before = rects_.find(id);
+        if (before != rects_.end() && before->second == rect)
+            continue;
+        char line[64];
+        std::snprintf(line, sizeof line, " %.0f %.0f %.0f %.0f", static_cast<double>(rect.min.x),
+                      static_cast<double>(rect.min.y), static_cast<double>(rect.max.x),
+                      static_cast<double>(rect.max.y));
+        sink("control " + id + line);
+    }
+    rects_ = controls.rects();
+}
+
+} // namespace tessera

@@ -1,0 +1,161 @@
+#include "ui/controls.h"
+
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr double tooltip_delay = 0.4; // seconds
+constexpr float label_share = 0.40f;  // of a row's width
+
+std::string hidden_label(const char* id) {
+    return std::string("##") + id;
+}
+
+void draw_tooltip(const char* text) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+// Typed values go through here: "nan" is no number, and infinity is beyond every range.
+void keep_within(float& value, float before, float least, float most) {
+    value = std::isnan(value) ? before : std::clamp(value, least, most);
+}
+
+} // namespace
+
+void Controls::begin_frame(double time) {
+    rects_.clear();
+    hovered_before_ = std::move(hovered_);
+    hovered_.clear();
+    time_ = time;
+    tooltip_pending_ = false;
+}
+
+void Controls::note(const char* id, const char* help) {
+    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    rects_[id] = {{min.x, min.y}, {max.x, max.y}};
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || help == nullptr || *help == 0)
+        return;
+    hovered_ = id;
+    if (hovered_ != hovered_before_)
+        hovered_since_ = time_;
+    const bool in_use = ImGui::IsItemActive();
+    if (!in_use && time_ - hovered_since_ >= tooltip_delay)
+        draw_tooltip(help);
+    else if (!in_use)
+        tooltip_pending_ = true;
+}
+
+void Controls::label(const char* text) const {
+    const float start = ImGui::GetCursorPosX();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::SameLine(start + std::max(width * label_share, 1.0f), 0);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+bool Controls::choice(const char* id, const char* label_text, std::span<const ChoiceItem> items, int& index,
+                      const char* help) {
+    label(label_text);
+    const std::string& shown = items[static_cast<std::size_t>(index)].label;
+    return bare_choice(id, shown.c_str(), items, index, -FLT_MIN, help);
+}
+
+bool Controls::bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index,
+                           float width, const char* help) {
+    ImGui::SetNextItemWidth(width);
+    const bool open = ImGui::BeginCombo(hidden_label(id).c_str(), shown, ImGuiComboFlags_HeightLarge);
+    bool changed = false;
+    if (open) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const bool selected = static_cast<int>(i) == index;
+            if (ImGui::Selectable(items[i].label.c_str(), selected)) {
+                changed = !selected;
+                index = static_cast<int>(i);
+            }
+            note((std::string(id) + "/" + items[i].id).c_str(), items[i].help.c_str());
+        }
+        ImGui::EndCombo(); // the item is the combo itself again
+    }
+    note(id, open ? nullptr : help);
+    return changed;
+}
+
+bool Controls::slider(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
+    label(label_text);
+    const bool changed =
+        ImGui::SliderInt(hidden_label(id).c_str(), &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
+    value = std::clamp(value, least, most);
+    note(id, help);
+    return changed;
+}
+
+bool Controls::slider(const char* id, const char* label_text, float& value, float least, float most,
+                      const char* format, const char* help) {
+    label(label_text);
+    const float before = value;
+    ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+    keep_within(value, before, least, most);
+    note(id, help);
+    return value != before;
+}
+
+bool Controls::log_slider(const char* id, const char* label_text, float& value, float least, float most,
+                          const char* help) {
+    label(label_text);
+    const float before = value;
+    ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, least == 0 && value == 0 ? "off" : "%.3g",
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    keep_within(value, before, least, most);
+    note(id, help);
+    return value != before;
+}
+
+bool Controls::number(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
+    label(label_text);
+    const int before = value;
+    ImGui::InputInt(hidden_label(id).c_str(), &value, 1, 16, ImGuiInputTextFlags_EnterReturnsTrue);
+    value = std::clamp(value, least, most);
+    note(id, help);
+    return value != before;
+}
+
+bool Controls::toggle(const char* id, const char* label_text, bool& value, const char* help) {
+    label(label_text);
+    const bool changed = ImGui::Checkbox(hidden_label(id).c_str(), &value);
+    note(id, help);
+    return changed;
+}
+
+bool Controls::button(const char* id, const char* label_text, const char* help, float width) {
+    const bool pressed = ImGui::Button((std::string(label_text) + "##" + id).c_str(), {width, 0});
+    note(id, help);
+    return pressed;
+}
+
+void heading(const char* text) {
+    ImGui::Spacing();
+    ImGui::PushFont(bold_font());
+    ImGui::TextUnformatted(text);
+    ImGui::PopFont();
+    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    const float y = std::floor((min.y + max.y) * 0.5f);
+    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+    ImGui::GetWindowDrawList()->AddLine({max.x + ImGui::GetFontSize() * 0.5f, y}, {right, y}, colours::line);
+}
+
+} // namespace tessera

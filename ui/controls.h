@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// Where a control was drawn, in screen units.
+struct ControlRect {
+    glm::vec2 min{0};
+    glm::vec2 max{0};
+    glm::vec2 center() const { return (min + max) * 0.5f; }
+    bool operator==(const ControlRect&) const = default;
+};
+
+/// One entry of a choice.
+struct ChoiceItem {
+    std::string id;    ///< unique in the choice
+    std::string label; ///< as listed
+    std::string help;
+};
+
+/// The widgets of the viewer: each has an id, a tooltip, and a row of its own with a label unless said otherwise,
+/// and tells whether it changed its value. Notes where each was drawn, so that tests and scripts can point at it
+/// by id.
+class Controls {
+public:
+    /// `time` in seconds.
+    void begin_frame(double time);
+
+    /// Wide as the row; the choice's items are noted as "id/item id" while the list is open.
+    bool choice(const char* id, const char* label, std::span<const ChoiceItem> items, int& index,
+                const char* help);
+    /// The same of a given width and without a label, showing `shown` instead of the item's label.
+    bool bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index, float width,
+                     const char* help);
+    bool slider(const char* id, const char* label, int& value, int least, int most, const char* help);
+    bool slider(const char* id, const char* label, float& value, float least, float most, const char* format,
+                const char* help);
+    /// Logarithmic. If `least` is 0, the left end is 0 and reads "off".
+    bool log_slider(const char* id, const char* label, float& value, float least, float most, const char* help);
+    bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
+    bool toggle(const char* id, const char* label, bool& value, const char* help);
+    /// No row of its own: as wide as its label, or `width`.
+    bool button(const char* id, const char* label, const char* help, float width = 0);
+
+    /// Notes and explains the item just drawn: for what is drawn without these widgets.
+    void note(const char* id, const char* help);
+
+    /// By id, of this frame or the last whole one.
+    const std::map<std::string, ControlRect, std::less<>>& rects() const { return rects_; }
+
+    /// Whether a tooltip is about to appear, so that a frame is due soon though nothing happens.
+    bool tooltip_pending() const { return tooltip_pending_; }
+
+private:
+    void label(const char* text) const;
+
+    std::map<std::string, ControlRect, std::less<>> rects_;
+    std::string hovered_;
+    std::string hovered_before_;
+    double hovered_since_ = 0;
+    double time_ = 0;
+    bool tooltip_pending_ = false;
+};
+
+/// A heading in a panel, with a line.
+void heading(const char* text);
+
+} // namespace tessera

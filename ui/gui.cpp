@@ -1,0 +1,69 @@
+#include "ui/gui.h"
+
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <glad/gl.h>
+#include <imgui.h>
+#include <imgui_impl_opengl3.h>
+
+namespace tessera {
+
+namespace {
+float sane_scale(float scale) {
+    return scale > 0 ? std::clamp(scale, 0.5f, 4.0f) : 1.0f;
+}
+} // namespace
+
+Gui::Gui(float scale) : scale_(sane_scale(scale)) {
+    IMGUI_CHECKVERSION();
+    context_ = ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().LogFilename = nullptr;
+    apply_theme(scale_);
+    if (ImGui_ImplOpenGL3_Init("#version 330 core"))
+        return;
+    ImGui::DestroyContext(context_);
+    throw std::runtime_error("Dear ImGui cannot draw on this OpenGL");
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext(context_);
+}
+
+void Gui::set_scale(float scale) {
+    if (sane_scale(scale) == scale_)
+        return;
+    scale_ = sane_scale(scale);
+    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // made again, with the new fonts, at the next frame
+    apply_theme(scale_);
+}
+
+void Gui::begin_frame(glm::vec2 size, float pixels_a_unit, float seconds) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {size.x, size.y};
+    io.DisplayFramebufferScale = {pixels_a_unit, pixels_a_unit};
+    io.DeltaTime = std::max(seconds, 1e-4f);
+    begin_window_frame();
+}
+
+void Gui::begin_window_frame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Gui::end_frame() {
+    ImGui::Render();
+    const ImGuiIO& io = ImGui::GetIO();
+    glViewport(0, 0, static_cast<GLsizei>(io.DisplaySize.x * io.DisplayFramebufferScale.x),
+               static_cast<GLsizei>(io.DisplaySize.y * io.DisplayFramebufferScale.y));
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.04f, 0.04f, 0.045f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+} // namespace tessera

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// Where an image lies in a pane, in the pane's pixels.
+struct Placement {
+    glm::vec2 origin{0}; ///< of the image's top left corner
+    glm::vec2 extent{0};
+
+    /// From pixels of the pane to fractions of the image: (0,0) is its top left, (1,1) its bottom right corner.
+    glm::vec2 to_image(glm::vec2 pane_pixel) const { return (pane_pixel - origin) / extent; }
+};
+
+/// Zoom and pan of the picture itself, shared by all panes: independent of an image's number of pixels.
+class ImageView {
+public:
+    Placement place(glm::ivec2 image_size, glm::ivec2 pane_size) const;
+
+    /// Enlarges by `factor`; what lies under the pane's pixel stays there.
+    void zoom_at(glm::vec2 pane_pixel, float factor, glm::ivec2 image_size, glm::ivec2 pane_size);
+    /// Moves the picture by so many pixels.
+    void pan(glm::vec2 pixels, glm::ivec2 image_size, glm::ivec2 pane_size);
+    /// The whole picture, in the middle.
+    void fit() { *this = ImageView(); }
+
+    float zoom() const { return zoom_; } ///< 1: the whole picture fits
+    bool operator==(const ImageView&) const = default;
+
+private:
+    float zoom_ = 1;
+    glm::vec2 center_{0.5f}; // the point of the image that lies in the middle of the pane, as a fraction
+};
+
+} // namespace tessera

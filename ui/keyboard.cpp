@@ -1,0 +1,59 @@
+#include "ui/keyboard.h"
+
+#include <array>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+constexpr int place(Key key) {
+    return static_cast<int>(key);
+}
+
+std::string name(Key key) {
+    if (key >= Key::a && key <= Key::z)
+        return std::string(1, static_cast<char>('A' + place(key) - place(Key::a)));
+    if (key >= Key::digit0 && key <= Key::digit9)
+        return std::string(1, static_cast<char>('0' + place(key) - place(Key::digit0)));
+    if (key >= Key::f1 && key <= Key::f12)
+        return "F" + std::to_string(1 + place(key) - place(Key::f1));
+    static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift"};
+    const int index = place(key) - place(Key::left);
+    return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
+}
+
+} // namespace
+
+Key key_of_character(char character) {
+    if (character >= 'a' && character <= 'z')
+        return static_cast<Key>(place(Key::a) + character - 'a');
+    if (character >= 'A' && character <= 'Z')
+        return static_cast<Key>(place(Key::a) + character - 'A');
+    if (character >= '0' && character <= '9')
+        return static_cast<Key>(place(Key::digit0) + character - '0');
+    return Key::none;
+}
+
+std::string to_string(const Shortcut& shortcut) {
+    if (shortcut.character != 0)
+        return std::string(1, shortcut.character);
+    return (shortcut.ctrl ? "Ctrl+" : "") + std::string(shortcut.shift ? "Shift+" : "") + name(shortcut.key);
+}
+
+void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
+    // With Ctrl it is a shortcut, and does not count as held: Ctrl+S must not fly back.
+    down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;
+    if (named != Key::none)
+        typed_.push_back({named, ctrl, shift, 0});
+}
+
+void Keyboard::release(Key physical) {
+    down_[static_cast<std::size_t>(physical)] = false;
+}
+
+std::vector<Shortcut> Keyboard::take() {
+    return std::exchange(typed_, {});
+}
+
+} // namespace tessera

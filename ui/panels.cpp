@@ -1,0 +1,187 @@
+#include "ui/panels.h"
+
+#include "ui/actions.h"
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+
+void draw_menu_item(Controls& controls, const Action& action, ViewerState& state) {
+    const bool checked = action.checked != nullptr && action.checked(state);
+    if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
+        action.run(state);
+    controls.note((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
+}
+
+void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
+    const bool open = ImGui::BeginMenu(menu);
+    controls.note((std::string("menu ") + menu).c_str(), nullptr);
+    if (!open)
+        return;
+    for (const Action& action : actions()) {
+        if (std::strcmp(action.menu, menu) == 0)
+            draw_menu_item(controls, action, state);
+    }
+    ImGui::EndMenu();
+}
+
+// At the right end of the menu bar: the scene, and whether there is something to read.
+void draw_menu_bar_end(Controls& controls, ViewerState& state) {
+    const std::size_t count = state.messages.size();
+    const bool errors = std::any_of(state.messages.begin(), state.messages.end(),
+                                    [](const Message& m) { return m.kind == Message::Kind::error; });
+    const char* icon = errors ? icons().warning : icons().note;
+    const std::string button =
+        std::string(icon) + (*icon ? " " : "") + std::to_string(count) + (count == 1 ? " message" : " messages");
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float button_width = count > 0 ? ImGui::CalcTextSize(button.c_str()).x + 3 * spacing : 0;
+    const float name_width = ImGui::CalcTextSize(state.scene_name.c_str()).x;
+    const float x = ImGui::GetWindowWidth() - name_width - button_width - 2 * spacing;
+    if (x > ImGui::GetCursorPosX())
+        ImGui::SetCursorPosX(x);
+    ImGui::TextDisabled("%s", state.scene_name.c_str());
+    if (count == 0)
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
+    if (ImGui::MenuItem((button + "##messages").c_str()))
+        state.show_messages = !state.show_messages;
+    ImGui::PopStyleColor();
+    controls.note("messages", "Shows or hides the messages (F2).");
+}
+
+void draw_message(const Message& message) {
+    const bool error = message.kind == Message::Kind::error;
+    const char* icon = error ? icons().warning : icons().note;
+    ImGui::PushStyleColor(ImGuiCol_Text, error ? colours::error : colours::dim_text);
+    ImGui::TextUnformatted(*icon ? icon : error ? "error" : "note");
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    ImGui::PushFont(mono_font());
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(message.text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopFont();
+}
+
+void draw_action_table() {
+    if (!ImGui::BeginTable("actions", 3, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
+        return;
+    ImGui::TableSetupColumn("key");
+    ImGui::TableSetupColumn("name");
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    for (const Action& action : actions()) {
+        std::string keys = to_string(action.shortcut);
+        if (action.second_shortcut != Shortcut{})
+            keys += "   " + to_string(action.second_shortcut);
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+        ImGui::TextUnformatted(keys.c_str());
+        ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(action.name);
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextUnformatted(action.help);
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleColor();
+    }
+    ImGui::EndTable();
+}
+
+void draw_gesture_table() {
+    if (!ImGui::BeginTable("gestures", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
+        return;
+    ImGui::TableSetupColumn("input");
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    for (const Gesture& gesture : gestures()) {
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+        ImGui::TextUnformatted(gesture.input);
+        ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(gesture.help);
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+float draw_menu_bar(Controls& controls, ViewerState& state) {
+    if (!ImGui::BeginMainMenuBar())
+        return 0;
+    const char* previous = "";
+    for (const Action& action : actions()) {
+        if (std::strcmp(action.menu, previous) != 0)
+            draw_menu(controls, action.menu, state);
+        previous = action.menu;
+    }
+    draw_menu_bar_end(controls, state);
+    const float height = ImGui::GetWindowHeight();
+    ImGui::EndMainMenuBar();
+    return height;
+}
+
+void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Messages", nullptr, overlay_flags ^ ImGuiWindowFlags_NoScrollbar)) {
+        if (controls.button("clear_messages", "Clear", "Forgets all messages.")) {
+            state.messages.clear();
+            state.show_messages = false;
+        }
+        ImGui::SameLine();
+        if (controls.button("hide_messages", "Hide", "Hides the list; F2 shows it again."))
+            state.show_messages = false;
+        for (const Message& message : state.messages)
+            draw_message(message);
+    }
+    ImGui::End();
+}
+
+void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
+    const float font = ImGui::GetFontSize();
+    const glm::vec2 size(std::min(screen.x, font * 52), std::min(screen.y, font * 50));
+    ImGui::SetNextWindowPos({(screen.x - size.x) * 0.5f, (screen.y - size.y) * 0.5f});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    if (ImGui::Begin("Help", nullptr, overlay_flags ^ ImGuiWindowFlags_NoScrollbar)) {
+        heading("Keys");
+        draw_action_table();
+        heading("Mouse and camera");
+        draw_gesture_table();
+        ImGui::Spacing();
+        if (controls.button("close_help", "Close", "Closes this page (F1, ? or Esc)."))
+            state.show_help = false;
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
+}
+
+void draw_loading(const ScreenRect& where, const std::string& what, double seconds) {
+    char text[512];
+    std::snprintf(text, sizeof text, "Loading %s ...  %.1f s", what.c_str(), seconds);
+    const ImVec2 text_size = ImGui::CalcTextSize(text);
+    const float pad = ImGui::GetFontSize();
+    const glm::vec2 center = (where.min + where.max) * 0.5f;
+    const ImVec2 min(center.x - text_size.x * 0.5f - pad, center.y - text_size.y * 0.5f - pad);
+    const ImVec2 max(center.x + text_size.x * 0.5f + pad, center.y + text_size.y * 0.5f + pad);
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    list.AddRectFilled(min, max, IM_COL32(20, 22, 26, 230), pad * 0.5f);
+    list.AddRect(min, max, colours::line, pad * 0.5f);
+    list.AddText({min.x + pad, min.y + pad}, colours::text, text);
+}
+
+} // namespace tessera

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "ui/controls.h"
+#include "ui/viewer_state.h"
+
+namespace tessera {
+
+/// The windows around the pictures. Each is drawn into the current Dear ImGui frame and changes the state only.
+
+struct ScreenRect {
+    glm::vec2 min{0};
+    glm::vec2 max{0};
+    glm::vec2 size() const { return max - min; }
+};
+
+/// The menus of all actions, across the top; returns its height, screen units.
+float draw_menu_bar(Controls& controls, ViewerState& state);
+
+/// Settings of the active pane (of all, when linked), of the picture and its size.
+void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
+/// The messages, newest last; over the pictures, whose size must not depend on them.
+void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
+/// All actions and gestures, over everything.
+void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
+
+/// "Loading ...", over the pictures.
+void draw_loading(const ScreenRect& where, const std::string& what, double seconds);
+
+} // namespace tessera

@@ -1,0 +1,56 @@
+#include "ui/render_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+bool has_small_factors(int n) {
+    for (int factor : {2, 3, 5}) {
+        while (n % factor == 0)
+            n /= factor;
+    }
+    return n == 1;
+}
+
+// The greatest such number up to n.
+int smooth_below(int n) {
+    while (n > 1 && !has_small_factors(n))
+        --n;
+    return n;
+}
+
+glm::ivec2 within_limits(glm::vec2 size) {
+    const glm::ivec2 rounded(glm::round(glm::clamp(size, glm::vec2(1), glm::vec2(most_render_pixels_an_edge))));
+    return glm::max(rounded, glm::ivec2(1));
+}
+
+glm::ivec2 fitting(glm::ivec2 film_size, glm::ivec2 pane_size, float scale) {
+    const glm::vec2 film = glm::max(film_size, glm::ivec2(1));
+    const glm::vec2 pane = glm::max(pane_size, glm::ivec2(1));
+    const float fit = std::min(pane.x / film.x, pane.y / film.y) * scale;
+    const int width = smooth_below(within_limits(glm::floor(film * fit)).x);
+    const float height = static_cast<float>(width) * film.y / film.x;
+    return within_limits({static_cast<float>(width), std::min(std::round(height), std::ceil(pane.y * scale))});
+}
+
+} // namespace
+
+glm::ivec2 render_size(const SizeChoice& choice, glm::ivec2 film_size, glm::ivec2 pane_size) {
+    const float scale = std::clamp(choice.scale, 0.01f, 2.0f);
+    switch (choice.base) {
+    case SizeChoice::Base::pane:
+        return fitting(film_size, pane_size, scale);
+    case SizeChoice::Base::scene:
+        return within_limits(glm::vec2(film_size) * scale);
+    case SizeChoice::Base::custom:
+        return within_limits(glm::vec2(choice.custom) * scale);
+    }
+    return {1, 1};
+}
+
+} // namespace tessera

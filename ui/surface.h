@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+class Viewer;
+
+/// Called after each frame is drawn and before it is shown; false ends the loop.
+using AfterFrame = std::function<bool()>;
+
+struct SurfaceOptions {
+    std::string title = "Tessera";
+    glm::ivec2 size{1440, 810};
+    float ui_scale = 0;      ///< of text and controls; 0: as the display says
+    bool exact_size = false; ///< keep the size even if the screen is smaller
+};
+
+/// Something that a viewer is drawn on, with its OpenGL context and Dear ImGui. The viewer must end before it.
+class Surface {
+public:
+    virtual ~Surface() = default;
+
+    /// Draws frames when they are due, and sleeps between them, until the user quits or `after_frame` says so.
+    virtual void run(Viewer& viewer, const AfterFrame& after_frame) = 0;
+    /// Makes run() draw a frame soon. From any thread.
+    virtual void wake() = 0;
+    /// Of the framebuffer, pixels.
+    virtual glm::ivec2 pixels() const = 0;
+};
+
+/// A window on the screen. Null, and why in `error`, where there is no display or no OpenGL 3.3.
+std::unique_ptr<Surface> open_window(const SurfaceOptions& options, std::string& error);
+
+/// A place in memory, by EGL without a display. Takes no input. Null, and why in `error`, where that is not
+/// offered.
+std::unique_ptr<Surface> open_offscreen(const SurfaceOptions& options, std::string& error);
+
+} // namespace tessera

@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include <glad/gl.h>
+#define GLFW_INCLUDE_NONE
+#include "ui/gui.h"
+#include "ui/surface.h"
+#include "ui/viewer.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr double frame_seconds = 1.0 / 60;
+constexpr int frames_after_input = 3; // Dear ImGui settles sizes and popups a frame or two later
+constexpr double longest_sleep = 1.0; // a lost wake-up shows no longer than this
+
+std::string last_glfw_error;
+
+void note_glfw_error(int, const char* text) {
+    last_glfw_error = text;
+}
+
+Key key_of_glfw(int key) {
+    if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+        return key_of_character(static_cast<char>('a' + key - GLFW_KEY_A));
+    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)
+        return key_of_character(static_cast<char>('0' + key - GLFW_KEY_0));
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
+        return static_cast<Key>(static_cast<int>(Key::f1) + key - GLFW_KEY_F1);
+    switch (key) {
+    case GLFW_KEY_LEFT:
+        return Key::left;
+    case GLFW_KEY_RIGHT:
+        return Key::right;
+    case GLFW_KEY_UP:
+        return Key::up;
+    case GLFW_KEY_DOWN:
+        return Key::down;
+    case GLFW_KEY_HOME:
+        return Key::home;
+    case GLFW_KEY_SPACE:
+        return Key::space;
+    case GLFW_KEY_TAB:
+        return Key::tab;
+    case GLFW_KEY_ESCAPE:
+        return Key::escape;
+    case GLFW_KEY_LEFT_SHIFT:
+    case GLFW_KEY_RIGHT_SHIFT:
+        return Key::shift;
+    default:
+        return Key::none;
+    }
+}
+
+// What is printed on the key: GLFW's own letters are places on an American keyboard.
+Key named_key(int key, int scancode) {
+    const char* name = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, scancode) : nullptr;
+    const Key named = name != nullptr && name[1] == 0 ? key_of_character(name[0]) : Key::none;
+    return named != Key::none ? named : key_of_glfw(key);
+}
+
+glm::ivec2 on_screen(glm::ivec2 size) {
+    glm::ivec2 corner(0), room(0);
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+    return glm::max(room.x > 0 && room.y > 0 ? glm::min(size, room) : size, glm::ivec2(1));
+}
+
+class Window final : public Surface {
+public:
+    ~Window() override;
+    std::string open(const SurfaceOptions& options);
+
+    void run(Viewer& viewer, const AfterFrame& after_frame) override;
+    void wake() override;
+    glm::ivec2 pixels() const override;
+
+private:
+    void install_callbacks();
+    void wait_until_due(double next_frame_in);
+    static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+    static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+    static void on_character(GLFWwindow* window, unsigned character);
+    static void on_focus(GLFWwindow* window, int focused);
+    void input_came() { frames_due_ = frames_after_input; }
+
+    GLFWwindow* window_ = nullptr;
+    std::unique_ptr<Gui> gui_;
+    bool backend_ready_ = false;
+    float fixed_scale_ = 0;
+    float wanted_scale_ = 1;
+    Keyboard* keyboard_ = nullptr; // of the viewer that runs
+    int frames_due_ = frames_after_input;
+    double last_frame_ = 0;
+    std::atomic<bool> woken_{false};
+};
+
+Window::~Window() {
+    if (backend_ready_)
+        ImGui_ImplGlfw_Shutdown();
+    gui_.reset();
+    if (window_ != nullptr)
+        glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+std::string Window::open(const SurfaceOptions& options) {
+    glfwSetErrorCallback(note_glfw_error);
+    if (!glfwInit())
+        return last_glfw_error;
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    const glm::ivec2 size = options.exact_size ? glm::max(options.size, glm::ivec2(1)) : on_screen(options.size);
+    window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr)
+        return last_glfw_error;
+    glfwMakeContextCurrent(window_);
+    if (gladLoadGL(glfwGetProcAddress) == 0)
+        return "OpenGL cannot be loaded";
+    glfwSwapInterval(1);
+
+    float display_scale = 1, unused = 1;
+    glfwGetWindowContentScale(window_, &display_scale, &unused);
+    fixed_scale_ = options.ui_scale;
+    wanted_scale_ = fixed_scale_ > 0 ? fixed_scale_ : display_scale;
+    gui_ = std::make_unique<Gui>(wanted_scale_);
+    glfwSetWindowUserPointer(window_, this);
+    install_callbacks(); // before Dear ImGui's, which call these
+    backend_ready_ = ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    return backend_ready_ ? "" : "Dear ImGui cannot use the window";
+}
+
+void Window::install_callbacks() {
+    glfwSetKeyCallback(window_, on_key);
+    glfwSetCharCallback(window_, on_character);
+    glfwSetWindowFocusCallback(window_, on_focus);
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { of(w).input_came(); });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { of(w).input_came(); });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_came(); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).input_came(); });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float scale, float) {
+        if (of(w).fixed_scale_ <= 0)
+            of(w).wanted_scale_ = scale;
+        of(w).input_came();
+    });
+}
+
+void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
+    Window& self = of(window);
+    self.input_came();
+    if (self.keyboard_ == nullptr)
+        return;
+    if (action == GLFW_RELEASE)
+        self.keyboard_->release(key_of_glfw(key));
+    else if (action == GLFW_PRESS)
+        self.keyboard_->press(key_of_glfw(key), named_key(key, scancode), (mods & GLFW_MOD_CONTROL) != 0,
+                              (mods & GLFW_MOD_SHIFT) != 0);
+}
+
+void Window::on_character(GLFWwindow* window, unsigned character) {
+    Window& self = of(window);
+    self.input_came();
+    const bool punctuation =
+        character > ' ' && character < 127 && key_of_character(static_cast<char>(character)) == Key::none;
+    if (self.keyboard_ != nullptr && punctuation)
+        self.keyboard_->type(static_cast<char>(character));
+}
+
+void Window::on_focus(GLFWwindow* window, int focused) {
+    Window& self = of(window);
+    self.input_came();
+    if (self.keyboard_ != nullptr && focused == GLFW_FALSE)
+        self.keyboard_->release_all();
+}
+
+void Window::wake() {
+    woken_ = true;
+    glfwPostEmptyEvent();
+}
+
+glm::ivec2 Window::pixels() const {
+    glm::ivec2 size;
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return size;
+}
+
+// Returns when a frame is due or something happened: at most 60 frames a second, none while nothing changes.
+void Window::wait_until_due(double next_frame_in) {
+    const double now = glfwGetTime();
+    if (woken_.exchange(false))
+        frames_due_ = std::max(frames_due_, 1);
+    const double pause = frames_due_ > 0 ? frame_seconds : std::max(next_frame_in, frame_seconds);
+    const double left = last_frame_ + pause - now;
+    if (left > 0) {
+        glfwWaitEventsTimeout(std::min(left, longest_sleep));
+        return;
+    }
+    glfwPollEvents();
+    frames_due_ = std::max(frames_due_, 1);
+}
+
+void Window::run(Viewer& viewer, const AfterFrame& after_frame) {
+    keyboard_ = &viewer.keyboard();
+    last_frame_ = glfwGetTime() - frame_seconds;
+    while (!glfwWindowShouldClose(window_) && !viewer.state().quit) {
+        const double before = last_frame_;
+        wait_until_due(viewer.next_frame_in());
+        const double now = glfwGetTime();
+        const glm::ivec2 size = pixels();
+        const bool too_early = now - before < frame_seconds;
+        if (size.x < 1 || size.y < 1) {
+            glfwWaitEventsTimeout(longest_sleep); // minimised
+            continue;
+        }
+        if (frames_due_ == 0 || too_early)
+            continue;
+        --frames_due_;
+        last_frame_ = now;
+        gui_->set_scale(wanted_scale_);
+        ImGui_ImplGlfw_NewFrame();
+        gui_->begin_window_frame();
+        viewer.draw_frame();
+        gui_->end_frame();
+        if (after_frame && !after_frame())
+            break;
+        glfwSwapBuffers(window_);
+    }
+    keyboard_ = nullptr;
+}
+
+} // namespace
+
+std::unique_ptr<Surface> open_window(const SurfaceOptions& options, std::string& error) {
+    auto window = std::make_unique<Window>();
+    error = window->open(options);
+    return error.empty() ? std::move(window) : nullptr;
+}
+
+} // namespace tessera
