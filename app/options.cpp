@@ -46,6 +46,7 @@ struct Words {
     int max_depth = 0;
     int spp = 0;
     double time = 0;
+    double seconds = 5;
     float alpha = 0.2f;
     int threads = 0;
     RenderSettings settings;
@@ -150,6 +151,9 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
+    command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }
 
@@ -182,6 +186,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     ContactSheetOptions sheet;
     sheet.scene = source;
     sheet.threads = threads;
+    sheet.seconds = words.seconds;
     if (!words.size.empty())
         sheet.size = parse_size(words.size);
     if (!options.screenshot.empty())
@@ -196,7 +201,8 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
 int run_command_line(int argc, char** argv) {
     CLI::App app("Tessera: explore light transport by path reuse", "tessera");
     app.set_version_flag("--version", TESSERA_VERSION);
-    app.require_subcommand(1);
+    // The last of a repeated option counts.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Words render_words, view_words, info_words;
     RenderOptions render_options;
     CompareOptions compare_options;
@@ -211,6 +217,8 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
+    if (app.get_subcommands().empty())
+        throw BadInput("no command was given: view, render, compare or info (tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("view"))

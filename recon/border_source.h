@@ -1,19 +1,19 @@
 #pragma once
 
-#include <vector>
-
 #include "recon/parallel.h"
+
+#include <vector>
 
 namespace tessera {
 
 /// Lets a solver for images of `extended` columns serve images of fewer columns.
 ///
-/// On the extended grid the equation is A J = B, with B = b inside (x < width), and beyond the border nothing but an
-/// unknown source s(y) in the first column there (x = width). If no flux crosses the border, J(width-1, y) =
-/// J(width, y) for all y, then J solves the equation of the smaller image, which has just that for its border. Let Z
-/// be the answer without source. Each wave cos(pi l (2y+1) / (2h)) down the columns, with eigenvalue nu_l =
-/// 4 sin^2(pi l / (2h)), is on its own: with Green's function G_l along the row for mu = alpha^2 + nu_l, the jump of Z
-/// over the border must be undone by the source,
+/// On the extended grid the equation is A J = B, with B = b inside (x < width), and beyond the border nothing but
+/// an unknown source s(y) in the first column there (x = width). If no flux crosses the border, J(width-1, y) =
+/// J(width, y) for all y, then J solves the equation of the smaller image, which has just that for its border. Let
+/// Z be the answer without source. Each wave cos(pi l (2y+1) / (2h)) down the columns, with eigenvalue nu_l = 4
+/// sin^2(pi l / (2h)), is on its own: with Green's function G_l along the row for mu = alpha^2 + nu_l, the jump of
+/// Z over the border must be undone by the source,
 ///     Z_l(width-1) - Z_l(width) = (G_l(width, width) - G_l(width-1, width)) s_l .
 /// G_l is a product of hyperbolic cosines in theta, 2 cosh(theta) = 2 + mu, which leaves (M = extended, N = width)
 ///     s_l / jump_l = (e^theta + 1) (1 - e^(-2 M theta)) / ((1 + e^(-(2M-2N-1) theta)) (1 - e^(-2 N theta))) ,

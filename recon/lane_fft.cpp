@@ -14,10 +14,18 @@ struct Complex {
     Lanes im;
 };
 
-inline Complex operator+(const Complex& a, const Complex& b) { return {a.re + b.re, a.im + b.im}; }
-inline Complex operator-(const Complex& a, const Complex& b) { return {a.re - b.re, a.im - b.im}; }
-inline Complex operator*(float s, const Complex& a) { return {s * a.re, s * a.im}; }
-inline Complex times_minus_i(const Complex& a) { return {a.im, -a.re}; }
+inline Complex operator+(const Complex& a, const Complex& b) {
+    return {a.re + b.re, a.im + b.im};
+}
+inline Complex operator-(const Complex& a, const Complex& b) {
+    return {a.re - b.re, a.im - b.im};
+}
+inline Complex operator*(float s, const Complex& a) {
+    return {s * a.re, s * a.im};
+}
+inline Complex times_minus_i(const Complex& a) {
+    return {a.im, -a.re};
+}
 inline Complex times(float re, float im, const Complex& a) {
     return {re * a.re - im * a.im, re * a.im + im * a.re};
 }
@@ -131,17 +139,27 @@ ComplexLanes LaneFft::transform(ComplexLanes data, ComplexLanes scratch) const {
     for (const Pass& pass : passes_) {
         const float* twiddles = twiddles_.data() + pass.first_twiddle;
         switch (pass.radix) {
-        case 2: run_pass<2>(data, scratch, pass.groups, pass.run, twiddles); break;
-        case 3: run_pass<3>(data, scratch, pass.groups, pass.run, twiddles); break;
-        case 4: run_pass<4>(data, scratch, pass.groups, pass.run, twiddles); break;
-        default: run_pass<5>(data, scratch, pass.groups, pass.run, twiddles); break;
+        case 2:
+            run_pass<2>(data, scratch, pass.groups, pass.run, twiddles);
+            break;
+        case 3:
+            run_pass<3>(data, scratch, pass.groups, pass.run, twiddles);
+            break;
+        case 4:
+            run_pass<4>(data, scratch, pass.groups, pass.run, twiddles);
+            break;
+        default:
+            run_pass<5>(data, scratch, pass.groups, pass.run, twiddles);
+            break;
         }
         std::swap(data, scratch);
     }
     return data;
 }
 
-bool is_smooth(int size) { return strip_factor(strip_factor(strip_factor(size, 2), 3), 5) == 1; }
+bool is_smooth(int size) {
+    return strip_factor(strip_factor(strip_factor(size, 2), 3), 5) == 1;
+}
 
 int next_smooth(int size) {
     while (!is_smooth(size))

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <vector>
-
 #include "recon/lanes.h"
+
+#include <vector>
 
 namespace tessera {
 
-/// `lanes` complex sequences side by side: element n of sequence l is at [n * lanes + l], real and imaginary parts apart.
+/// `lanes` complex sequences side by side: element n of sequence l is at [n * lanes + l], real and imaginary parts
+/// apart.
 struct ComplexLanes {
     float* re;
     float* im;
@@ -23,8 +24,8 @@ public:
 
     int size() const { return size_; }
 
-    /// Transforms `data`; both arguments hold size() * lanes values and are overwritten. Returns the one of the two
-    /// that holds the result. With re and im of both exchanged it is the inverse transform times size().
+    /// Transforms `data`; both arguments hold size() * lanes values and are overwritten. Returns the one of the
+    /// two that holds the result. With re and im of both exchanged it is the inverse transform times size().
     ComplexLanes transform(ComplexLanes data, ComplexLanes scratch) const;
 
 private:

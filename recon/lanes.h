@@ -21,7 +21,9 @@ inline Lanes load(const float* from) {
     return value;
 }
 
-inline void store(float* to, const Lanes& value) { std::memcpy(to, &value, sizeof(value)); }
+inline void store(float* to, const Lanes& value) {
+    std::memcpy(to, &value, sizeof(value));
+}
 
 /// Transposes rows[l][j] into rows[j][l].
 #ifdef __AVX__

@@ -15,7 +15,9 @@ namespace tessera {
 
 namespace {
 
-double mean_channel(glm::dvec3 c) { return (c.r + c.g + c.b) / 3; }
+double mean_channel(glm::dvec3 c) {
+    return (c.r + c.g + c.b) / 3;
+}
 
 void check_sizes(const RgbImage& a, const RgbImage& b) {
     if (a.width() != b.width() || a.height() != b.height())

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
-
 #include "recon/image.h"
+
+#include <cstddef>
 
 namespace tessera {
 
@@ -19,7 +19,7 @@ struct ErrorMetrics {
     double mse = 0;                  ///< mean of (I - r)^2
     double mape = 0;                 ///< mean of |I - r| / (|r| + mape_epsilon); 1 is 100 %
     double mean_ratio = 0;           ///< mean of I over mean of r
-    std::size_t bad_pixels = 0;      ///< pixels of I that are not finite; if there are any, the figures are not either
+    std::size_t bad_pixels = 0; ///< pixels of I that are not finite; if there are any, the figures are not either
 };
 
 /// Throws std::invalid_argument if the sizes differ or the images are empty.
@@ -27,13 +27,14 @@ ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference);
 
 /// An estimate of relative_mse to a noiseless reference, from two noisy ones.
 struct FloorFreeError {
-    double relative_mse = 0;   ///< mean of (I - r1)(I - r2) / (r^2 + epsilon), r = (r1 + r2) / 2
-    double standard_error = 0; ///< of it, from how blocks of 16 by 16 pixels differ (pixels, if there are few blocks)
+    double relative_mse = 0; ///< mean of (I - r1)(I - r2) / (r^2 + epsilon), r = (r1 + r2) / 2
+    double standard_error =
+        0; ///< of it, from how blocks of 16 by 16 pixels differ (pixels, if there are few blocks)
 };
 
-/// The noises of two independent references do not correlate, so that their products vanish in the mean, and an image
-/// equal to the truth gets 0 give or take the standard error. What is left, as r^2 is noisy too, is of the order of
-/// the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as measure_error does.
+/// The noises of two independent references do not correlate, so that their products vanish in the mean, and an
+/// image equal to the truth gets 0 give or take the standard error. What is left, as r^2 is noisy too, is of the
+/// order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as measure_error does.
 FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
                                         const RgbImage& reference2);
 

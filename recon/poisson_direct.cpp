@@ -10,7 +10,8 @@ namespace tessera {
 namespace {
 
 constexpr int group_rows = 2 * lanes; // what one transform takes
-constexpr int chunk_pixels = 64;      // of a row, that are handled at a time: the chunks of a group stay in the L1 cache
+constexpr int chunk_pixels =
+    64; // of a row, that are handled at a time: the chunks of a group stay in the L1 cache
 
 using Chunk = float[group_rows][3 * chunk_pixels];
 
@@ -20,7 +21,9 @@ int checked_size(int size) {
     return size;
 }
 
-int refinements(float alpha) { return alpha >= 0.1f ? 0 : alpha >= 0.02f ? 1 : 2; }
+int refinements(float alpha) {
+    return alpha >= 0.1f ? 0 : alpha >= 0.02f ? 1 : 2;
+}
 
 } // namespace
 
@@ -46,10 +49,13 @@ struct PoissonSolver::Scratch {
 namespace {
 
 /// The half of a group that row l of the lanes belongs to.
-float* half_of(ComplexLanes lines, int half) { return half == 0 ? lines.re : lines.im; }
+float* half_of(ComplexLanes lines, int half) {
+    return half == 0 ? lines.re : lines.im;
+}
 
 /// From rows of interleaved channels, `count` pixels from x = first on, to lanes.
-void chunk_to_lines(const Chunk& chunk, const LaneDct& dct, int first, int count, const ComplexLanes (&channels)[3]) {
+void chunk_to_lines(const Chunk& chunk, const LaneDct& dct, int first, int count,
+                    const ComplexLanes (&channels)[3]) {
     for (int value = 0; value < 3 * count; value += lanes) {
         for (int half = 0; half < 2; ++half) {
             Lanes tile[lanes];

@@ -1,21 +1,22 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
 #include "recon/border_source.h"
 #include "recon/lane_dct.h"
 #include "recon/poisson_problem.h"
 #include "recon/tridiagonal.h"
 
+#include <memory>
+#include <mutex>
+#include <vector>
+
 namespace tessera {
 
 /// Solves screened Poisson problems of one size directly.
 ///
-/// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. A row's Dx^T Dx, the second difference with
-/// free ends, has the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)) for eigenvectors, with eigenvalues
-/// lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform (DCT-II) of rows,
+/// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. A row's Dx^T Dx, the second difference
+/// with free ends, has the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)) for eigenvectors, with eigenvalues
+/// lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform (DCT-II) of
+/// rows,
 ///     (alpha^2 + Dy^T Dy) I + I Dx^T Dx = b   becomes, for the columns u_k of I C and b_k of b C,
 ///     (alpha^2 + lambda_k + Dy^T Dy) u_k = b_k :
 /// one tridiagonal equation for each k. So: transform the rows, solve down the columns, transform back. Rows are
@@ -24,8 +25,8 @@ namespace tessera {
 /// The transform wants widths that are products of 2, 3 and 5. Any other width is solved on the next such width
 /// with a source that makes up for the columns that are too many (BorderSource).
 ///
-/// Rounding in low frequencies is blown up by 1 / alpha^2: for small alpha the answer is refined by solving once or
-/// twice again for what it still lacks, A u = b - A I.
+/// Rounding in low frequencies is blown up by 1 / alpha^2: for small alpha the answer is refined by solving once
+/// or twice again for what it still lacks, A u = b - A I.
 class PoissonSolver {
 public:
     /// Both >= 1.
@@ -44,7 +45,8 @@ private:
     enum class Target { image, correction };
 
     void prepare(float alpha);
-    void solve_once(const PoissonProblem& problem, Target target, RgbImage& image, const ParallelFor& parallel_for);
+    void solve_once(const PoissonProblem& problem, Target target, RgbImage& image,
+                    const ParallelFor& parallel_for);
     void rows_to_spectrum(const PoissonProblem& problem, const RgbImage* refined, int group, Scratch& scratch);
     void write_spectra(ComplexLanes spectra, int channel, int group);
     void read_spectra(ComplexLanes spectra, int channel, int group) const;
@@ -55,7 +57,8 @@ private:
 
     std::size_t block_size() const { return std::size_t{3} * column_block * height_; }
     std::size_t place(int channel, int y, int k) const {
-        return k / column_block * block_size() + (std::size_t(channel) * height_ + y) * column_block + k % column_block;
+        return k / column_block * block_size() + (std::size_t(channel) * height_ + y) * column_block +
+               k % column_block;
     }
 
     /// Calls body(i, scratch) for i in [0, count).
@@ -69,11 +72,11 @@ private:
     BorderSource border_source_; ///< used if the transform is longer than the image is wide
     float alpha_ = 0;            ///< what columns_ and border_source_ are prepared for; 0: nothing yet
 
-    std::vector<float> spectrum_;      ///< wave k of row y of a channel, at place(channel, y, k)
-    std::vector<float> jump_weights_;  ///< of BorderSource, for each k
+    std::vector<float> spectrum_;     ///< wave k of row y of a channel, at place(channel, y, k)
+    std::vector<float> jump_weights_; ///< of BorderSource, for each k
     std::vector<float> source_weights_;
-    std::vector<float> block_jumps_;   ///< what each block of columns adds to jumps_
-    std::vector<double> jumps_;        ///< channel by channel, row by row; as is sources_
+    std::vector<float> block_jumps_; ///< what each block of columns adds to jumps_
+    std::vector<double> jumps_;      ///< channel by channel, row by row; as is sources_
     std::vector<float> sources_;
 
     std::mutex scratch_mutex_;

@@ -11,8 +11,8 @@ namespace tessera {
 
 namespace {
 
-/// The median over the lit pixels of their largest channel, from some thousand pixels of the image: a scale that an
-/// outlier does not move. 1 for a black image.
+/// The median over the lit pixels of their largest channel, from some thousand pixels of the image: a scale that
+/// an outlier does not move. 1 for a black image.
 float typical_value(const RgbImage& image) {
     const std::size_t step = std::max<std::size_t>(image.size() / 4096, 1);
     std::vector<float> values;
@@ -48,8 +48,8 @@ struct Term {
     RgbImage target;
 };
 
-void update_row(const RgbImage& image, int y, float alpha, float threshold, float dual_scale, Term& primal, Term& dx,
-                Term& dy) {
+void update_row(const RgbImage& image, int y, float alpha, float threshold, float dual_scale, Term& primal,
+                Term& dx, Term& dy) {
     for (int x = 0; x < image.width(); ++x) {
         const Rgb own = image(x, y);
         primal.update(x, y, alpha * (own - primal.given(x, y)), alpha, threshold, dual_scale);
@@ -65,8 +65,8 @@ void update_row(const RgbImage& image, int y, float alpha, float threshold, floa
 // The alternating direction method of multipliers [Boyd 2011, 6.1]: with K = (Dx, Dy, alpha), g = (dx, dy, alpha
 // primal) and z = K I - g, in turn
 //     I = argmin |K I - (g + z - u)|^2,   z = shrink(K I - g + u, t),   u = u + K I - g - z .
-// The first is the screened Poisson problem. u is then w = K I - g + u cut to length t, and z = w - u. The threshold t
-// starts high, which moves far, and falls, which settles; u is proportional to it.
+// The first is the screened Poisson problem. u is then w = K I - g + u cut to length t, and z = w - u. The
+// threshold t starts high, which moves far, and falls, which settles; u is proportional to it.
 int solve_poisson_l1(const PoissonProblem& problem, PoissonSolver& solver, RgbImage& image,
                      const ParallelFor& parallel_for, std::stop_token stop, int iterations) {
     constexpr float first_threshold = 0.2f, last_threshold = 0.01f, decay = 0.9f; // in units of a typical pixel

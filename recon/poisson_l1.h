@@ -1,8 +1,8 @@
 #pragma once
 
-#include <stop_token>
-
 #include "recon/poisson_direct.h"
+
+#include <stop_token>
 
 namespace tessera {
 

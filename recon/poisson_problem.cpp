@@ -8,7 +8,9 @@ namespace tessera {
 
 namespace {
 
-const float* values(const Rgb* pixels) { return &pixels->x; }
+const float* values(const Rgb* pixels) {
+    return &pixels->x;
+}
 
 /// Row y of an image and of its neighbours; at a border the row itself stands for the neighbour that is not there.
 struct Rows {
@@ -21,7 +23,8 @@ struct Rows {
     const float* below;
 };
 
-/// Value i (3 a pixel) of b - A image, or of b alone. `left` and `right` say whether the pixel has such a neighbour.
+/// Value i (3 a pixel) of b - A image, or of b alone. `left` and `right` say whether the pixel has such a
+/// neighbour.
 class RowEquation {
 public:
     RowEquation(const PoissonProblem& problem, int y)

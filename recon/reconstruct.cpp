@@ -1,10 +1,10 @@
 #include "recon/reconstruct.h"
 
-#include <chrono>
-#include <stdexcept>
-
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
+
+#include <chrono>
+#include <stdexcept>
 
 namespace tessera {
 
@@ -45,9 +45,12 @@ Reconstruction solve(const GradientImages& images, const ReconstructionSettings&
 
 std::string_view to_string(Norm norm) {
     switch (norm) {
-    case Norm::none: return "none";
-    case Norm::l2: return "l2";
-    case Norm::l1: return "l1";
+    case Norm::none:
+        return "none";
+    case Norm::l2:
+        return "l2";
+    case Norm::l1:
+        return "l1";
     }
     return "?";
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "recon/lanes.h"
+
+#include <vector>
 
 namespace tessera {
 
@@ -12,10 +12,10 @@ inline constexpr int column_block = 2 * lanes;
 /// Solves (mu_k + T) u = b for many columns k, each with its own mu_k > 0, where T is the second difference down a
 /// column with free ends: (T u)(y) = sum over the neighbours y' of y of u(y) - u(y').
 ///
-/// Thomas's algorithm: with c(0) = 1 / (mu + 1) and c(y) = 1 / (mu + 2 - c(y-1)), where at the last row 1 stands for
-/// the 2, the sweep down z(y) = c(y) (b(y) + z(y-1)) and the sweep up u(y) = z(y) + c(y) u(y+1) give the answer.
-/// c soon reaches a fixed point; only the rows before are kept. It is worked out in double: 1 - c tells low
-/// frequencies apart, and is small.
+/// Thomas's algorithm: with c(0) = 1 / (mu + 1) and c(y) = 1 / (mu + 2 - c(y-1)), where at the last row 1 stands
+/// for the 2, the sweep down z(y) = c(y) (b(y) + z(y-1)) and the sweep up u(y) = z(y) + c(y) u(y+1) give the
+/// answer. c soon reaches a fixed point; only the rows before are kept. It is worked out in double: 1 - c tells
+/// low frequencies apart, and is small.
 class TridiagonalColumns {
 public:
     /// `height` rows >= 1.

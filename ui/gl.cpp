@@ -49,6 +49,9 @@ void GlTexture::upload(const RgbImage& image) {
 
 void GlTexture::allocate_rgba8(glm::ivec2 size) {
     bind();
+    // Shown pixel by pixel: a software renderer is quicker without a filter.
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     size_ = size;
 }

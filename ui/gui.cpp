@@ -61,7 +61,8 @@ void Gui::end_frame() {
     glViewport(0, 0, static_cast<GLsizei>(io.DisplaySize.x * io.DisplayFramebufferScale.x),
                static_cast<GLsizei>(io.DisplaySize.y * io.DisplayFramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(0.04f, 0.04f, 0.045f, 1.0f);
+    const ImVec4 background = ImGui::ColorConvertU32ToFloat4(colours::panel);
+    glClearColor(background.x, background.y, background.z, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -1,13 +1,12 @@
 #include "app/compare.h"
+#include "render/load/exr.h"
+#include "tests/recon/test_images.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
-
-#include "render/load/exr.h"
-#include "tests/recon/test_images.h"
 
 namespace tessera {
 namespace {
@@ -39,7 +38,8 @@ protected:
 };
 
 TEST_F(Compare, PrintsJson) {
-    const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(3))), reference = write("r.exr", RgbImage(8, 6, Rgb(2)));
+    const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(3))),
+                   reference = write("r.exr", RgbImage(8, 6, Rgb(2)));
     ASSERT_EQ(run({image, reference, {}, {}, true}), 0) << err_;
     const auto json = nlohmann::json::parse(out_);
     EXPECT_NEAR(json["relmse"].get<double>(), 1 / 4.001, 1e-6);
@@ -61,7 +61,8 @@ TEST_F(Compare, TwoReferencesGiveTheFloorFreeError) {
 }
 
 TEST_F(Compare, TakesALayer) {
-    const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2)), "primal"), reference = write("r.exr", RgbImage(8, 6));
+    const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2)), "primal"),
+                   reference = write("r.exr", RgbImage(8, 6));
     EXPECT_EQ(run({image, reference, {}, "primal", false}), 0);
     EXPECT_EQ(run({image, reference, {}, "dz", false}), 2);
     EXPECT_NE(err_.find("primal"), std::string::npos) << err_;

@@ -1,15 +1,15 @@
 // Times of the reconstruction, as CPU time of the whole process. Arguments: width, height, threads (and, for L2,
 // 1000 alpha).
 
+#include "recon/poisson_direct.h"
+#include "recon/reconstruct.h"
+
 #include <atomic>
 #include <random>
 #include <thread>
 #include <vector>
 
 #include <benchmark/benchmark.h>
-
-#include "recon/poisson_direct.h"
-#include "recon/reconstruct.h"
 
 namespace {
 
@@ -42,7 +42,8 @@ ParallelFor threads_for(int threads) {
 
 void l2_solve(benchmark::State& state) {
     const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
-    const RgbImage primal = noise(width, height, 1, 1), dx = noise(width, height, 2, 0), dy = noise(width, height, 3, 0);
+    const RgbImage primal = noise(width, height, 1, 1), dx = noise(width, height, 2, 0),
+                   dy = noise(width, height, 3, 0);
     const PoissonProblem problem{primal, dx, dy, 0.001f * static_cast<float>(state.range(3))};
     const ParallelFor parallel_for = threads_for(static_cast<int>(state.range(2)));
     PoissonSolver solver(width, height);
@@ -54,7 +55,8 @@ void l2_solve(benchmark::State& state) {
 
 void reconstruction(benchmark::State& state, Norm norm) {
     const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
-    const GradientImages images{noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
+    const GradientImages images{
+        noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
     const ParallelFor parallel_for = threads_for(static_cast<int>(state.range(2)));
     for (auto _ : state)
         benchmark::DoNotOptimize(reconstruct(images, {norm, 0.2f}, parallel_for));
@@ -71,11 +73,17 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(l2_solve)->Apply(sizes);
 BENCHMARK_CAPTURE(reconstruction, l2, Norm::l2)
-    ->Args({1280, 720, 1})->Args({1280, 720, 2})
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+    ->Args({1280, 720, 1})
+    ->Args({1280, 720, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK_CAPTURE(reconstruction, l1, Norm::l1)
-    ->Args({1280, 720, 1})->Args({1280, 720, 2})
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+    ->Args({1280, 720, 1})
+    ->Args({1280, 720, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 } // namespace
 

@@ -1,4 +1,6 @@
 #include "render/load/exr.h"
+#include "render/load/png.h"
+#include "tests/recon/test_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +13,6 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-
-#include "render/load/png.h"
-#include "tests/recon/test_images.h"
 
 namespace tessera {
 namespace {
@@ -112,7 +111,8 @@ TEST_F(ImageOutput, UnwritablePathsAreRefusedByNameAndLeaveNothing) {
 }
 
 TEST_F(ImageOutput, RefusesLayersOfDifferentSizesAndNone) {
-    EXPECT_THROW(write_exr(file("a.exr"), {{{"", RgbImage(4, 4)}, {"dx", RgbImage(5, 4)}}, {}}), std::runtime_error);
+    EXPECT_THROW(write_exr(file("a.exr"), {{{"", RgbImage(4, 4)}, {"dx", RgbImage(5, 4)}}, {}}),
+                 std::runtime_error);
     EXPECT_THROW(write_exr(file("a.exr"), {}), std::runtime_error);
     EXPECT_EQ(files_in_folder(), 0u);
 }

@@ -44,7 +44,8 @@ TEST_P(LaneDctSizes, ForwardEqualsTheSumAndInverseGivesTheLinesBack) {
         EXPECT_NEAR(back.im[dct.slot(x) * lanes + lanes - 1], line[x], 1e-5) << x;
 }
 
-INSTANTIATE_TEST_SUITE_P(Smooth, LaneDctSizes, testing::Values(1, 2, 3, 4, 5, 6, 8, 9, 15, 16, 25, 60, 135, 256, 480));
+INSTANTIATE_TEST_SUITE_P(Smooth, LaneDctSizes,
+                         testing::Values(1, 2, 3, 4, 5, 6, 8, 9, 15, 16, 25, 60, 135, 256, 480));
 
 TEST(SmoothSizes, NextIsTheLeastProductOfTwoThreeAndFive) {
     EXPECT_EQ(next_smooth(1), 1);

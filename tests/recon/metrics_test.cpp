@@ -1,11 +1,10 @@
 #include "recon/metrics.h"
+#include "tests/recon/test_images.h"
 
 #include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-
-#include "tests/recon/test_images.h"
 
 namespace tessera {
 namespace {
@@ -89,7 +88,8 @@ TEST(FloorFreeError, IsUnbiased) {
         sum += error.relative_mse;
         variance += error.standard_error * error.standard_error;
     }
-    // (I - t)^2 is 0.01 in the mean; 1 / (r^2 + epsilon) is 1 + 3 var(r) - epsilon, var(r) = 0.00125, to first order.
+    // (I - t)^2 is 0.01 in the mean; 1 / (r^2 + epsilon) is 1 + 3 var(r) - epsilon, var(r) = 0.00125, to first
+    // order.
     const double expected = 0.01 * (1 + 3 * 0.00125 - 0.001);
     EXPECT_NEAR(sum / rounds, expected, 4 * std::sqrt(variance) / rounds);
     EXPECT_LT(std::sqrt(variance) / rounds, 1e-4 * 0.5);

@@ -1,4 +1,5 @@
 #include "recon/poisson_direct.h"
+#include "tests/recon/test_images.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,8 +7,6 @@
 
 #include <Eigen/Sparse>
 #include <gtest/gtest.h>
-
-#include "tests/recon/test_images.h"
 
 namespace tessera {
 namespace {
@@ -74,7 +73,9 @@ struct Size {
     int width, height;
 };
 
-void PrintTo(const Size& size, std::ostream* out) { *out << size.width << "x" << size.height; }
+void PrintTo(const Size& size, std::ostream* out) {
+    *out << size.width << "x" << size.height;
+}
 
 constexpr float alphas[] = {0.001f, 0.01f, 0.03f, 0.1f, 0.2f, 1, 10};
 
@@ -121,9 +122,9 @@ TEST_P(PoissonSizes, KeepsTheMean) {
 
 INSTANTIATE_TEST_SUITE_P(All, PoissonSizes,
                          testing::Values(Size{1, 1}, Size{1, 2}, Size{2, 1}, Size{1, 97}, Size{97, 1}, Size{1, 64},
-                                         Size{64, 1}, Size{7, 7}, Size{17, 3}, Size{3, 17}, Size{16, 16}, Size{37, 23},
-                                         Size{31, 53}, Size{45, 33}, Size{65, 17}, Size{127, 95}, Size{121, 67},
-                                         Size{128, 96}));
+                                         Size{64, 1}, Size{7, 7}, Size{17, 3}, Size{3, 17}, Size{16, 16},
+                                         Size{37, 23}, Size{31, 53}, Size{45, 33}, Size{65, 17}, Size{127, 95},
+                                         Size{121, 67}, Size{128, 96}));
 
 TEST(PoissonSolver, ConstantImageStaysConstant) {
     for (const int width : {60, 61}) {

@@ -1,13 +1,12 @@
+#include "recon/poisson_l1.h"
 #include "recon/reconstruct.h"
+#include "tests/recon/test_images.h"
 
 #include <cmath>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-
-#include "recon/poisson_l1.h"
-#include "tests/recon/test_images.h"
 
 namespace tessera {
 namespace {

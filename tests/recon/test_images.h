@@ -1,13 +1,13 @@
 #pragma once
 
+#include "recon/image.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
 
 #include <glm/ext/vector_double3.hpp>
-
-#include "recon/image.h"
 
 namespace tessera::test {
 

@@ -1,0 +1,197 @@
+// The program as a user meets it: bad input gets one clear message and exit code 2, and leaves no file behind.
+#include "render/load/exr.h"
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exit_code = -1;
+    std::string output;
+};
+
+/// Runs the program in `folder` with both output streams in one.
+Outcome run(const fs::path& folder, const std::string& arguments) {
+    const std::string command = "unset DISPLAY WAYLAND_DISPLAY; cd '" + folder.string() + "' && '" +
+                                std::string(TESSERA_BINARY) + "' " + arguments + " 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    Outcome outcome;
+    std::array<char, 4096> buffer;
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+        outcome.output.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome;
+}
+
+class CommandLine : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("tessera-cli-" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", box_,
+                      fs::copy_options::overwrite_existing);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+
+    fs::path folder_ = fs::temp_directory_path() / ("tessera-cli-" + std::to_string(getpid()));
+    fs::path box_ = folder_ / "box.xml";
+};
+
+TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
+    write("broken.xml", "<scene version=\"3.0.0\">\n  <shape type=\"cube\">\n</scene>\n");
+    write("bad-mesh.xml",
+          "<scene version=\"3.0.0\"><shape type=\"obj\"><string name=\"filename\" value=\"bad.obj\"/>"
+          "</shape></scene>");
+    write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    const std::string render = "render box.xml --size 16x16 --spp 1 -o out.exr ";
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"render missing.xml -o out.exr", "missing.xml"},
+        {"render broken.xml -o out.exr", "broken.xml:3"},
+        {"render bad-mesh.xml -o out.exr", "bad.obj"},
+        {render + "--size 0x0", "--size 0x0"},
+        {render + "--size 640", "--size 640"},
+        {render + "--size 16x16x16", "--size 16x16x16"},
+        {render + "--spp -3", "--spp"},
+        {render + "--spp 0", "--spp"},
+        {render + "--time -1", "--time"},
+        {render + "-m bdpt", "bdpt"},
+        {render + "--tile 0", "--tile"},
+        {render + "--tile 17", "--tile"},
+        {render + "--q-min 0", "--q-min"},
+        {render + "--rr-delta -1", "--rr-delta"},
+        {render + "--rr-delta nan", "RR delta"},
+        {render + "--max-depth 0", "--max-depth"},
+        {render + "--alpha 0", "--alpha"},
+        {render + "--recon l3", "l3"},
+        {render + "-D novalue", "novalue"},
+        {render + "--threads -1", "--threads"},
+        {render + "--nonsense", "nonsense"},
+        {"render box.xml --spp 1 --size 16x16 -o no/such/folder/out.exr", "no/such/folder"},
+        {"render box.xml --spp 1 --size 16x16 -o .", "folder"},
+        {"render box.xml --spp 1 --size 16x16 -o out.exr --stats no/such/stats.json", "no/such"},
+        {"compare missing.exr missing.exr", "missing.exr"},
+        {"compare box.xml box.xml", "box.xml"},
+        {"info missing.xml", "missing.xml"},
+        {"info broken.xml", "broken.xml:3"},
+        {"", "no command"},
+        {"paint", "paint"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = run(folder_, arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments << "\n" << o.output;
+        EXPECT_NE(o.output.find(expected), std::string::npos) << arguments << "\n" << o.output;
+        EXPECT_FALSE(fs::exists(folder_ / "out.exr")) << arguments;
+    }
+    for (const auto& entry : fs::directory_iterator(folder_))
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+TEST_F(CommandLine, RendersLayersSettingsAndStats) {
+    const Outcome o = run(folder_, "render box.xml -m gpr --size 24x16 --spp 3 --tile 4 --seed 9 --max-depth 4 "
+                                   "--recon l2,l1,none --buffers -o out.exr --stats out.json");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    const ExrFile file = read_exr(folder_ / "out.exr");
+    std::vector<std::string> names;
+    for (const ExrLayer& layer : file.layers) {
+        names.push_back(layer.name);
+        EXPECT_EQ(layer.image.width(), 24);
+        EXPECT_EQ(layer.image.height(), 16);
+    }
+    for (const char* name : {"", "l1", "none", "primal", "dx", "dy", "direct"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+
+    const auto settings = nlohmann::json::parse(file.attributes.at("tessera:settings"));
+    EXPECT_EQ(settings["method"], "gpr");
+    EXPECT_EQ(settings["tile"], 4);
+    EXPECT_EQ(settings["seed"], 9);
+    EXPECT_EQ(settings["spp"], 3);
+
+    const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "out.json"));
+    EXPECT_GE(stats["camera_paths"], 24 * 16 * 3);
+    EXPECT_GT(stats["rays"]["closest_hit"], 0);
+    EXPECT_GT(stats["rays"]["occlusion"], 0);
+    EXPECT_GT(stats["shifts"]["attempts"], 0);
+    EXPECT_GT(stats["peak_memory"], 0);
+    for (const char* phase : {"load", "bvh", "render"})
+        for (const char* clock : {"wall", "cpu"})
+            EXPECT_TRUE(stats["seconds"][phase][clock].is_number()) << phase << ' ' << clock;
+}
+
+TEST_F(CommandLine, ThreadsDoNotChangeTheFile) {
+    const std::string render = "render box.xml -m gpr --size 40x30 --spp 2 --buffers ";
+    ASSERT_EQ(run(folder_, render + "--threads 1 -o one.exr").exit_code, 0);
+    ASSERT_EQ(run(folder_, render + "--threads 2 -o two.exr").exit_code, 0);
+    const ExrFile one = read_exr(folder_ / "one.exr"), two = read_exr(folder_ / "two.exr");
+    ASSERT_EQ(one.layers.size(), two.layers.size());
+    for (std::size_t i = 0; i < one.layers.size(); ++i)
+        EXPECT_TRUE(
+            std::equal(one.layers[i].image.begin(), one.layers[i].image.end(), two.layers[i].image.begin()));
+}
+
+TEST_F(CommandLine, TimeEndsARender) {
+    const Outcome o =
+        run(folder_, "render box.xml -m pt --size 64x64 --time 0.3 --clock cpu -o out.exr --stats s.json");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "s.json"));
+    EXPECT_GE(stats["seconds"]["render"]["cpu"], 0.3);
+    EXPECT_GT(stats["spp"], 1);
+}
+
+TEST_F(CommandLine, InterruptSavesWhatThereIs) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder_.c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
+            _exit(100);
+        execl(TESSERA_BINARY, "tessera", "render", "box.xml", "-m", "pt", "--size", "64x64", "--spp", "100000000",
+              "-o", "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
+        _exit(101);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_EQ(read_exr(folder_ / "out.exr").layers.at(0).image.width(), 64);
+    const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "s.json"));
+    EXPECT_EQ(stats["interrupted"], true);
+    EXPECT_LT(stats["spp"], 100000000);
+}
+
+TEST_F(CommandLine, WithoutADisplayThereIsAPicture) {
+    const Outcome o = run(folder_, "view box.xml --size 48x32 --threads 2 --seconds 0.2");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_NE(o.output.find("no display"), std::string::npos) << o.output;
+    EXPECT_GT(fs::file_size(folder_ / "contact-sheet.png"), 1000u);
+}
+
+TEST_F(CommandLine, InfoTellsWhatIsThere) {
+    const Outcome o = run(folder_, "info box.xml");
+    ASSERT_EQ(o.exit_code, 0);
+    for (const char* word : {"shapes", "triangles", "materials", "lights", "film", "seconds"})
+        EXPECT_NE(o.output.find(word), std::string::npos) << word;
+}
+
+} // namespace
+
+} // namespace tessera::test
