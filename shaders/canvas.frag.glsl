@@ -29,8 +29,8 @@ bool any_infinite(vec3 v) { return is_infinite(v.r) || is_infinite(v.g) || is_in
 
 float luminance(vec3 c) { return dot(c, vec3(0.212671, 0.715160, 0.072169)); }
 
-// What is shown of a value before the display's curve: in [0, 1], signed in [-1, 1]. Averages are taken of this, so
-// that one bright pixel does not outshine its neighbours when the image is shrunk.
+// What is shown of a value before the display's curve: in [0, 1], signed in [-1, 1]. Averages are taken of this,
+// so that one bright pixel does not outshine its neighbours when the image is shrunk.
 vec3 exposed(vec3 value) {
     return is_signed ? vec3(clamp(luminance(value) * gain, -1.0, 1.0)) : clamp(value * gain, 0.0, 1.0);
 }
@@ -68,7 +68,11 @@ void main() {
 
     if (is_coarse) {
         vec3 value = texture(image, where).rgb;
-        colour.rgb = any_nan(value) ? nan_colour : any_infinite(value) ? infinity_colour : displayed(exposed(value));
+        colour.rgb = displayed(exposed(value));
+        if (any_infinite(value))
+            colour.rgb = infinity_colour;
+        if (any_nan(value))
+            colour.rgb = nan_colour;
         return;
     }
     ivec2 size = textureSize(image, 0);

@@ -77,7 +77,7 @@ void load_fonts(float scale) {
     found_bold = bold.empty() ? ImGui::GetIO().Fonts->Fonts[0] : add_text_font(bold, pixels);
     const std::string mono = first_existing({"/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-Regular.ttf",
                                              "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf"});
-    found_mono = add_text_font(mono, std::floor(pixels * 0.93f));
+    found_mono = add_text_font(mono, pixels);
 }
 
 ImVec4 grey(float value, float alpha = 1.0f) {

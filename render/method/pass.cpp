@@ -4,22 +4,27 @@
 
 namespace tessera {
 
-glm::vec2 Pass::subpixel() const {
-    // The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
-    const Random start(settings.seed, 0xffffffffu, 0);
-    const glm::vec2 offset = start.draw_2d(0, Draw::direction);
-    const double n = index;
-    const double u = offset.x + n * 0.7548776662466927;
-    const double v = offset.y + n * 0.5698402909980532;
+namespace {
+
+/// The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
+glm::vec2 subpixel_of(std::uint64_t seed, int index) {
+    const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(0, Draw::direction);
     const auto in_unit = [](double a) { return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f); };
-    return {in_unit(u), in_unit(v)};
+    return {in_unit(start.x + index * 0.7548776662466927), in_unit(start.y + index * 0.5698402909980532)};
 }
 
-glm::ivec2 Pass::tile_origin() const {
-    const glm::vec2 u =
-        Random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(index)).draw_2d(0, Draw::direction);
-    return -glm::ivec2(u * static_cast<float>(settings.tile));
+glm::ivec2 tile_origin_of(const RenderSettings& settings, int index) {
+    const Random random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(index));
+    return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
 }
+
+} // namespace
+
+Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
+           int index_)
+    : scene(scene_), settings(settings_), size(size_), index(index_),
+      tile_origin(tile_origin_of(settings_, index_)), projection_(camera, size_),
+      subpixel_(subpixel_of(settings_.seed, index_)) {}
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
     rect_ = rect;
@@ -35,7 +40,7 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
     const int tile = pass.settings.tile;
     const int edge = tile * std::max(1, usual_edge / tile);
-    const glm::ivec2 origin = pass.tile_origin();
+    const glm::ivec2 origin = pass.tile_origin;
     std::vector<PixelRect> blocks;
     for (int y = origin.y; y < pass.size.y; y += edge)
         for (int x = origin.x; x < pass.size.x; x += edge)
@@ -58,8 +63,7 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 }
 
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
-    const Ray ray = pass.camera.ray(glm::vec2(x, y) + pass.subpixel(), pass.size);
-    trace_base_path(tracer, ray, pass.settings.max_depth, pass.random(x, y), path);
+    trace_base_path(tracer, pass.camera_ray(x, y), pass.settings.max_depth, pass.random(x, y), path);
 }
 
 namespace {

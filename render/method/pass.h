@@ -22,24 +22,32 @@ struct PixelRect {
 };
 
 /// One sample a pixel of a whole image: what all its blocks have in common.
-struct Pass {
-    const Scene& scene;
-    const Camera& camera;
-    glm::ivec2 size;
-    const RenderSettings& settings;
-    int index; ///< counts from 0
+class Pass {
+public:
+    /// `index` counts passes from 0. Keeps references to scene and settings.
+    Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings, int index);
 
-    /// The position within every pixel at which this pass samples: one for all pixels, so that the values of the
-    /// box filter cancel in gradients [Bauszat 2017, 3.2]. A low-discrepancy sequence over passes.
-    glm::vec2 subpixel() const;
+    const Scene& scene;
+    const RenderSettings& settings;
+    const glm::ivec2 size;
+    const int index;
 
     /// Where the tile grid begins, in (-tile, 0]: moved every pass, so that no pixel is always at a tile's edge.
-    glm::ivec2 tile_origin() const;
+    const glm::ivec2 tile_origin;
+
+    /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that
+    /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
+    /// low-discrepancy sequence.
+    Ray camera_ray(int x, int y) const { return projection_.ray(glm::vec2(x, y) + subpixel_); }
 
     Random random(int x, int y) const {
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
                       static_cast<std::uint32_t>(index));
     }
+
+private:
+    Projection projection_;
+    glm::vec2 subpixel_;
 };
 
 /// The base paths of a rectangle of pixels.

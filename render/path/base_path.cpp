@@ -48,8 +48,9 @@ void add_hit(BaseVertex& v, const Vertex& next, glm::vec3 direction) {
     v.hit_brings = light.radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
 }
 
-/// Samples the BSDF at the last vertex and appends what lies in that direction; false: the path ends.
-bool extend(const Tracer& tracer, const Random& random, int index, BasePath& path) {
+/// Samples the BSDF at the last vertex, x_index, and appends what lies in that direction; false: the path ends.
+/// The vertex at max_depth is there for its emission alone.
+bool extend(const Tracer& tracer, const Random& random, int index, int max_depth, BasePath& path) {
     BaseVertex& next = path.spare();
     BaseVertex& v = path[path.size() - 1];
     const Vertex& x = v.vertex;
@@ -58,7 +59,9 @@ bool extend(const Tracer& tracer, const Random& random, int index, BasePath& pat
     if (!s)
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
-    if (!tracer.next(x, direction, next.vertex))
+    const Ray ray = tracer.leave(x, direction);
+    const bool is_last = index + 1 == max_depth;
+    if (!(is_last ? tracer.closest_light(ray, next.vertex) : tracer.closest(ray, next.vertex)))
         return false;
     const glm::vec3 d = next.vertex.position - x.position;
     const float distance2 = glm::dot(d, d);
@@ -103,11 +106,11 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, int max_depth,
     // Emitter sampling at x_i makes i + 1 edges, and so does going on to x_{i+1} for its emission.
     for (int i = 1; i < max_depth; ++i) {
         sample_light(tracer, random, i, path[path.size() - 1]);
-        if (!extend(tracer, random, i, path))
+        if (!extend(tracer, random, i, max_depth, path))
             break;
     }
     if (path.size() == max_depth)
-        path[max_depth - 1].light_brings = Rgb(0); // the last vertex is there for its emission alone
+        path[max_depth - 1].light_brings = Rgb(0); // nothing was sampled there
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
     gather(path);
 }

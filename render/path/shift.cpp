@@ -166,8 +166,8 @@ void ShiftWalk::bounce_to_light(int i, const Vertex& y) {
         return note(ShiftOutcome::no_light);
     const glm::vec3 direction = y.to_world(s->to_next);
     Vertex hit;
-    if (!tracer_.next(y, direction, hit))
-        return note(ShiftOutcome::outside);
+    if (!tracer_.closest_light(tracer_.leave(y, direction), hit))
+        return note(ShiftOutcome::no_light);
     end_at_light(LightPaths::emitter_slot(i), *s, y.position, direction, hit, x.light_pdf_sum, false);
 }
 
@@ -275,7 +275,7 @@ bool ShiftWalk::bounce(int i, const Vertex& y, Vertex& next) {
         return false;
     const glm::vec3 direction = y.to_world(s->to_next);
     const glm::vec3 origin = y.position;
-    if (!tracer_.next(y, direction, next)) {
+    if (!tracer_.closest(tracer_.leave(y, direction), next)) {
         note(ShiftOutcome::outside);
         return false;
     }

@@ -17,17 +17,26 @@ struct Tracer {
     /// Makes `vertex` what the ray meets first. False: it meets nothing.
     bool closest(const Ray& ray, Vertex& vertex) const {
         ++counters.closest_hit_rays;
-        const std::optional<Hit> hit = scene.intersector().closest(ray);
-        if (hit)
-            make_vertex(scene, *hit, ray, vertex);
-        return hit.has_value();
+        Hit hit;
+        if (!scene.intersector().closest(ray, hit))
+            return false;
+        make_vertex(scene, hit, ray, vertex);
+        return true;
     }
 
-    /// Makes `vertex` what lies in a unit direction (world) from another one, which may be the same object. False:
-    /// nothing does.
-    bool next(const Vertex& from, glm::vec3 direction, Vertex& vertex) const {
-        return closest(
-            {scene.intersector().off_surface(from.position, from.geometric_normal, direction), direction}, vertex);
+    /// The same for a ray on which only a light is of interest. False, too, where it meets something else.
+    bool closest_light(const Ray& ray, Vertex& vertex) const {
+        ++counters.closest_hit_rays;
+        Hit hit;
+        if (!scene.intersector().closest(ray, hit) || scene.record(hit.shape).emitter_pdf_a <= 0)
+            return false;
+        make_vertex(scene, hit, ray, vertex);
+        return true;
+    }
+
+    /// The ray that leaves a vertex in a unit direction (world).
+    Ray leave(const Vertex& from, glm::vec3 direction) const {
+        return {scene.intersector().off_surface(from.position, from.geometric_normal, direction), direction};
     }
 
     /// The stretch between two surfaces, which lie in the unit direction `direction` of each other.

@@ -29,12 +29,17 @@ float half_width(float fov, FovAxis axis, float aspect) {
 
 } // namespace
 
-Ray Camera::ray(glm::vec2 pixel, glm::ivec2 size) const {
+Projection::Projection(const Camera& camera, glm::ivec2 size) : origin_(camera.to_world[3]) {
     const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-    const float w = half_width(fov, fov_axis, aspect);
-    const glm::vec2 ndc = 1.0f - 2.0f * pixel / glm::vec2(size); // +1 at the left and at the top
-    const glm::vec3 local(ndc.x * w, ndc.y * w / aspect, 1);
-    return {glm::vec3(to_world[3]), glm::normalize(glm::mat3(to_world) * local)};
+    const float w = half_width(camera.fov, camera.fov_axis, aspect);
+    const glm::mat3 to_world(camera.to_world);
+    corner_ = to_world * glm::vec3(w, w / aspect, 1);
+    right_ = to_world * glm::vec3(-2 * w / static_cast<float>(size.x), 0, 0);
+    down_ = to_world * glm::vec3(0, -2 * w / aspect / static_cast<float>(size.y), 0);
+}
+
+Ray Camera::ray(glm::vec2 pixel, glm::ivec2 size) const {
+    return Projection(*this, size).ray(pixel);
 }
 
 } // namespace tessera

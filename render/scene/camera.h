@@ -2,6 +2,7 @@
 
 #include "render/trace/ray.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
@@ -15,10 +16,26 @@ struct Camera {
     float fov = 45; ///< degrees, across fov_axis
     FovAxis fov_axis = FovAxis::x;
 
-    /// The ray through a point of the picture, in pixels from its top left corner. Its direction is unit.
+    /// The ray through a point of the picture, in pixels from its top left corner.
     Ray ray(glm::vec2 pixel, glm::ivec2 size) const;
 
     bool operator==(const Camera&) const = default;
+};
+
+/// A camera made ready for one size of picture.
+class Projection {
+public:
+    Projection(const Camera& camera, glm::ivec2 size);
+
+    /// The ray through a point of the picture, in pixels from its top left corner. Its direction is unit.
+    Ray ray(glm::vec2 pixel) const {
+        return {origin_, glm::normalize(corner_ + pixel.x * right_ + pixel.y * down_)};
+    }
+
+private:
+    glm::vec3 origin_;
+    glm::vec3 corner_;       // direction of the top left corner
+    glm::vec3 right_, down_; // a pixel's width and height
 };
 
 } // namespace tessera

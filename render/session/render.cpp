@@ -44,7 +44,7 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
 
 bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     const auto start = std::chrono::steady_clock::now();
-    const Pass pass{*scene_, camera_, size_, settings_, spp_};
+    const Pass pass(*scene_, camera_, size_, settings_, spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
     std::vector<std::unique_ptr<Worker>> workers;
     for (int i = 0; i < pool.size(); ++i)

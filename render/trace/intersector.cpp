@@ -141,7 +141,9 @@ Intersector::Intersector(Intersector&&) noexcept = default;
 Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
 Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_unique<Impl>()) {
-    impl_->device = rtcNewDevice(nullptr);
+    // Single rays are a few percent slower in Embree's 512-bit kernels than in its 256-bit ones (measured on Zen
+    // 4).
+    impl_->device = rtcNewDevice("max_isa=avx2");
     if (!impl_->device)
         throw std::runtime_error("Embree did not start");
     rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
@@ -153,21 +155,22 @@ Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_uni
     smallest_coordinate_ = extent(shapes) / 8;
 }
 
-std::optional<Hit> Intersector::closest(const Ray& ray) const {
+bool Intersector::closest(const Ray& ray, Hit& hit) const {
     if (!is_sound(ray.origin) || !is_sound(ray.direction))
-        return {};
+        return false;
     RTCRayHit query;
     query.ray = make_ray(ray.origin, ray.direction, std::numeric_limits<float>::infinity());
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(impl_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return {};
-    return Hit{query.hit.geomID,
-               query.hit.primID,
-               {query.hit.u, query.hit.v},
-               query.ray.tfar,
-               {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+        return false;
+    hit.shape = query.hit.geomID;
+    hit.triangle = query.hit.primID;
+    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.distance = query.ray.tfar;
+    hit.geometric_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+    return true;
 }
 
 bool Intersector::occluded(const Segment& segment) const {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,8 +40,8 @@ public:
     Intersector(Intersector&&) noexcept;
     Intersector& operator=(Intersector&&) noexcept;
 
-    /// The first triangle on the ray, beyond its origin.
-    std::optional<Hit> closest(const Ray& ray) const;
+    /// Makes `hit` the first triangle on the ray, beyond its origin. False: there is none.
+    bool closest(const Ray& ray, Hit& hit) const;
 
     bool occluded(const Segment& segment) const;
 

@@ -5,6 +5,7 @@
 #include "render/sampling.h"
 
 #include <cmath>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct Case {
     const char* name;
     Bsdf bsdf;
 };
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
 
 const Rgb copper_eta(0.200438f, 0.924033f, 1.10221f);
 const Rgb copper_k(3.91295f, 2.45285f, 2.14219f);

@@ -24,7 +24,7 @@ protected:
         s.tile = tile;
         s.shift_threshold = t.shift_threshold;
         s.seed = 1000 * static_cast<std::uint64_t>(tile) + 17;
-        const MethodMeasured m = measure(t.scene, size, s, runs, passes);
+        const MethodMeasured m = measure(t.scene, size, s, runs * t.effort, passes);
         report("primal", method, tile, z_test(m.primal, truth));
         if (has_gradients(method)) {
             report("dx", method, tile, z_test(m.dx, difference_x(truth)));
@@ -42,7 +42,7 @@ protected:
 
 TEST_P(Judge, AllMethods) {
     const TestScene& t = GetParam();
-    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 1);
+    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples * t.effort, 1);
     judge(truth, Method::pt, 1);
     judge(truth, Method::pr, 4);
     judge(truth, Method::gpt, 1);

@@ -23,11 +23,11 @@ public:
     Rgb radiance(Ray ray, int max_depth) {
         Rgb sum(0), throughput(1);
         for (int edges = 1; edges <= max_depth; ++edges) {
-            const auto hit = scene_.intersector().closest(ray);
-            if (!hit)
+            Hit hit;
+            if (!scene_.intersector().closest(ray, hit))
                 break;
             Vertex v;
-            make_vertex(scene_, *hit, ray, v);
+            make_vertex(scene_, hit, ray, v);
             if (edges > 1)
                 sum += throughput * v.light_toward(-ray.direction).radiance;
             const float lobe = uniform();

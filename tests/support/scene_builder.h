@@ -3,6 +3,7 @@
 #include "render/scene/scene.h"
 
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,13 @@ struct TestScene {
     std::shared_ptr<const Scene> scene;
     int max_depth;
     float shift_threshold = 0.001f;
+    int effort = 1; ///< factor on the runs: more where rare bright paths would leave too few for statistics
 };
+
+/// The name alone, for test reports.
+inline void PrintTo(const TestScene& t, std::ostream* out) {
+    *out << t.name;
+}
 
 /// Small scenes, each for one thing that an estimator can get wrong.
 std::vector<TestScene> all_test_scenes();

@@ -123,8 +123,8 @@ std::vector<TestScene> all_test_scenes() {
         {"blinds", blinds(), 4},
         {"texture_edges", texture_edges(), 4},
         {"grazing", grazing(), 4},
-        {"patchwork", patchwork(), 5},
-        {"patchwork_half_vectors", patchwork(), 5, 0.1f},
+        {"patchwork", patchwork(), 5, 0.001f, 5},
+        {"patchwork_half_vectors", patchwork(), 5, 0.1f, 5},
         {"shining_wall", shining_wall(), 4},
         {"no_light", no_light(), 4},
     };

@@ -67,6 +67,12 @@ void ViewerHarness::load_scene() {
     frames(2);
 }
 
+void ViewerHarness::rest(int spp) {
+    state().spp_limit = spp;
+    load_scene();
+    wait_until([&] { return viewer.settled(spp); });
+}
+
 void ViewerHarness::move_to(glm::vec2 position) {
     send_mouse_position({position.x, position.y});
     frames(2);

@@ -28,6 +28,8 @@ public:
     bool wait_until(const std::function<bool()>& condition);
     /// Loads the scene and waits for both panes' first pictures.
     void load_scene();
+    /// Loads the scene and waits until both panes rest at so many samples a pixel: nothing moves any more.
+    void rest(int spp);
 
     /// Input; each ends with frames in which it takes effect.
     void move_to(glm::vec2 position);

@@ -96,10 +96,7 @@ TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
 
 TEST(Viewer, UploadsOnlyNewPictures) {
     ViewerHarness h;
-    h.load_scene();
-    h.state().paused = true;
-    h.wait_until([&] { return h.pane(1).snapshot->reconstruction_spp == h.pane(1).snapshot->spp; });
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    h.rest(2);
     h.frames(3);
     const int uploads = h.viewer.pane_view(1).uploads(), drawings = h.viewer.pane_view(1).canvas().drawings();
     h.frames(10);
@@ -114,9 +111,7 @@ TEST(Viewer, UploadsOnlyNewPictures) {
 
 TEST(Viewer, ReconstructionSettingsChangeThePictureWithoutSamples) {
     ViewerHarness h;
-    h.load_scene();
-    h.state().paused = true;
-    h.wait_until([&] { return h.pane(1).snapshot->reconstruction_spp == h.pane(1).snapshot->spp; });
+    h.rest(2);
     const auto before = h.pane(1).snapshot;
     h.state().panes[1].settings.reconstruction.alpha = 5;
     h.wait_until([&] { return h.pane(1).snapshot->reconstruction != before->reconstruction; });

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Starts the real viewer in a window under a virtual display, drives it with synthetic mouse and keys, and looks at what
-# it says it did (--log-actions) and at what the screen shows.
+# Starts the real viewer in a window under a virtual display, drives it with synthetic mouse and keys, and looks at
+# what it says it did (--log-actions) and at what the screen shows.
 #   window_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
