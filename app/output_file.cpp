@@ -1,6 +1,7 @@
 #include "app/output_file.h"
 
 #include "app/exit_codes.h"
+#include "render/load/temporary_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -23,15 +24,13 @@ void check_writable(const std::filesystem::path& path) {
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path temporary = path.string() + ".part";
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out << text;
-        out.flush();
-        if (!out)
-            throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
-    }
-    std::filesystem::rename(temporary, path);
+    TemporaryFile temporary(path);
+    std::ofstream out(temporary.path(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out)
+        throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+    temporary.commit();
 }
 
 } // namespace tessera

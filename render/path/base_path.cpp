@@ -14,12 +14,14 @@ void sample_light(const Tracer& tracer, const Random& random, int index, BaseVer
     v.light_brings = Rgb(0);
     if (lights.empty() || x.bsdf.roughness() <= 0)
         return;
-    const LightPoint light =
-        lights.sample(random.draw(index, Draw::emitter), random.draw_2d(index, Draw::emitter_position));
+    const LightTriangle& triangle = lights.choose(random.draw(index, Draw::emitter));
+    if (!triangle.faces(x.position))
+        return;
+    const LightPoint light = triangle.sample(random.draw_2d(index, Draw::emitter_position));
     const glm::vec3 d = light.position - x.position;
     const float facing = -glm::dot(d, light.normal);
     if (!(facing > 0))
-        return; // behind the light, or on it
+        return; // as good as edge-on
     const float distance2 = glm::dot(d, d);
     const float distance = std::sqrt(distance2);
     const glm::vec3 direction = d / distance;

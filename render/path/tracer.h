@@ -26,6 +26,8 @@ struct Tracer {
 
     /// The same for a ray on which only a light is of interest. False, too, where it meets something else.
     bool closest_light(const Ray& ray, Vertex& vertex) const {
+        if (!scene.lights().may_be_hit(ray))
+            return false;
         ++counters.closest_hit_rays;
         Hit hit;
         if (!scene.intersector().closest(ray, hit) || scene.record(hit.shape).emitter_pdf_a <= 0)

@@ -2,8 +2,11 @@
 
 #include "render/sampling.h"
 
+#include <algorithm>
+#include <limits>
 #include <numeric>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tessera {
@@ -34,23 +37,34 @@ void build_alias(std::vector<float>& threshold, std::vector<std::uint32_t>& alia
 
 } // namespace
 
+LightPoint LightTriangle::sample(glm::vec2 u) const {
+    const glm::vec2 b = sample_triangle(u);
+    return {corner + b.x * edge1 + b.y * edge2, normal, radiance, pdf_a};
+}
+
 LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaLight>& lights)
-    : pdf_a_(lights.size(), 0.0f) {
-    for (const AreaLight& light : lights)
-        radiance_.push_back(light.radiance);
+    : pdf_a_(lights.size(), 0.0f), low_(std::numeric_limits<float>::max()),
+      high_(std::numeric_limits<float>::lowest()) {
     std::vector<double> power;
+    std::vector<int> light_of;
     for (const Shape& shape : shapes) {
-        if (shape.area_light < 0 || is_black(lights[shape.area_light].radiance))
+        if (shape.area_light < 0)
             continue;
-        for (glm::uvec3 t : shape.mesh.triangles) {
+        const Rgb radiance = lights[static_cast<std::size_t>(shape.area_light)].radiance;
+        for (const glm::uvec3 t : shape.mesh.triangles) {
             const glm::vec3 corner = shape.mesh.positions[t.x];
             const glm::vec3 edge1 = shape.mesh.positions[t.y] - corner;
             const glm::vec3 edge2 = shape.mesh.positions[t.z] - corner;
             const float area2 = glm::length(glm::cross(edge1, edge2));
-            if (!(area2 > 0))
+            if (!(area2 > 0) || is_black(radiance))
                 continue; // no area, no light
-            entries_.push_back({corner, edge1, edge2, front_normal(shape.mesh, t), shape.area_light, 0, 0});
-            power.push_back(0.5 * area2 * luminance(lights[shape.area_light].radiance));
+            entries_.push_back({{corner, edge1, edge2, front_normal(shape.mesh, t), radiance, 0}, 0, 0});
+            power.push_back(0.5 * area2 * luminance(radiance));
+            light_of.push_back(shape.area_light);
+            for (const glm::vec3 p : {corner, corner + edge1, corner + edge2}) {
+                low_ = glm::min(low_, p);
+                high_ = glm::max(high_, p);
+            }
         }
     }
     const double total = std::accumulate(power.begin(), power.end(), 0.0);
@@ -64,19 +78,32 @@ LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaL
     std::iota(alias.begin(), alias.end(), 0u);
     build_alias(threshold, alias);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
+        entries_[i].triangle.pdf_a = pdf_a(light_of[i]);
         entries_[i].threshold = threshold[i];
         entries_[i].alias = alias[i];
     }
+    // A flat box has no inside for rounding to hit.
+    const glm::vec3 margin = 1e-4f * (glm::max(glm::abs(low_), glm::abs(high_)));
+    low_ -= margin;
+    high_ += margin;
 }
 
-LightPoint LightTable::sample(float pick, glm::vec2 u) const {
+const LightTriangle& LightTable::choose(float pick) const {
     const float scaled = pick * static_cast<float>(entries_.size());
     const auto slot = std::min(static_cast<std::size_t>(scaled), entries_.size() - 1);
     const Entry& first = entries_[slot];
-    const Entry& e = scaled - static_cast<float>(slot) < first.threshold ? first : entries_[first.alias];
-    const glm::vec2 b = sample_triangle(u);
-    const auto light = static_cast<std::size_t>(e.area_light);
-    return {e.corner + b.x * e.edge1 + b.y * e.edge2, e.normal, radiance_[light], pdf_a_[light]};
+    return (scaled - static_cast<float>(slot) < first.threshold ? first : entries_[first.alias]).triangle;
+}
+
+bool LightTable::may_be_hit(const Ray& ray) const {
+    // Slabs [Kay and Kajiya 1986]; a NaN of 0 / 0, on a slab's very face, leaves the other slabs to decide.
+    const glm::vec3 a = (low_ - ray.origin) / ray.direction, b = (high_ - ray.origin) / ray.direction;
+    float enter = 0, leave = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+        enter = std::max(enter, std::min(a[axis], b[axis]));
+        leave = std::min(leave, std::max(a[axis], b[axis]));
+    }
+    return enter <= leave;
 }
 
 } // namespace tessera

@@ -166,10 +166,10 @@ void Session::render_pass(Pane& pane) {
     }
     try {
         if (pane.render_generation != generation) {
-            render_coarse(pane, request, generation, stop);
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
             pane.render_generation = generation;
             pane.published_spp = 0;
+            return render_coarse(pane, request, generation, stop); // the other panes' first looks come next
         }
         if (!pane.render->pass(pool_, stop))
             return;
@@ -181,9 +181,13 @@ void Session::render_pass(Pane& pane) {
     } catch (const std::exception& error) {
         pane.render_generation = 0;
         rest(pane, generation);
-        const std::lock_guard lock(mutex_);
-        messages_.push_back(fmt::format("{}, seed {}: {}", short_name(request.settings.method),
-                                        request.settings.seed, error.what()));
+        {
+            const std::lock_guard lock(mutex_);
+            messages_.push_back(fmt::format("{}, seed {}: {}", short_name(request.settings.method),
+                                            request.settings.seed, error.what()));
+        }
+        if (on_publish_)
+            on_publish_();
     }
 }
 
