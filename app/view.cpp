@@ -1,5 +1,6 @@
 #include "app/view.h"
 
+#include "render/load/png.h"
 #include "ui/screenshot.h"
 #include "ui/surface.h"
 #include "ui/viewer.h"
@@ -71,7 +72,8 @@ private:
         state.save_picture = false;
         try {
             const std::filesystem::path file = dated_picture();
-            write_png(file, read_screen(surface_.pixels()));
+            const ScreenPixels screen = read_screen(surface_.pixels());
+            write_png(file, screen.size, screen.rgb);
             state.add_message(Message::Kind::note, "Saved " + file.string());
         } catch (const std::exception& e) {
             state.add_message(Message::Kind::error, e.what());
@@ -87,7 +89,8 @@ private:
         if (!viewer_.settled(viewer_.state().spp_limit))
             return true;
         try {
-            write_png(options_.screenshot, read_screen(surface_.pixels()));
+            const ScreenPixels screen = read_screen(surface_.pixels());
+            write_png(options_.screenshot, screen.size, screen.rgb);
         } catch (const std::exception& e) {
             return fail(e.what());
         }

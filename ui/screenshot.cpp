@@ -1,14 +1,8 @@
 #include "ui/screenshot.h"
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
-#include <string>
-#include <system_error>
 
 #include <glad/gl.h>
-#include <stb_image_write.h>
-#include <unistd.h>
 
 namespace tessera {
 
@@ -26,25 +20,6 @@ ScreenPixels read_screen(glm::ivec2 size) {
                          pixels.rgb.begin() + static_cast<std::ptrdiff_t>(bottom * stride));
     }
     return pixels;
-}
-
-void write_png(const std::filesystem::path& path, const ScreenPixels& pixels) {
-    const std::string temporary = path.string() + ".part" + std::to_string(getpid());
-    std::ofstream file(temporary, std::ios::binary);
-    const auto write = [](void* context, void* data, int bytes) {
-        static_cast<std::ofstream*>(context)->write(static_cast<const char*>(data), bytes);
-    };
-    const bool encoded = file && stbi_write_png_to_func(write, &file, pixels.size.x, pixels.size.y, 3,
-                                                        pixels.rgb.data(), 3 * pixels.size.x) != 0;
-    file.close();
-    std::error_code error;
-    if (encoded && !file.fail())
-        std::filesystem::rename(temporary, path, error);
-    if (encoded && !file.fail() && !error)
-        return;
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
 }
 
 } // namespace tessera

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -21,8 +20,5 @@ struct ScreenPixels {
 
 /// What was drawn into the framebuffer bound for reading, from its lower left corner.
 ScreenPixels read_screen(glm::ivec2 size);
-
-/// Writes a PNG to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
-void write_png(const std::filesystem::path& path, const ScreenPixels& pixels);
 
 } // namespace tessera

@@ -28,16 +28,9 @@ void append(void* bytes, void* data, int size) {
     out.insert(out.end(), first, first + size);
 }
 
-std::vector<char> encode_png(const RgbImage& image, float exposure) {
-    const float scale = std::exp2(exposure);
-    std::vector<std::uint8_t> pixels;
-    pixels.reserve(3 * image.size());
-    for (const Rgb& c : image)
-        for (int channel = 0; channel < 3; ++channel)
-            pixels.push_back(srgb_byte(scale * c[channel]));
+std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb) {
     std::vector<char> bytes;
-    if (image.empty() || !stbi_write_png_to_func(append, &bytes, image.width(), image.height(), 3, pixels.data(),
-                                                 3 * image.width()))
+    if (rgb.empty() || !stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), 3 * size.x))
         throw std::runtime_error("the image cannot be encoded");
     return bytes;
 }
@@ -53,9 +46,9 @@ std::uint8_t srgb_byte(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
-void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
+void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {
     try {
-        const std::vector<char> bytes = encode_png(image, exposure);
+        const std::vector<char> bytes = encode_png(size, rgb);
         TemporaryFile temporary(path);
         std::ofstream out;
         out.exceptions(std::ios::failbit | std::ios::badbit);
@@ -66,6 +59,16 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, float e
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
     }
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
+    const float scale = std::exp2(exposure);
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(3 * image.size());
+    for (const Rgb& c : image)
+        for (int channel = 0; channel < 3; ++channel)
+            rgb.push_back(srgb_byte(scale * c[channel]));
+    write_png(path, {image.width(), image.height()}, rgb);
 }
 
 } // namespace tessera

@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -11,8 +14,11 @@ namespace tessera {
 /// 0.
 std::uint8_t srgb_byte(float linear);
 
-/// Writes the image, times 2^exposure, as an 8-bit sRGB PNG, to a temporary name beside `path` that is then
-/// renamed. Throws std::runtime_error that names the file.
+/// Writes 8-bit RGB, row by row from the top left, to a temporary name beside `path` that is then renamed. Throws
+/// std::runtime_error that names the file.
+void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb);
+
+/// The same for the image, times 2^exposure, in sRGB.
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure = 0);
 
 } // namespace tessera

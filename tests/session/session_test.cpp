@@ -39,20 +39,20 @@ bool eventually(const std::function<bool()>& holds) {
 TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
     std::atomic<int> published = 0;
     Session session(1, 2, [&] { ++published; });
-    const std::uint64_t generation = session.submit(0, request(Method::gpr, {400, 300}, 2));
+    const std::uint64_t generation = session.submit(0, request(Method::gpr, {200, 120}, 2));
     ASSERT_TRUE(eventually([&] { return session.latest(0) != nullptr; }));
     const auto first = session.latest(0);
     EXPECT_EQ(first->generation, generation);
     EXPECT_TRUE(first->coarse);
-    EXPECT_EQ(first->images->primal.width(), 100);
+    EXPECT_EQ(first->images->primal.width(), 50);
     ASSERT_TRUE(eventually([&] {
         const auto s = session.latest(0);
         return s->spp == 2 && s->reconstruction_spp == 2;
     }));
     const auto last = session.latest(0);
     EXPECT_FALSE(last->coarse);
-    EXPECT_EQ(last->images->primal.width(), 400);
-    EXPECT_EQ(last->reconstruction->image.width(), 400);
+    EXPECT_EQ(last->images->primal.width(), 200);
+    EXPECT_EQ(last->reconstruction->image.width(), 200);
     EXPECT_GE(published, 3);
 }
 

@@ -1,3 +1,4 @@
+#include "render/load/png.h"
 #include "tests/ui/osmesa_context.h"
 #include "ui/screenshot.h"
 
@@ -12,6 +13,8 @@
 
 namespace tessera {
 namespace {
+
+const std::vector<std::uint8_t> black{0, 0, 0};
 
 namespace fs = std::filesystem;
 
@@ -39,8 +42,8 @@ TEST(Screenshot, ReadsFromTheTopLeft) {
 TEST(Screenshot, WritesAWholePngAndNothingElse) {
     const Folder folder;
     const ScreenPixels pixels{{2, 2}, std::vector<std::uint8_t>(12, 200)};
-    write_png(folder.path / "a.png", pixels);
-    write_png(folder.path / "a.png", pixels); // replaces
+    write_png(folder.path / "a.png", pixels.size, pixels.rgb);
+    write_png(folder.path / "a.png", pixels.size, pixels.rgb); // replaces
     std::ifstream file(folder.path / "a.png", std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
     EXPECT_EQ(bytes.substr(1, 3), "PNG");
@@ -52,13 +55,13 @@ TEST(Screenshot, UnwritablePathsAreNamed) {
     const Folder folder;
     const fs::path target = folder.path / "no such folder" / "a.png";
     try {
-        write_png(target, {{1, 1}, {0, 0, 0}});
+        write_png(target, {1, 1}, black);
         FAIL();
     } catch (const std::exception& e) {
         EXPECT_NE(std::string(e.what()).find(target.string()), std::string::npos);
     }
     fs::create_directory(folder.path / "taken");
-    EXPECT_THROW(write_png(folder.path / "taken", {{1, 1}, {0, 0, 0}}), std::exception);
+    EXPECT_THROW(write_png(folder.path / "taken", {1, 1}, black), std::exception);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1);
 }
 

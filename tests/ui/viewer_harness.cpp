@@ -1,5 +1,6 @@
 #include "tests/ui/viewer_harness.h"
 
+#include "render/load/png.h"
 #include "tests/support/scene_builder.h"
 #include "ui/imgui_version.h"
 
@@ -157,8 +158,10 @@ double ViewerHarness::brightness(const std::string& control) const {
 }
 
 void ViewerHarness::save(const std::string& file) const {
-    if (const char* folder = std::getenv("TESSERA_TEST_PICTURES"))
-        write_png(std::filesystem::path(folder) / file, screen());
+    if (const char* folder = std::getenv("TESSERA_TEST_PICTURES")) {
+        const ScreenPixels pixels = screen();
+        write_png(std::filesystem::path(folder) / file, pixels.size, pixels.rgb);
+    }
 }
 
 } // namespace tessera::test
