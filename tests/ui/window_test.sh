@@ -120,16 +120,20 @@ wait_for '^camera ' "$from"
 sleep 0.5
 import -window root "$work/end.png" && keep "$work/end.png"
 
-# While paused, nothing is drawn and no processor used.
+# While paused, nothing is drawn and no processor used, once the pass that was under way has ended.
 from=$(next_line)
 xdotool key space
 wait_for '^paused on$' "$from"
-sleep 1
-before=$(awk '{ print $14 + $15 }' /proc/$viewer/stat)
-sleep 2
-after=$(awk '{ print $14 + $15 }' /proc/$viewer/stat)
-echo "processor time while paused: $((after - before)) hundredths in 2 seconds"
-[ $((after - before)) -lt 30 ] || fail "busy while paused"
+used=100
+for attempt in 1 2 3 4 5 6 7 8 9 10; do
+    before=$(awk '{ print $14 + $15 }' /proc/$viewer/stat)
+    sleep 2
+    after=$(awk '{ print $14 + $15 }' /proc/$viewer/stat)
+    used=$((after - before))
+    [ "$used" -lt 30 ] && break
+done
+echo "processor time while paused: $used hundredths in 2 seconds (attempt $attempt)"
+[ "$used" -lt 30 ] || fail "busy while paused"
 
 xdotool key ctrl+q
 for _ in $(seq 100); do
