@@ -18,13 +18,13 @@ namespace tessera {
 
 namespace {
 
-/// "WxH" in pixels.
-glm::ivec2 parse_size(const std::string& text) {
+/// "WxH" in pixels, as given to `option`.
+glm::ivec2 parse_size(const std::string& option, const std::string& text) {
     int w = 0, h = 0, used = 0;
     if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
-        throw BadInput(fmt::format("--size {}: must be WIDTHxHEIGHT, such as 640x360", text));
+        throw BadInput(fmt::format("{} {}: must be WIDTHxHEIGHT, such as 640x360", option, text));
     if (w < 1 || h < 1 || w > 32768 || h > 32768)
-        throw BadInput(fmt::format("--size {}: width and height must be from 1 to 32768", text));
+        throw BadInput(fmt::format("{} {}: width and height must be from 1 to 32768", option, text));
     return {w, h};
 }
 
@@ -41,7 +41,7 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
 
 /// The words of the command line, before they are given a meaning.
 struct Words {
-    std::string scene, size, method = "gpr", norms, clock = "wall";
+    std::string scene, size, window, method = "gpr", norms, clock = "wall";
     std::vector<std::string> definitions;
     int max_depth = 0;
     int spp = 0;
@@ -108,7 +108,7 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
         options.time = words.time;
     options.clock = words.clock == "cpu" ? Clock::cpu : Clock::wall;
     if (!words.size.empty())
-        options.size = parse_size(words.size);
+        options.size = parse_size("--size", words.size);
     if (command.count("--recon"))
         options.norms = parse_norms(words.norms);
     options.alpha = words.alpha;
@@ -151,6 +151,7 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
+    command.add_option("--window", words.window, "WIDTHxHEIGHT of the window, pixels");
     command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -177,7 +178,9 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     if (command.count("--max-depth"))
         options.max_depth = words.max_depth;
     if (!words.size.empty())
-        options.render_size = {SizeChoice::Base::custom, 1, parse_size(words.size)};
+        options.render_size = {SizeChoice::Base::custom, 1, parse_size("--size", words.size)};
+    if (!words.window.empty())
+        options.window_size = parse_size("--window", words.window);
     options.threads = threads;
     options.spp = words.spp;
     const int result = run_view(options);
@@ -188,7 +191,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     sheet.threads = threads;
     sheet.seconds = words.seconds;
     if (!words.size.empty())
-        sheet.size = parse_size(words.size);
+        sheet.size = parse_size("--size", words.size);
     if (!options.screenshot.empty())
         sheet.output = options.screenshot;
     fmt::print(stderr, "There is no display: rendering the viewer's comparison to {} instead.\n",

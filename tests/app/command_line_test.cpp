@@ -74,6 +74,7 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--spp -3", "--spp"},
         {render + "--spp 0", "--spp"},
         {render + "--time -1", "--time"},
+        {"view box.xml --window 0x5", "--window 0x5"},
         {render + "-m bdpt", "bdpt"},
         {render + "--tile 0", "--tile"},
         {render + "--tile 17", "--tile"},
