@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -12,9 +13,17 @@ namespace tessera {
 using Rgb = glm::vec3;
 
 /// Relative luminance of Rec. 709 primaries.
-inline float luminance(Rgb c) { return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b; }
+inline float luminance(Rgb c) {
+    return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b;
+}
 
-inline bool is_black(Rgb c) { return c.r <= 0 && c.g <= 0 && c.b <= 0; }
+inline bool is_finite(Rgb c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
+
+inline bool is_black(Rgb c) {
+    return c.r <= 0 && c.g <= 0 && c.b <= 0;
+}
 
 /// A raster of pixels, row by row from the top left. An image of width or height 0 is empty.
 template <class Pixel>

@@ -1,14 +1,8 @@
 #include "render/film.h"
 
-#include <cmath>
-
 namespace tessera {
 
 namespace {
-
-bool is_finite(Rgb c) {
-    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
-}
 
 RgbImage mean(const Image<glm::dvec3>& sums, int passes) {
     RgbImage image(sums.width(), sums.height());

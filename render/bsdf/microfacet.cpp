@@ -56,12 +56,7 @@ float sample_beckmann_slope(float cos_theta, float u) {
 glm::vec3 sample_visible_beckmann(glm::vec3 direction, float alpha, glm::vec2 u) {
     const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * direction.x, alpha * direction.y, direction.z));
     const float sin_theta = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
-    float along;
-    if (stretched.z > 0.99999f)
-        // From straight above all facets are seen: a plain Gaussian by its radius, measured along one axis below.
-        along = inverse_erf(2 * u.x - 1);
-    else
-        along = sample_beckmann_slope(stretched.z, u.x);
+    const float along = sample_beckmann_slope(stretched.z, u.x);
     const float across = inverse_erf(2 * u.y - 1);
     const float cos_phi = sin_theta > 0 ? stretched.x / sin_theta : 1;
     const float sin_phi = sin_theta > 0 ? stretched.y / sin_theta : 0;

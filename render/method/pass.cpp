@@ -90,6 +90,10 @@ void share_light(const Pass& pass, PixelRect set, Roulette roulette, Worker& wor
             const BasePath& path = *worker.set[static_cast<std::size_t>(k)];
             if (is_black(path.radiance))
                 continue;
+            if (!is_finite(path.radiance)) {
+                ++worker.counters.refused_samples; // or it would spoil all pixels of the set
+                continue;
+            }
             float q = 1;
             if (roulette == Roulette::reuse) {
                 q = reuse_probability(pass.settings, path);

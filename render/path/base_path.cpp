@@ -14,7 +14,7 @@ void sample_light(const Tracer& tracer, const Random& random, int index, BaseVer
     v.light_brings = Rgb(0);
     if (lights.empty() || x.bsdf.roughness() <= 0)
         return;
-    const LightTriangle& triangle = lights.choose(random.draw(index, Draw::emitter));
+    const LightTriangle& triangle = lights.choose(random.draw_2d(index, Draw::emitter));
     if (!triangle.faces(x.position))
         return;
     const LightPoint light = triangle.sample(random.draw_2d(index, Draw::emitter_position));

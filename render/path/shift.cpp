@@ -70,6 +70,11 @@ public:
 private:
     const BaseVertex& base(int i) const { return base_[i]; }
     bool alive_from(int slot) const { return slot <= light_.last_alive(); }
+    bool alive_within(int first, int end) const {
+        while (first < end && !light_.is_alive(first))
+            ++first;
+        return first < end;
+    }
 
     void shift_light(int i, const Vertex& y);
     void connect_light(int i, const Vertex& y);
@@ -110,12 +115,15 @@ ShiftOutcome ShiftWalk::run(const Vertex& primary) {
             break;
         light_is_connected = false;
         if (light_.step_is_connectable(i)) {
-            if (!connect_vertex(i, *y))
-                break;
-            if (light_.join() == i + 1 || !alive_from(LightPaths::hit_slot(i + 1)))
-                break;
             light_is_connected = is_connectable(base(i + 1).vertex, threshold_);
+            if (!connect_vertex(i, *y) || light_.join() == i + 1)
+                break;
         }
+        // What is left for a bounce: emitter sampling at x_{i+1}, unless it is done, and all that ends further on.
+        const int next_slot = light_is_connected ? LightPaths::hit_slot(i + 1) : LightPaths::emitter_slot(i + 1);
+        const bool hit_is_left = !light_.step_is_connectable(i) && light_.is_alive(LightPaths::hit_slot(i));
+        if (!hit_is_left && !alive_from(next_slot))
+            break;
         if (!bounce(i, *y, moved))
             break;
         y = &moved;
@@ -193,6 +201,14 @@ bool ShiftWalk::connect_vertex(int i, const Vertex& y) {
     }
     const BaseVertex& x = base(i);
     const Vertex& next = base(i + 1).vertex;
+    // The slots that go through this edge: a light path that leaves x_{i+1} by a half vector takes another way.
+    int end = LightPaths::hit_slot(i) + 1;
+    if (light_.join() == i + 1)
+        end = light_.tail_slot() + 1;
+    else if (is_connectable(next, threshold_))
+        end = LightPaths::emitter_slot(i + 1) + 1;
+    if (!alive_within(LightPaths::hit_slot(i), end))
+        return true;
     const glm::vec3 d = next.position - y.position;
     const float distance2 = glm::dot(d, d);
     const glm::vec3 direction = d / std::sqrt(distance2);
@@ -216,7 +232,6 @@ bool ShiftWalk::connect_vertex(int i, const Vertex& y) {
     const Prefix joined{prefix_.density * b.pdf_w * scale, prefix_.value * b.f_cos * scale};
     connect_beyond(i + 1, next.to_local(-direction), joined);
 
-    const int end = light_.join() == i + 1 ? light_.tail_slot() + 1 : LightPaths::emitter_slot(i + 1) + 1;
     edges_.add(LightPaths::hit_slot(i),
                tracer_.between(y.position, y.geometric_normal, next.position, next.geometric_normal, direction),
                offset_, LightPaths::hit_slot(i), end);

@@ -2,6 +2,7 @@
 
 #include "render/path/light_paths.h"
 
+#include <cmath>
 #include <vector>
 
 namespace tessera {
@@ -20,9 +21,10 @@ public:
     float density(int slot, int offset) const { return density_[index(slot, offset)]; }
     Rgb value(int slot, int offset) const { return value_[index(slot, offset)]; }
 
-    /// A path that carries nothing counts as failed: the same is said of base paths, so that both sides agree.
+    /// A path that carries nothing counts as failed: the same is said of base paths, so that both sides agree. So
+    /// does one that is beyond what floats hold.
     void set(int slot, int offset, float density, Rgb value) {
-        if (!(density > 0) || is_black(value))
+        if (!(density > 0) || is_black(value) || !std::isfinite(density + value.r + value.g + value.b))
             return;
         density_[index(slot, offset)] = density;
         value_[index(slot, offset)] = value;

@@ -12,6 +12,14 @@ T interpolate(T a, T b, T c, glm::vec2 barycentric) {
     return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
 }
 
+/// Normalises the cross product of a triangle's edges, whose square may be beyond floats.
+glm::vec3 unit(glm::vec3 n) {
+    const float square = glm::dot(n, n);
+    if (square > 1e-30f && square < 1e30f)
+        return n / std::sqrt(square);
+    return glm::vec3(glm::normalize(glm::dvec3(n)));
+}
+
 } // namespace
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
@@ -22,7 +30,13 @@ LightPoint Vertex::light_toward(glm::vec3 direction) const {
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) {
     const ShapeRecord& shape = scene.record(hit.shape);
     v.position = ray.origin + hit.distance * ray.direction;
-    v.geometric_normal = glm::normalize(hit.geometric_normal);
+    if (hit.distance > 8 * scene.radius()) {
+        // From so far away, that is less exact than steps off surfaces allow for.
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        v.position =
+            interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
+    }
+    v.geometric_normal = unit(hit.geometric_normal);
     glm::vec3 normal = v.geometric_normal;
     if (shape.normals) {
         const glm::uvec3 t = shape.triangles[hit.triangle];

@@ -55,7 +55,7 @@ LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaL
             const glm::vec3 corner = shape.mesh.positions[t.x];
             const glm::vec3 edge1 = shape.mesh.positions[t.y] - corner;
             const glm::vec3 edge2 = shape.mesh.positions[t.z] - corner;
-            const float area2 = glm::length(glm::cross(edge1, edge2));
+            const double area2 = glm::length(glm::cross(glm::dvec3(edge1), glm::dvec3(edge2)));
             if (!(area2 > 0) || is_black(radiance))
                 continue; // no area, no light
             entries_.push_back({{corner, edge1, edge2, front_normal(shape.mesh, t), radiance, 0}, 0, 0});
@@ -88,11 +88,11 @@ LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaL
     high_ += margin;
 }
 
-const LightTriangle& LightTable::choose(float pick) const {
-    const float scaled = pick * static_cast<float>(entries_.size());
-    const auto slot = std::min(static_cast<std::size_t>(scaled), entries_.size() - 1);
-    const Entry& first = entries_[slot];
-    return (scaled - static_cast<float>(slot) < first.threshold ? first : entries_[first.alias]).triangle;
+const LightTriangle& LightTable::choose(glm::vec2 u) const {
+    // A number of its own for the threshold: of one float, many entries would leave few bits for it.
+    const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
+    const Entry& first = entries_[std::min(slot, entries_.size() - 1)];
+    return (u.y < first.threshold ? first : entries_[first.alias]).triangle;
 }
 
 bool LightTable::may_be_hit(const Ray& ray) const {

@@ -48,8 +48,8 @@ public:
     bool empty() const { return entries_.empty(); }
     std::size_t size() const { return entries_.size(); }
 
-    /// Chooses a triangle with a random number in [0, 1); not for an empty table.
-    const LightTriangle& choose(float pick) const;
+    /// Chooses a triangle with random numbers in [0, 1)^2; not for an empty table.
+    const LightTriangle& choose(glm::vec2 u) const;
 
     /// pdf_a at any point of a light.
     float pdf_a(int area_light) const { return pdf_a_[static_cast<std::size_t>(area_light)]; }

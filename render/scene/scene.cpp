@@ -13,7 +13,7 @@ namespace {
 ShapeRecord make_record(const Shape& shape, const SceneDescription& description, const LightTable& lights) {
     const Mesh& mesh = shape.mesh;
     const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
-    ShapeRecord record{mesh.triangles.data(), nullptr, nullptr, &material, Rgb(0), 0};
+    ShapeRecord record{mesh.triangles.data(), mesh.positions.data(), nullptr, nullptr, &material, Rgb(0), 0};
     if (!mesh.normals.empty())
         record.normals = mesh.normals.data();
     if (!mesh.uvs.empty() && material.is_textured())

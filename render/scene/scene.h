@@ -27,6 +27,7 @@ struct SceneDescription {
 /// What a hit needs of its shape, close together; pointers into the shape's mesh.
 struct ShapeRecord {
     const glm::uvec3* triangles;
+    const glm::vec3* positions;
     const glm::vec3* normals; ///< null: every triangle has its own normal
     const glm::vec2* uvs;     ///< null: none, or nothing looks them up
     const Material* material;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/core.h>
@@ -36,10 +38,11 @@ struct Session::Pane {
     std::uint64_t render_generation = 0;
     int published_spp = 0;
     Clock::time_point published_at;
+    double share = 0;         ///< seconds had, for the panes to take turns by; not lost by a restart
+    std::uint64_t served = 0; ///< turn in which it was last chosen
 
     bool needs_reconstruction() const {
-        return latest && latest->generation == generation &&
-               (latest->images != reconstructed || !(reconstructed_with == reconstruction));
+        return latest && (latest->images != reconstructed || !(reconstructed_with == reconstruction));
     }
 };
 
@@ -109,23 +112,36 @@ std::vector<std::string> Session::take_messages() {
     return std::exchange(messages_, {});
 }
 
-/// The pane that has had the least time of those with work to do; null: none has. Needs the lock.
+/// The pane whose turn it is, of those with work to do: first those that have shown nothing of their request yet,
+/// the one served longest ago before the others; then the one that has had the least time. Null: none. Needs the
+/// lock.
 Session::Pane* Session::next_pane() {
     if (paused_)
         return nullptr;
     Pane* next = nullptr;
-    double least = 0;
+    const auto order = [](const Pane& p) {
+        const bool fresh = p.render_generation != p.generation;
+        return std::tuple(!fresh, fresh ? 0 : p.share, p.served);
+    };
     for (const auto& pane : panes_) {
         if (pane->generation == 0 || pane->resting || !pane->request.scene)
             continue;
-        const bool fresh = pane->render_generation != pane->generation;
-        const double seconds = fresh ? -1 : pane->render->seconds();
-        if (!next || seconds < least) {
+        if (!next || order(*pane) < order(*next))
             next = pane.get();
-            least = seconds;
-        }
     }
+    if (next)
+        next->served = ++turn_;
     return next;
+}
+
+/// The least share of the other panes at work, or the pane's own: where a restarted pane joins in.
+double Session::joining_share(const Pane& joining) const {
+    const std::lock_guard lock(mutex_);
+    double least = std::numeric_limits<double>::max();
+    for (const auto& pane : panes_)
+        if (pane.get() != &joining && pane->generation != 0 && !pane->resting)
+            least = std::min(least, pane->share);
+    return least == std::numeric_limits<double>::max() ? joining.share : least;
 }
 
 /// While paused: a pane with passes that nobody has seen yet. Needs the lock.
@@ -169,10 +185,13 @@ void Session::render_pass(Pane& pane) {
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
             pane.render_generation = generation;
             pane.published_spp = 0;
-            return render_coarse(pane, request, generation, stop); // the other panes' first looks come next
+            pane.share = joining_share(pane);
+            return render_coarse(pane, request, generation); // the other panes' first looks come next
         }
+        const double before = pane.render->seconds();
         if (!pane.render->pass(pool_, stop))
             return;
+        pane.share += pane.render->seconds() - before;
         const bool last = request.spp_limit > 0 && pane.render->spp() >= request.spp_limit;
         if (last || pane.published_spp == 0 || Clock::now() - pane.published_at >= publish_interval)
             publish(pane, *pane.render, generation, false);
@@ -191,13 +210,13 @@ void Session::render_pass(Pane& pane) {
     }
 }
 
-/// A first look: one sample a pixel of a small image, there at once.
-void Session::render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
-                            std::stop_token stop) {
+/// A first look: one sample a pixel of a small image, there at once. It is not stopped by a newer request: while a
+/// camera is dragged, each frame makes one, and a picture somewhat late is better than none.
+void Session::render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation) {
     const glm::ivec2 size = (request.size + coarse_divisor - 1) / coarse_divisor;
     Render coarse(request.scene, request.camera, size, request.settings);
-    if (coarse.pass(pool_, stop))
-        publish(pane, coarse, generation, true);
+    coarse.pass(pool_);
+    publish(pane, coarse, generation, true);
 }
 
 /// Nothing more to do for this generation.
@@ -219,9 +238,9 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->images = std::make_shared<GradientImages>(render.images());
     {
         const std::lock_guard lock(mutex_);
-        if (pane.generation != generation)
+        if (pane.generation != generation && !coarse)
             return;
-        if (pane.latest && pane.latest->generation == generation) {
+        if (pane.latest && pane.latest->generation == generation && !pane.latest->coarse) {
             snapshot->reconstruction = pane.latest->reconstruction;
             snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
         }
@@ -275,7 +294,9 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
     }
     {
         const std::lock_guard lock(mutex_);
-        if (pane.generation != snapshot.generation || stop.stop_requested())
+        // A newer picture of another size or request has no use for this one.
+        if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
+            pane.latest->coarse != snapshot.coarse)
             return;
         pane.reconstructed = snapshot.images;
         pane.reconstructed_with = settings;

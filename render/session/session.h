@@ -61,7 +61,8 @@ private:
     Pane* next_pane();
     Pane* unpublished_pane();
     void render_pass(Pane& pane);
-    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
+    double joining_share(const Pane& joining) const;
+    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation);
     void rest(Pane& pane, std::uint64_t generation);
     void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
@@ -75,6 +76,7 @@ private:
     std::function<void()> on_publish_;
     bool paused_ = false;
     std::uint64_t generation_ = 0;
+    std::uint64_t turn_ = 0;
     ThreadPool pool_;
     std::jthread render_thread_;
     std::jthread reconstruct_thread_;

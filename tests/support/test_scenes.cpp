@@ -96,6 +96,20 @@ std::shared_ptr<const Scene> shining_wall() {
     return r.build();
 }
 
+/// Diffuse walls that see a small lamp by way of a panel too glossy to connect to, past posts that hide the panel
+/// from one pixel and not from the next.
+std::shared_ptr<const Scene> glossy_second_vertex() {
+    SceneBuilder b;
+    const int w = b.diffuse(white), black = b.diffuse(Rgb(0));
+    const int panel = b.conductor(0.08f);
+    b.room({w, w, w, w, panel});
+    b.quad({-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, black, b.light(Rgb(30, 25, 20)));
+    for (int i = 0; i < 6; ++i)
+        b.quad({0.55f, -0.95f, -0.9f + 0.3f * static_cast<float>(i)}, {0, 1.6f, 0}, {0, 0, 0.12f}, w);
+    b.camera({0, 0, 2.6f}, {-0.3f, 0, 0}, 50);
+    return b.build();
+}
+
 std::shared_ptr<const Scene> no_light() {
     SceneBuilder b;
     const int w = b.diffuse(white);
@@ -125,6 +139,7 @@ std::vector<TestScene> all_test_scenes() {
         {"grazing", grazing(), 4},
         {"patchwork", patchwork(), 5, 0.001f, 5},
         {"patchwork_half_vectors", patchwork(), 5, 0.1f, 5},
+        {"glossy_second_vertex", glossy_second_vertex(), 3, 0.1f, 4},
         {"shining_wall", shining_wall(), 4},
         {"no_light", no_light(), 4},
     };

@@ -1,0 +1,82 @@
+// Light paths that reach their light by way of a surface too glossy to connect to: the shift must take them along
+// whatever else the base path carries, and whether or not the edge that it does not use is free.
+#include "render/path/path_reuse.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(64, 48);
+
+TestScene scene_named(const std::string& name) {
+    for (TestScene& t : all_test_scenes())
+        if (t.name == name)
+            return t;
+    throw std::runtime_error("no scene " + name);
+}
+
+/// What the shifts of many base paths to the pixel on the right did to emitter sampling at x_2.
+struct Tally {
+    int light_is_last = 0;       ///< base paths whose last light is found by emitter sampling at a glossy x_2
+    int shifted = 0;             ///< of these, shifted
+    int edge_hidden = 0;         ///< base paths whose x_2 the offset does not see
+    int shifted_past_hidden = 0; ///< of these, shifted by a bounce that does not need to
+};
+
+Tally tally(const TestScene& t) {
+    Tally sum;
+    Counters counters;
+    const Tracer tracer{*t.scene, counters};
+    const Projection projection(t.scene->camera(), size);
+    LightPaths light;
+    OffsetPaths paths;
+    PendingEdges edges;
+    std::vector<std::uint8_t> blocked(1);
+    for (int pass = 0; pass < 40; ++pass)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x + 1 < size.x; ++x) {
+                BasePath base, right;
+                const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                const auto pixel = static_cast<std::uint32_t>(y * size.x + x);
+                trace_base_path(tracer, projection.ray(p), t.max_depth, {7, pixel, std::uint32_t(pass)}, base);
+                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), 1, {7, pixel + 1, 0}, right);
+                if (base.size() < 2 || right.empty())
+                    continue;
+                light.reset(base, t.shift_threshold);
+                const int slot = LightPaths::emitter_slot(1);
+                if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
+                    continue;
+                paths.reset(light.slot_count(), 1);
+                edges.reset(light.slot_count());
+                shift(tracer, t.shift_threshold, base, light, right[0].vertex, 0, paths, edges);
+                edges.resolve(tracer, paths, blocked);
+                const bool shifted = paths.density(slot, 0) > 0;
+                if (light.last_alive() == slot) {
+                    ++sum.light_is_last;
+                    sum.shifted += shifted;
+                }
+                const Vertex &from = right[0].vertex, &to = base[1].vertex;
+                const glm::vec3 direction = glm::normalize(to.position - from.position);
+                if (tracer.occluded(tracer.between(from.position, from.geometric_normal, to.position,
+                                                   to.geometric_normal, direction))) {
+                    ++sum.edge_hidden;
+                    sum.shifted_past_hidden += shifted;
+                }
+            }
+    return sum;
+}
+
+TEST(Shift, LightBeyondAGlossySecondVertexIsTakenAlong) {
+    const Tally t = tally(scene_named("glossy_second_vertex"));
+    ASSERT_GT(t.light_is_last, 200);
+    EXPECT_GT(t.shifted, t.light_is_last / 10); // the bounce must find the lamp
+    ASSERT_GT(t.edge_hidden, 10);
+    EXPECT_GT(t.shifted_past_hidden, 0);
+}
+
+} // namespace
+
+} // namespace tessera::test
