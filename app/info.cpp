@@ -18,6 +18,9 @@ std::string kind_of(const Material& m) {
             return c.alpha.is_constant() && std::get<Rgb>(c.alpha.kind).r <= 0 ? "conductor" : "roughconductor";
         }
         std::string operator()(const DielectricMaterial&) const { return "dielectric"; }
+        std::string operator()(const PlasticMaterial& p) const {
+            return p.facets.alpha > 0 ? "roughplastic" : "plastic";
+        }
     };
     return std::visit(Namer(), m.kind) + (m.two_sided ? ", two-sided" : "");
 }

@@ -4,7 +4,9 @@
 #include "render/load/refraction_indices.h"
 #include "render/load/texture_plugins.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace tessera {
 
@@ -107,6 +109,31 @@ Material read_rough_conductor(LoadContext& context, Properties& p) {
     return {{}, conductor};
 }
 
+/// What plastic and roughplastic share, a coating of roughness `alpha`.
+Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
+    PlasticMaterial plastic;
+    plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
+    plastic.nonlinear = p.boolean("nonlinear", false);
+    plastic.facets = facets;
+    plastic.coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+    plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
+    plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    return {{}, plastic};
+}
+
+Material read_plastic(LoadContext& context, Properties& p) {
+    return plastic_of(context, p, {MicrofacetDistribution::beckmann, 0});
+}
+
+Material read_rough_plastic(LoadContext& context, Properties& p) {
+    const Texture alpha = alpha_parameter(context, p);
+    if (!alpha.is_constant())
+        p.note("the texture of 'alpha' is replaced by 0.1");
+    const float constant = alpha.is_constant() ? std::get<Rgb>(alpha.kind).r : 0.1f;
+    p.ignore({"sample_visible"}); // visible normals are always sampled
+    return plastic_of(context, p, {distribution_parameter(p), std::max(constant, smallest_alpha)});
+}
+
 /// The one BSDF nested in an adapter such as `twosided`.
 Material nested_bsdf(LoadContext& context, Properties& p) {
     const std::vector<XmlElement> nested = context.take_nested(p, "bsdf");
@@ -129,7 +156,8 @@ Material read_twosided(LoadContext& context, Properties& p) {
 // A plugin adds its row here, and its alternative to Material::kind where it needs one.
 constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
     {"diffuse", read_diffuse},       {"conductor", read_conductor}, {"roughconductor", read_rough_conductor},
-    {"dielectric", read_dielectric}, {"twosided", read_twosided},
+    {"dielectric", read_dielectric}, {"plastic", read_plastic},     {"roughplastic", read_rough_plastic},
+    {"twosided", read_twosided},
 };
 
 } // namespace

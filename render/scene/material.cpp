@@ -22,6 +22,11 @@ Bsdf resolve(const DielectricMaterial& m, glm::vec2 uv) {
     return {SmoothDielectric{m.eta, m.specular_reflectance.evaluate(uv), m.specular_transmittance.evaluate(uv)}};
 }
 
+Bsdf resolve(const PlasticMaterial& m, glm::vec2 uv) {
+    return {Plastic(*m.coating, m.eta, m.facets, m.specular_reflectance.evaluate(uv),
+                    m.diffuse_reflectance.evaluate(uv), m.nonlinear)};
+}
+
 std::vector<const Texture*> textures(const DiffuseMaterial& m) {
     return {&m.reflectance};
 }
@@ -30,6 +35,10 @@ std::vector<const Texture*> textures(const ConductorMaterial& m) {
 }
 std::vector<const Texture*> textures(const DielectricMaterial& m) {
     return {&m.specular_reflectance, &m.specular_transmittance};
+}
+
+std::vector<const Texture*> textures(const PlasticMaterial& m) {
+    return {&m.diffuse_reflectance, &m.specular_reflectance};
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "render/bsdf/bsdf.h"
 #include "render/scene/texture.h"
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,10 +30,20 @@ struct DielectricMaterial {
     Texture specular_transmittance{Rgb(1)};
 };
 
+/// A diffuse base under a dielectric coating.
+struct PlasticMaterial {
+    float eta = 1.49f / 1.000277f;                           ///< inside over outside
+    bool nonlinear = false;                                  ///< the colour deepens with each bounce inside
+    Microfacets facets{MicrofacetDistribution::beckmann, 0}; ///< of the coating; alpha = 0: smooth
+    std::shared_ptr<const Coating> coating;                  ///< of these eta and facets; not null
+    Texture diffuse_reflectance{Rgb(0.5f)};
+    Texture specular_reflectance{Rgb(1)};
+};
+
 /// What a surface is made of, before textures are looked up.
 struct Material {
     std::string name;
-    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial> kind;
+    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, PlasticMaterial> kind;
     bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
 
     /// The BSDF at uv, as plain numbers.

@@ -5,6 +5,7 @@
 #include "render/sampling.h"
 
 #include <cmath>
+#include <memory>
 #include <ostream>
 #include <random>
 #include <vector>
@@ -31,9 +32,19 @@ RoughConductor rough(MicrofacetDistribution d, float alpha, Rgb eta = copper_eta
     return {{d, alpha}, eta, k, Rgb(1)};
 }
 
+/// A plastic with a coating that lives as long as the program.
+Plastic plastic(MicrofacetDistribution d, float alpha, Rgb diffuse, bool nonlinear) {
+    static std::vector<std::unique_ptr<Coating>> coatings;
+    coatings.push_back(std::make_unique<Coating>(1.5f, d, alpha));
+    return Plastic(*coatings.back(), 1.5f, {d, alpha}, Rgb(1), diffuse, nonlinear);
+}
+
 std::vector<Case> rough_cases() {
     using enum MicrofacetDistribution;
-    return {{"diffuse", {Diffuse{Rgb(0.8f, 0.5f, 0.2f)}}},
+    return {{"plastic", {plastic(ggx, 0, Rgb(0.8f, 0.4f, 0.1f), false)}},
+            {"rough_plastic_010", {plastic(ggx, 0.1f, Rgb(0.8f, 0.4f, 0.1f), true)}},
+            {"rough_plastic_040", {plastic(beckmann, 0.4f, Rgb(0.9f), false)}},
+            {"diffuse", {Diffuse{Rgb(0.8f, 0.5f, 0.2f)}}},
             {"ggx_010", {rough(ggx, 0.1f)}},
             {"ggx_050", {rough(ggx, 0.5f)}},
             {"ggx_100", {rough(ggx, 1)}},
@@ -72,9 +83,8 @@ TEST_P(Rough, SamplesFollowThePdf) {
         std::vector<double> counted(rings * sectors, 0.0);
         for (int i = 0; i < samples; ++i) {
             const float u = uniform(engine), v = uniform(engine);
-            // Black directions are refused by sample(), so the facets are sampled as they stand.
-            const auto s = GetParam().bsdf.sample(to_previous, 0, {u, v});
-            if (!s)
+            const auto s = GetParam().bsdf.sample(to_previous, uniform(engine), {u, v});
+            if (!s || s->is_delta)
                 continue;
             const int ring = std::min(int(s->to_next.z * rings), rings - 1);
             const double phi = std::atan2(s->to_next.y, s->to_next.x);
@@ -117,7 +127,8 @@ TEST_P(Rough, PdfIntegratesToTheShareOfSamplesAboveTheSurface) {
         int kept = 0;
         for (int i = 0; i < samples; ++i) {
             const float u = uniform(engine), v = uniform(engine);
-            kept += GetParam().bsdf.sample(to_previous, 0, {u, v}).has_value();
+            const auto s = GetParam().bsdf.sample(to_previous, uniform(engine), {u, v});
+            kept += s && !s->is_delta;
         }
         EXPECT_NEAR(total, double(kept) / samples, 0.02) << "theta " << theta;
     }
@@ -149,7 +160,7 @@ TEST_P(Rough, SendsBackNoMoreThanItGets) {
         constexpr int samples = 50000;
         for (int i = 0; i < samples; ++i) {
             const float u = uniform(engine), v = uniform(engine);
-            if (const auto s = GetParam().bsdf.sample(direction(theta, 0), 0, {u, v}))
+            if (const auto s = GetParam().bsdf.sample(direction(theta, 0), uniform(engine), {u, v}))
                 sum += luminance(s->f_cos / s->pdf_w);
         }
         EXPECT_LT(sum / samples, 1.0) << "theta " << theta;
@@ -180,6 +191,29 @@ TEST(Furnace, AWhiteFacetedMirrorLosesOnlyTheSecondBounce) {
         }
         EXPECT_NEAR(sum / 50000, 1, 0.01);
     }
+}
+
+TEST(Plastic, AWhiteBaseUnderGlassLosesNothing) {
+    // With reflectance 1 all that gets in must come out again.
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
+    for (const float theta : {0.1f, 0.7f, 1.2f}) {
+        const Bsdf bsdf{plastic(MicrofacetDistribution::ggx, 0, Rgb(1), false)};
+        double sum = 0;
+        for (int i = 0; i < 200000; ++i) {
+            const float lobe = uniform(engine), u = uniform(engine), v = uniform(engine);
+            if (const auto s = bsdf.sample(direction(theta, 0), lobe, {u, v}))
+                sum += luminance(s->f_cos / s->pdf_w);
+        }
+        EXPECT_NEAR(sum / 200000, 1, 0.01) << theta;
+    }
+}
+
+TEST(Plastic, InternalReflectanceIsTheKnownOne) {
+    // 0.5963 for eta = 1.5 [Egan and Hilgeman 1973].
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0).internal_reflectance, 0.596f, 0.003f);
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0).transmittance(1), 0.96f, 1e-4f);
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0.01f).transmittance(1), 0.96f, 2e-3f);
 }
 
 TEST(Dielectric, SharesAddUpAndAgreeWithTheSamples) {

@@ -34,6 +34,15 @@ int SceneBuilder::glass(float eta) {
     return material({"glass", m, false});
 }
 
+int SceneBuilder::plastic(Rgb diffuse, float alpha) {
+    PlasticMaterial m;
+    m.eta = 1.5f;
+    m.facets = {MicrofacetDistribution::ggx, alpha};
+    m.coating = std::make_shared<const Coating>(m.eta, m.facets.distribution, alpha);
+    m.diffuse_reflectance = Texture(diffuse);
+    return material({"plastic", m, true});
+}
+
 int SceneBuilder::light(Rgb radiance) {
     description_.area_lights.push_back({radiance});
     return static_cast<int>(description_.area_lights.size()) - 1;

@@ -17,6 +17,7 @@ public:
     int conductor(float alpha, MicrofacetDistribution distribution = MicrofacetDistribution::ggx);
     int mirror();
     int glass(float eta = 1.5f);
+    int plastic(Rgb diffuse, float alpha); ///< alpha = 0: a smooth coating
     int light(Rgb radiance);
 
     /// A parallelogram; its front is the side of cross(edge1, edge2).

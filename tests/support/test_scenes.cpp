@@ -42,6 +42,12 @@ std::shared_ptr<const Scene> beckmann() {
 std::shared_ptr<const Scene> nearly_mirror() {
     return room_with_floor([](SceneBuilder& b) { return b.conductor(0.02f); });
 }
+std::shared_ptr<const Scene> plastic() {
+    return room_with_floor([](SceneBuilder& b) { return b.plastic(Rgb(0.2f, 0.5f, 0.7f), 0); });
+}
+std::shared_ptr<const Scene> rough_plastic() {
+    return room_with_floor([](SceneBuilder& b) { return b.plastic(Rgb(0.2f, 0.5f, 0.7f), 0.1f); });
+}
 std::shared_ptr<const Scene> mirror_floor() {
     return room_with_floor([](SceneBuilder& b) { return b.mirror(); });
 }
@@ -132,6 +138,8 @@ std::vector<TestScene> all_test_scenes() {
         {"nearly_mirror", nearly_mirror(), 5},
         {"glossy_half_vectors", glossy(), 5, 0.15f},
         {"nearly_mirror_half_vectors", nearly_mirror(), 6, 0.05f},
+        {"plastic", plastic(), 5},
+        {"rough_plastic", rough_plastic(), 5},
         {"mirror", mirror_floor(), 5},
         {"glass", glass_ball(), 7},
         {"blinds", blinds(), 4},
