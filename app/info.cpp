@@ -17,7 +17,9 @@ std::string kind_of(const Material& m) {
         std::string operator()(const ConductorMaterial& c) const {
             return c.alpha.is_constant() && std::get<Rgb>(c.alpha.kind).r <= 0 ? "conductor" : "roughconductor";
         }
-        std::string operator()(const DielectricMaterial&) const { return "dielectric"; }
+        std::string operator()(const DielectricMaterial& d) const {
+            return d.thin ? "thindielectric" : "dielectric";
+        }
         std::string operator()(const PlasticMaterial& p) const {
             return p.facets.alpha > 0 ? "roughplastic" : "plastic";
         }

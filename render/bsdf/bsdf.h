@@ -19,7 +19,8 @@ namespace tessera {
 /// Directions are unit, in the shading frame, and point away from the surface. Values hold for radiance that
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
-    std::variant<Diffuse, RoughConductor, SmoothConductor, SmoothDielectric, Plastic> kind = Diffuse{};
+    std::variant<Diffuse, RoughConductor, SmoothConductor, SmoothDielectric, ThinDielectric, Plastic> kind =
+        Diffuse{};
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
         return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);

@@ -44,6 +44,12 @@ Material read_dielectric(LoadContext& context, Properties& p) {
     return {{}, dielectric};
 }
 
+Material read_thin_dielectric(LoadContext& context, Properties& p) {
+    Material material = read_dielectric(context, p);
+    std::get<DielectricMaterial>(material.kind).thin = true;
+    return material;
+}
+
 /// The index of the metal, relative to what is around it.
 ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
     const bool given = p.has("eta") || p.has("k");
@@ -155,8 +161,13 @@ Material read_twosided(LoadContext& context, Properties& p) {
 
 // A plugin adds its row here, and its alternative to Material::kind where it needs one.
 constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
-    {"diffuse", read_diffuse},       {"conductor", read_conductor}, {"roughconductor", read_rough_conductor},
-    {"dielectric", read_dielectric}, {"plastic", read_plastic},     {"roughplastic", read_rough_plastic},
+    {"diffuse", read_diffuse},
+    {"conductor", read_conductor},
+    {"roughconductor", read_rough_conductor},
+    {"dielectric", read_dielectric},
+    {"thindielectric", read_thin_dielectric},
+    {"plastic", read_plastic},
+    {"roughplastic", read_rough_plastic},
     {"twosided", read_twosided},
 };
 

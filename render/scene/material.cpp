@@ -19,7 +19,11 @@ Bsdf resolve(const ConductorMaterial& m, glm::vec2 uv) {
 }
 
 Bsdf resolve(const DielectricMaterial& m, glm::vec2 uv) {
-    return {SmoothDielectric{m.eta, m.specular_reflectance.evaluate(uv), m.specular_transmittance.evaluate(uv)}};
+    const Rgb reflectance = m.specular_reflectance.evaluate(uv),
+              transmittance = m.specular_transmittance.evaluate(uv);
+    if (m.thin)
+        return {ThinDielectric{m.eta, reflectance, transmittance}};
+    return {SmoothDielectric{m.eta, reflectance, transmittance}};
 }
 
 Bsdf resolve(const PlasticMaterial& m, glm::vec2 uv) {

@@ -23,8 +23,9 @@ struct ConductorMaterial {
     Texture specular_reflectance{Rgb(1)};
 };
 
-/// A perfectly smooth boundary between two dielectrics.
+/// A perfectly smooth boundary between two dielectrics, or a thin pane.
 struct DielectricMaterial {
+    bool thin = false;
     float eta = 1.5046f / 1.000277f; ///< inside over outside
     Texture specular_reflectance{Rgb(1)};
     Texture specular_transmittance{Rgb(1)};

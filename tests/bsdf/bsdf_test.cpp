@@ -240,6 +240,23 @@ TEST(Dielectric, SharesAddUpAndAgreeWithTheSamples) {
         }
 }
 
+TEST(ThinDielectric, SumsTheBouncesBetweenItsFaces) {
+    for (const float theta : {0.0f, 0.9f, 2.5f}) {
+        const glm::vec3 wo = direction(theta, 1.1f);
+        const float r = fresnel_dielectric(std::abs(wo.z), 1.5f).reflectance, t = 1 - r;
+        float sum = r, inside = t;
+        for (int bounce = 0; bounce < 40; ++bounce) {
+            inside *= r; // at the far face, and at the near one
+            sum += inside * t;
+            inside *= r;
+        }
+        const Bsdf bsdf{ThinDielectric{1.5f, Rgb(1), Rgb(1)}};
+        EXPECT_NEAR(bsdf.evaluate_delta(wo, Scatter::reflect).probability, sum, 1e-5f);
+        EXPECT_NEAR(bsdf.evaluate_delta(wo, Scatter::transmit).value.g, 1 - sum, 1e-5f);
+        EXPECT_EQ(bsdf.evaluate_delta(wo, Scatter::transmit).to_next, -wo);
+    }
+}
+
 TEST(Fresnel, DielectricKnownValues) {
     EXPECT_NEAR(fresnel_dielectric(1, 1.5f).reflectance, 0.04f, 1e-6f);
     EXPECT_NEAR(fresnel_dielectric(-1, 1.5f).reflectance, 0.04f, 1e-6f);

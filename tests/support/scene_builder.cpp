@@ -28,8 +28,9 @@ int SceneBuilder::mirror() {
     return material({"mirror", ConductorMaterial{}, true});
 }
 
-int SceneBuilder::glass(float eta) {
+int SceneBuilder::glass(float eta, bool thin) {
     DielectricMaterial m;
+    m.thin = thin;
     m.eta = eta;
     return material({"glass", m, false});
 }

@@ -16,7 +16,7 @@ public:
     int diffuse(Rgb reflectance);
     int conductor(float alpha, MicrofacetDistribution distribution = MicrofacetDistribution::ggx);
     int mirror();
-    int glass(float eta = 1.5f);
+    int glass(float eta = 1.5f, bool thin = false);
     int plastic(Rgb diffuse, float alpha); ///< alpha = 0: a smooth coating
     int light(Rgb radiance);
 

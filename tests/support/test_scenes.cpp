@@ -57,6 +57,14 @@ std::shared_ptr<const Scene> glass_ball() {
     return r.build();
 }
 
+/// A window pane across half of the view, and a mirror of glass on the wall.
+std::shared_ptr<const Scene> thin_panes() {
+    Room r;
+    r.quad({-0.9f, -0.9f, 0.4f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, r.glass(1.5f, true));
+    r.quad({0.2f, -0.7f, -0.9f}, {0.7f, 0, 0.1f}, {0, 1.2f, 0}, r.glass(3.0f, true));
+    return r.build();
+}
+
 /// Slats between the tile's points and the rest of the room.
 std::shared_ptr<const Scene> blinds() {
     Room r;
@@ -142,6 +150,7 @@ std::vector<TestScene> all_test_scenes() {
         {"rough_plastic", rough_plastic(), 5},
         {"mirror", mirror_floor(), 5},
         {"glass", glass_ball(), 7},
+        {"thin_panes", thin_panes(), 6},
         {"blinds", blinds(), 4},
         {"texture_edges", texture_edges(), 4},
         {"grazing", grazing(), 4},
