@@ -11,8 +11,7 @@ namespace tessera {
 ///   density = r_m / r_k, the pdf of the offset's samplers for the shifted path over the base's for its own, both
 ///             summed over strategies and with the shift's Jacobian; 0: the shift failed
 ///   value   = c_m / r_k, radiance; f of the shifted path with its Jacobian over the base's summed pdfs
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. A row a slot, so that a loop over the
-/// offsets runs along memory.
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. A row a slot, so that a loop over the offsets runs along memory.
 class OffsetPaths {
 public:
     void reset(int slots, int offsets);

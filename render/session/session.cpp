@@ -163,10 +163,16 @@ void Session::render_loop(std::stop_token stop) {
             if (!render_wake_.wait(lock, stop, has_work))
                 return;
         }
-        if (to_render)
+        if (to_render) {
             render_pass(*to_render);
-        else
+            continue;
+        }
+        try {
             publish(*to_publish, *to_publish->render, to_publish->render_generation, false);
+        } catch (const std::exception& error) {
+            to_publish->published_spp = to_publish->render->spp(); // do not try for ever
+            report(error.what());
+        }
     }
 }
 
@@ -200,14 +206,19 @@ void Session::render_pass(Pane& pane) {
     } catch (const std::exception& error) {
         pane.render_generation = 0;
         rest(pane, generation);
-        {
-            const std::lock_guard lock(mutex_);
-            messages_.push_back(fmt::format("{}, seed {}: {}", short_name(request.settings.method),
-                                            request.settings.seed, error.what()));
-        }
-        if (on_publish_)
-            on_publish_();
+        report(fmt::format("{}, seed {}: {}", short_name(request.settings.method), request.settings.seed,
+                           error.what()));
     }
+}
+
+/// Tells the user what went wrong in a worker.
+void Session::report(std::string message) {
+    {
+        const std::lock_guard lock(mutex_);
+        messages_.push_back(std::move(message));
+    }
+    if (on_publish_)
+        on_publish_();
 }
 
 /// A first look: one sample a pixel of a small image, there at once. It is not stopped by a newer request: while a

@@ -61,6 +61,7 @@ private:
     Pane* next_pane();
     Pane* unpublished_pane();
     void render_pass(Pane& pane);
+    void report(std::string message);
     double joining_share(const Pane& joining) const;
     void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation);
     void rest(Pane& pane, std::uint64_t generation);

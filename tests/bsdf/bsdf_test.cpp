@@ -130,6 +130,7 @@ TEST_P(Rough, PdfIntegratesToTheShareOfSamplesAboveTheSurface) {
             const auto s = GetParam().bsdf.sample(to_previous, uniform(engine), {u, v});
             kept += s && !s->is_delta;
         }
+        // The midpoint rule misses up to 1.7 % of the peak at grazing views; the samples have 0.25 % of noise.
         EXPECT_NEAR(total, double(kept) / samples, 0.02) << "theta " << theta;
     }
 }
