@@ -22,18 +22,33 @@ struct Bsdf {
     std::variant<Diffuse, RoughConductor, SmoothConductor, SmoothDielectric, ThinDielectric, Plastic> kind =
         Diffuse{};
 
+    /// Where relief has bent the frame: the normal before that, in the frame. Light that would cross the one
+    /// surface but not the other is cut off.
+    glm::vec3 unbent_normal{0, 0, 1};
+    bool is_bent = false;
+
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
+        if (is_bent && crosses_one(to_next))
+            return {};
         return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
     }
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-        return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
+        auto s = std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
+        if (is_bent && s && crosses_one(s->to_next))
+            s.reset();
+        return s;
     }
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
-        return std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+        const DeltaValue v =
+            std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+        return is_bent && crosses_one(v.to_next) ? DeltaValue{} : v;
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
+
+private:
+    bool crosses_one(glm::vec3 to_next) const { return to_next.z * glm::dot(unbent_normal, to_next) <= 0; }
 };
 
 } // namespace tessera

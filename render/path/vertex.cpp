@@ -20,6 +20,41 @@ glm::vec3 unit(glm::vec3 n) {
     return glm::vec3(glm::normalize(glm::dvec3(n)));
 }
 
+/// Derivatives of the position by u and v over a triangle. False: uv says nothing of directions.
+bool position_derivatives(const ShapeRecord& shape, glm::uvec3 t, glm::vec3& by_u, glm::vec3& by_v) {
+    const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
+    const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
+    by_u = edge1; // without uvs, barycentric coordinates are the uv
+    by_v = edge2;
+    if (!shape.uvs)
+        return true;
+    const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
+    const float determinant = d1.x * d2.y - d1.y * d2.x;
+    by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
+    by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
+    return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
+}
+
+/// The unit normal that relief makes of `normal`, on the same side.
+glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
+    glm::vec3 bent;
+    if (relief.kind == Relief::Kind::bump) {
+        // The surface moved along its normal by the height h: dp/du + n dh/du, with dp/du made tangent to the
+        // normal of shading [Blinn 1978].
+        const glm::vec2 gradient = relief.scale * relief.map.gradient(at);
+        bent = glm::cross(by_u + normal * (gradient.x - glm::dot(normal, by_u)),
+                          by_v + normal * (gradient.y - glm::dot(normal, by_v)));
+    } else {
+        const glm::vec3 coded = 2.0f * relief.map.evaluate(at) - 1.0f;
+        const glm::vec3 tangent = glm::normalize(by_u - normal * glm::dot(normal, by_u));
+        bent = coded.x * tangent + coded.y * glm::cross(normal, tangent) + coded.z * normal;
+    }
+    const float length = glm::length(bent);
+    if (!(length > 0) || !std::isfinite(length))
+        return normal;
+    return bent * std::copysign(1 / length, glm::dot(bent, normal));
+}
+
 } // namespace
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
@@ -47,14 +82,29 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         const float length = glm::length(n);
         normal = length > 0 ? n / length : v.geometric_normal;
     }
-    glm::vec2 uv = hit.barycentric;
+    SurfacePoint at{hit.barycentric};
     if (shape.uvs) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
-        uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
+        at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
     }
-    const bool from_behind = glm::dot(normal, ray.direction) > 0;
-    v.frame = Frame(shape.material->two_sided && from_behind ? -normal : normal);
-    v.bsdf = shape.material->resolve(uv);
+    if (shape.colors) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        at.vertex_color = interpolate(shape.colors[t.x], shape.colors[t.y], shape.colors[t.z], hit.barycentric);
+    }
+    v.bsdf = shape.material->resolve(at);
+    v.bsdf.is_bent = false;
+    glm::vec3 bent = normal;
+    if (shape.material->relief) {
+        glm::vec3 by_u, by_v;
+        if (position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v)) {
+            bent = bend(*shape.material->relief, at, normal, by_u, by_v);
+            v.bsdf.is_bent = true;
+        }
+    }
+    const float side = shape.material->two_sided && glm::dot(bent, ray.direction) > 0 ? -1.0f : 1.0f;
+    v.frame = Frame(side * bent);
+    if (v.bsdf.is_bent)
+        v.bsdf.unbent_normal = v.to_local(side * normal);
     v.to_previous = v.to_local(-ray.direction);
     v.emitted = shape.emitted;
     v.emitter_pdf_a = shape.emitter_pdf_a;

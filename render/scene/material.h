@@ -3,7 +3,9 @@
 #include "render/bsdf/bsdf.h"
 #include "render/scene/texture.h"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,19 +43,32 @@ struct PlasticMaterial {
     Texture specular_reflectance{Rgb(1)};
 };
 
+/// What bends the normals of shading.
+struct Relief {
+    enum class Kind : std::uint8_t {
+        bump,       ///< a height above the surface, in units of the scene; a matter of its luminance's gradient
+        normal_map, ///< normals in the frame of u, v and the normal, coded as (n + 1) / 2
+    };
+    Kind kind = Kind::bump;
+    Texture map;
+    float scale = 1; ///< factor on the height
+};
+
 /// What a surface is made of, before textures are looked up.
 struct Material {
     std::string name;
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, PlasticMaterial> kind;
     bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
+    std::optional<Texture> opacity{}; ///< share of light that meets the surface at all (luminance); nothing: all
+    std::optional<Relief> relief{};
 
-    /// The BSDF at uv, as plain numbers.
-    Bsdf resolve(glm::vec2 uv) const;
+    /// The BSDF there, as plain numbers.
+    Bsdf resolve(const SurfacePoint& at) const;
 
     /// The textures it looks up, constant ones among them.
     std::vector<const Texture*> textures() const;
 
-    /// Whether uv matters.
+    /// Whether uv or vertex colours matter.
     bool is_textured() const;
 };
 

@@ -13,6 +13,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;    ///< unit, one a position; empty: every triangle has its own normal
     std::vector<glm::vec2> uvs;        ///< one a position; empty: barycentric coordinates serve as uv
+    std::vector<glm::vec3> colors;     ///< linear RGB, one a position; empty: none
     std::vector<glm::uvec3> triangles; ///< indices of positions, counter-clockwise seen from outside
 };
 

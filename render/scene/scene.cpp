@@ -13,11 +13,14 @@ namespace {
 ShapeRecord make_record(const Shape& shape, const SceneDescription& description, const LightTable& lights) {
     const Mesh& mesh = shape.mesh;
     const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
-    ShapeRecord record{mesh.triangles.data(), mesh.positions.data(), nullptr, nullptr, &material, Rgb(0), 0};
+    ShapeRecord record{
+        mesh.triangles.data(), mesh.positions.data(), nullptr, nullptr, nullptr, &material, Rgb(0), 0};
     if (!mesh.normals.empty())
         record.normals = mesh.normals.data();
     if (!mesh.uvs.empty() && material.is_textured())
         record.uvs = mesh.uvs.data();
+    if (!mesh.colors.empty() && material.is_textured())
+        record.colors = mesh.colors.data();
     if (shape.area_light >= 0) {
         record.emitted = description.area_lights[static_cast<std::size_t>(shape.area_light)].radiance;
         record.emitter_pdf_a = lights.pdf_a(shape.area_light);

@@ -30,6 +30,7 @@ struct ShapeRecord {
     const glm::vec3* positions;
     const glm::vec3* normals; ///< null: every triangle has its own normal
     const glm::vec2* uvs;     ///< null: none, or nothing looks them up
+    const Rgb* colors;        ///< null: none, or nothing looks them up
     const Material* material;
     Rgb emitted;         ///< radiance given off on the front side
     float emitter_pdf_a; ///< 0: no light

@@ -66,8 +66,20 @@ Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     return glm::mix(upper, lower, y - top);
 }
 
-Rgb look_up(Rgb constant, glm::vec2) {
-    return constant;
+/// Derivative of bilinear() by u and v.
+glm::vec2 bilinear_gradient(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
+    const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
+    const float left = std::floor(x);
+    const float top = std::floor(y);
+    const int x0 = wrap(static_cast<int>(left), bitmap.width, mode);
+    const int x1 = wrap(static_cast<int>(left) + 1, bitmap.width, mode);
+    const int y0 = wrap(static_cast<int>(top), bitmap.height, mode);
+    const int y1 = wrap(static_cast<int>(top) + 1, bitmap.height, mode);
+    const float a = luminance(bitmap.texel(x0, y0)), b = luminance(bitmap.texel(x1, y0));
+    const float c = luminance(bitmap.texel(x0, y1)), d = luminance(bitmap.texel(x1, y1));
+    return {glm::mix(b - a, d - c, y - top) * static_cast<float>(bitmap.width),
+            glm::mix(c - a, d - b, x - left) * static_cast<float>(bitmap.height)};
 }
 
 Rgb look_up(const BitmapTexture& texture, glm::vec2 uv) {
@@ -95,11 +107,40 @@ Rgb Bitmap::texel(int x, int y) const {
     return Rgb(p[0], p[1], p[2]) * (1.0f / 255);
 }
 
-Rgb Texture::evaluate(glm::vec2 uv) const {
+Rgb Texture::evaluate(const SurfacePoint& at) const {
     if (const Rgb* constant = std::get_if<Rgb>(&kind))
         return *constant;
-    const glm::vec2 at(to_uv * glm::vec3(uv, 1));
-    return std::visit([&](const auto& k) { return look_up(k, at); }, kind);
+    const glm::vec2 uv(to_uv * glm::vec3(at.uv, 1));
+    if (const auto* bitmap = std::get_if<BitmapTexture>(&kind))
+        return scale * look_up(*bitmap, uv);
+    if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&kind))
+        return scale * look_up(*checkerboard, uv);
+    return scale * at.vertex_color;
+}
+
+glm::vec2 Texture::gradient(const SurfacePoint& at) const {
+    const auto* texture = std::get_if<BitmapTexture>(&kind);
+    if (!texture)
+        return glm::vec2(0);
+    const glm::vec2 uv(to_uv * glm::vec3(at.uv, 1));
+    const glm::vec2 by_look_up =
+        bilinear_gradient(*texture->bitmap, {wrap(uv.x, texture->wrap), wrap(uv.y, texture->wrap)}, texture->wrap);
+    return scale * (by_look_up * glm::mat2(to_uv)); // the row vector times the matrix: chain rule
+}
+
+Rgb Texture::mean() const {
+    if (const Rgb* constant = std::get_if<Rgb>(&kind))
+        return *constant;
+    if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&kind))
+        return 0.5f * scale * (checkerboard->color0 + checkerboard->color1);
+    const auto* texture = std::get_if<BitmapTexture>(&kind);
+    if (!texture)
+        return Rgb(scale);
+    glm::dvec3 sum(0);
+    for (int y = 0; y < texture->bitmap->height; ++y)
+        for (int x = 0; x < texture->bitmap->width; ++x)
+            sum += glm::dvec3(texture->bitmap->texel(x, y));
+    return scale * Rgb(sum / (double(texture->bitmap->width) * texture->bitmap->height));
 }
 
 } // namespace tessera

@@ -39,16 +39,33 @@ struct CheckerboardTexture {
     Rgb color1{0.2f};
 };
 
-/// A colour over a surface: constant, or looked up at uv. As in Mitsuba, v = 0 is the top of a bitmap; the v of an
+/// The colours that the mesh has at its vertices.
+struct VertexColorTexture {};
+
+/// Where on a surface a texture is looked up.
+struct SurfacePoint {
+    glm::vec2 uv{0};
+    Rgb vertex_color{1}; ///< of a mesh that has such, interpolated
+};
+
+/// A colour over a surface: constant, or looked up. As in Mitsuba, v = 0 is the top of a bitmap; the v of an
 /// OBJ file, which counts from the bottom, is turned over when the file is read.
 struct Texture {
-    std::variant<Rgb, BitmapTexture, CheckerboardTexture> kind = Rgb(0.5f);
+    std::variant<Rgb, BitmapTexture, CheckerboardTexture, VertexColorTexture> kind = Rgb(0.5f);
     glm::mat3 to_uv{1.0f}; ///< applied to (u, v, 1) before the look-up
+    float scale = 1;       ///< factor on what was looked up; constants have it in them
 
     Texture() = default;
     Texture(Rgb constant) : kind(constant) {}
 
-    Rgb evaluate(glm::vec2 uv) const;
+    Rgb evaluate(const SurfacePoint& at) const;
+
+    /// Derivatives of the luminance by u and v. 0 for all but bitmaps: a checkerboard has only steps.
+    glm::vec2 gradient(const SurfacePoint& at) const;
+
+    /// The mean over uv in [0, 1]^2 before to_uv; of vertex colours white.
+    Rgb mean() const;
+
     bool is_constant() const { return std::holds_alternative<Rgb>(kind); }
 };
 

@@ -181,7 +181,7 @@ TEST(MitsubaXml, Conductors) {
     const auto textured = material<ConductorMaterial>(
         "<bsdf type='roughconductor'><texture name='alpha' type='checkerboard'>"
         "<float name='color0' value='0.1'/><float name='color1' value='0.6'/></texture></bsdf>");
-    EXPECT_FLOAT_EQ(textured.alpha.evaluate({0.75f, 0.25f}).r, 0.6f);
+    EXPECT_FLOAT_EQ(textured.alpha.evaluate({{0.75f, 0.25f}}).r, 0.6f);
 }
 
 TEST(MitsubaXml, NamedIndicesOfRefraction) {
@@ -236,12 +236,12 @@ TEST(MitsubaXml, TexturesByReference) {
         "<texture type='checkerboard' id='t'><rgb name='color0' value='0.9'/><rgb name='color1' value='0.1'/>"
         "<transform name='to_uv'><scale x='2' y='2'/><translate x='0.5'/></transform></texture>"
         "<bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>");
-    EXPECT_EQ(diffuse.reflectance.evaluate({0.1f, 0.1f}), Rgb(0.1f)); // (0.7, 0.2) of the pattern
-    EXPECT_EQ(diffuse.reflectance.evaluate({0.3f, 0.1f}), Rgb(0.9f)); // (0.1, 0.2)
+    EXPECT_EQ(diffuse.reflectance.evaluate({{0.1f, 0.1f}}), Rgb(0.1f)); // (0.7, 0.2) of the pattern
+    EXPECT_EQ(diffuse.reflectance.evaluate({{0.3f, 0.1f}}), Rgb(0.9f)); // (0.1, 0.2)
     const auto planar = material<DiffuseMaterial>(
         "<bsdf type='diffuse'><texture name='reflectance' type='checkerboard'>"
         "<transform name='to_uv'><matrix value='2 0 0.5  0 2 0  0 0 1'/></transform></texture></bsdf>");
-    EXPECT_EQ(planar.reflectance.evaluate({0.1f, 0.1f}), Rgb(0.2f));
+    EXPECT_EQ(planar.reflectance.evaluate({{0.1f, 0.1f}}), Rgb(0.2f));
 }
 
 TEST(MitsubaXml, EverythingNotUsedHasANote) {

@@ -112,7 +112,7 @@ TEST(RealScenes, CornellBox) {
     for (const Material& material : scene.materials)
         EXPECT_TRUE(material.two_sided) << material.name;
     const auto& left = material_of<DiffuseMaterial>(scene, scene.shapes[4]);
-    EXPECT_EQ(left.reflectance.evaluate({0, 0}), Rgb(0.63f, 0.065f, 0.05f));
+    EXPECT_EQ(left.reflectance.evaluate({{0, 0}}), Rgb(0.63f, 0.065f, 0.05f));
 
     // Floor and ceiling look into the room, the other walls out of it; boxes look out of themselves, the lamp
     // down.
@@ -146,9 +146,9 @@ TEST(RealScenes, VeachAjar) {
     EXPECT_FLOAT_EQ(floor.eta.r, 1.65746f);
     EXPECT_FLOAT_EQ(floor.k.b, 4.837f);
     // 20 by 80 periods: a tile is 1/40 by 1/160.
-    EXPECT_EQ(floor.specular_reflectance.evaluate({0.001f, 0.001f}), Rgb(0.8f));
-    EXPECT_EQ(floor.specular_reflectance.evaluate({0.001f + 1 / 40.0f, 0.001f}), Rgb(0.2f));
-    EXPECT_EQ(floor.specular_reflectance.evaluate({0.001f, 0.001f + 1 / 160.0f}), Rgb(0.2f));
+    EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f, 0.001f}}), Rgb(0.8f));
+    EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f + 1 / 40.0f, 0.001f}}), Rgb(0.2f));
+    EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f, 0.001f + 1 / 160.0f}}), Rgb(0.2f));
 
     const auto& handle = material_of<ConductorMaterial>(scene, shape_named(scene, "DoorHandle"));
     EXPECT_EQ(handle.distribution, MicrofacetDistribution::beckmann);

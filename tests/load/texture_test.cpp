@@ -22,7 +22,7 @@ Texture four(Filter filter, Wrap wrap) {
 }
 
 float at(const Texture& texture, float u, float v) {
-    return texture.evaluate({u, v}).g;
+    return texture.evaluate({{u, v}}).g;
 }
 
 } // namespace
