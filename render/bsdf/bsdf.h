@@ -28,27 +28,29 @@ struct Bsdf {
     bool is_bent = false;
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-        if (is_bent && crosses_one(to_next))
+        if (is_cut(to_next)) [[unlikely]]
             return {};
         return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
     }
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-        auto s = std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
-        if (is_bent && s && crosses_one(s->to_next))
-            s.reset();
-        return s;
+        if (is_bent) [[unlikely]]
+            return sample_bent(to_previous, lobe, u);
+        return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
     }
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
         const DeltaValue v =
             std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-        return is_bent && crosses_one(v.to_next) ? DeltaValue{} : v;
+        return is_cut(v.to_next) ? DeltaValue{} : v;
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
 
 private:
-    bool crosses_one(glm::vec3 to_next) const { return to_next.z * glm::dot(unbent_normal, to_next) <= 0; }
+    bool is_cut(glm::vec3 to_next) const {
+        return is_bent && to_next.z * glm::dot(unbent_normal, to_next) <= 0;
+    }
+    std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
 
 } // namespace tessera

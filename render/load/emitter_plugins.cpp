@@ -1,27 +1,132 @@
 #include "render/load/emitter_plugins.h"
 
 #include "render/load/plugin_table.h"
+#include "render/load/sky_plugins.h"
 #include "render/load/texture_plugins.h"
+#include "render/load/transforms.h"
+
+#include <array>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace tessera {
 
 namespace {
 
+void refuse_negative(Properties& p, std::string_view name, Rgb color) {
+    if (color.r < 0 || color.g < 0 || color.b < 0)
+        p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
+}
+
+/// A quantity of light, such as intensity.
+Rgb light_parameter(Properties& p, std::string_view name) {
+    const Rgb color = p.color(name, Rgb(1));
+    refuse_negative(p, name, color);
+    p.ignore({"sampling_weight"}); // lights are chosen by their power
+    return color;
+}
+
 AreaLight read_area(LoadContext& context, Properties& p) {
     AreaLight light;
-    const Texture radiance = texture_parameter(context, p, "radiance", light.radiance);
-    if (const Rgb* constant = std::get_if<Rgb>(&radiance.kind))
-        light.radiance = *constant;
-    else
-        p.note(*p.take("radiance"), "the textured radiance is replaced by a constant one");
-    if (light.radiance.r < 0 || light.radiance.g < 0 || light.radiance.b < 0)
-        p.take("radiance")->fail("'radiance' must not be negative", "value");
-    p.ignore({"sampling_weight"}); // lights are chosen by their power
+    light.radiance = texture_parameter(context, p, "radiance", Rgb(1));
+    if (const Rgb* constant = std::get_if<Rgb>(&light.radiance.kind))
+        refuse_negative(p, "radiance", *constant);
+    p.ignore({"sampling_weight"});
     return light;
+}
+
+glm::vec3 unit_parameter(Properties& p, std::string_view name, glm::vec3 v) {
+    const float length = glm::length(v);
+    if (!(length > 0))
+        (p.has(name) ? *p.take(name) : p.element()).fail("the direction must not be 0");
+    return v / length;
+}
+
+void read_point(LoadContext& context, Properties& p) {
+    PointLight light;
+    light.intensity = light_parameter(p, "intensity");
+    light.position = p.has("position") ? *p.vector("position") : glm::vec3(p.transform("to_world")[3]);
+    context.scene.point_lights.push_back(light);
+}
+
+void read_spot(LoadContext& context, Properties& p) {
+    PointLight light;
+    light.intensity = light_parameter(p, "intensity");
+    const glm::mat4 to_world = p.transform("to_world");
+    light.position = glm::vec3(to_world[3]);
+    light.axis = unit_parameter(p, "to_world", glm::vec3(to_world[2]));
+    light.cutoff = p.number("cutoff_angle", 20);
+    light.full_within = p.number("beam_width", light.cutoff * 0.75f);
+    if (!(light.cutoff > 0 && light.cutoff < 180))
+        p.take("cutoff_angle")->fail("'cutoff_angle' must be between 0 and 180 degrees", "value");
+    if (!(light.full_within >= 0 && light.full_within <= light.cutoff))
+        p.take("beam_width")->fail("'beam_width' must be between 0 and 'cutoff_angle'", "value");
+    if (p.has("texture"))
+        p.note(*p.take("texture"), "the texture of a spot is not used");
+    context.scene.point_lights.push_back(light);
+}
+
+void read_directional(LoadContext& context, Properties& p) {
+    DirectionalLight light;
+    light.irradiance = light_parameter(p, "irradiance");
+    const glm::vec3 away = p.has("direction") ? *p.vector("direction") : glm::vec3(p.transform("to_world")[2]);
+    light.to_light = -unit_parameter(p, "direction", away);
+    context.scene.directional_lights.push_back(light);
+}
+
+/// There is one map; a second one is left out.
+void set_map(LoadContext& context, Properties& p, EnvironmentMap map) {
+    if (context.scene.environment.map)
+        p.note("the scene has another environment already; this one gives no light");
+    else
+        context.scene.environment.map = std::move(map);
+}
+
+void read_constant(LoadContext& context, Properties& p) {
+    Bitmap pixel;
+    pixel.width = pixel.height = 1;
+    pixel.floats = {light_parameter(p, "radiance")};
+    set_map(context, p, {std::make_shared<const Bitmap>(std::move(pixel))});
+}
+
+/// The rotation (and mirroring) in a transform.
+glm::mat3 rotation_parameter(Properties& p) {
+    glm::mat3 m(p.transform("to_world"));
+    if (!(std::abs(glm::determinant(m)) > 0))
+        p.take("to_world")->fail("the transform is flat");
+    for (int i = 0; i < 3; ++i)
+        m[i] = glm::normalize(m[i]);
+    const auto off_square = [&](int i, int j) { return std::abs(glm::dot(m[i], m[j])) > 1e-3f; };
+    if (off_square(0, 1) || off_square(1, 2) || off_square(2, 0))
+        p.note(*p.take("to_world"), "the transform shears the environment; directions are taken as they come");
+    return m;
+}
+
+void read_environment_map(LoadContext& context, Properties& p) {
+    EnvironmentMap map;
+    map.scale = p.number("scale", 1);
+    if (map.scale < 0)
+        p.take("scale")->fail("'scale' must not be negative", "value");
+    map.to_world = rotation_parameter(p);
+    map.bitmap = bitmap_parameter(context, p, true);
+    p.ignore({"sampling_weight", "mis_compensation", "cache"});
+    set_map(context, p, std::move(map));
 }
 
 constexpr Plugin<AreaLight (*)(LoadContext&, Properties&)> plugins_in_shapes[] = {
     {"area", read_area},
+};
+
+constexpr Plugin<void (*)(LoadContext&, Properties&)> plugins_in_scenes[] = {
+    {"point", read_point},
+    {"spot", read_spot},
+    {"directional", read_directional},
+    {"constant", read_constant},
+    {"envmap", read_environment_map},
+    {"sunsky", read_sunsky},
+    {"sky", read_sky},
+    {"sun", read_sun},
 };
 
 } // namespace
@@ -40,11 +145,15 @@ int add_shape_emitter(LoadContext& context, const XmlElement& element) {
 }
 
 void add_scene_emitter(LoadContext& context, const XmlElement& element) {
-    const Properties properties(element, context.notes);
-    if (find_plugin(plugins_in_shapes, properties.type()))
+    Properties properties(element, context.notes);
+    if (const auto* plugin = find_plugin(plugins_in_scenes, properties.type())) {
+        plugin->read(context, properties);
+        properties.report_unused();
+    } else if (find_plugin(plugins_in_shapes, properties.type())) {
         properties.note("the emitter '" + properties.type() + "' stands outside of a shape; it gives no light");
-    else
+    } else {
         properties.note("the emitter '" + properties.type() + "' is not known; it gives no light");
+    }
 }
 
 } // namespace tessera

@@ -117,6 +117,14 @@ glm::mat4 Properties::transform(std::string_view parameter) {
     return read_transform(*element);
 }
 
+std::optional<glm::vec3> Properties::vector(std::string_view parameter) {
+    const auto element = take(parameter);
+    if (!element)
+        return {};
+    expect_tag(*element, {"point", "vector"});
+    return read_vector(*element);
+}
+
 std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {
     std::vector<XmlElement> result;
     for (Parameter& p : parameters_) {

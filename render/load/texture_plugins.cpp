@@ -56,22 +56,10 @@ bool srgb_parameter(Properties& p) {
     return gamma != 1;
 }
 
-std::shared_ptr<const Bitmap> bitmap(LoadContext& context, Properties& p, bool srgb) {
-    const LoadContext::File file = context.take_file(p);
-    auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb}];
-    if (!shared) {
-        shared = std::make_shared<Bitmap>();
-        context.jobs.add(file.parameter, [target = shared, path = file.path, srgb] {
-            *target = read_bitmap(path, srgb);
-            return std::string();
-        });
-    }
-    return shared;
-}
-
 Texture read_bitmap_texture(LoadContext& context, Properties& p) {
     Texture texture;
-    texture.kind = BitmapTexture{bitmap(context, p, srgb_parameter(p)), filter_parameter(p), wrap_parameter(p)};
+    texture.kind =
+        BitmapTexture{bitmap_parameter(context, p, srgb_parameter(p)), filter_parameter(p), wrap_parameter(p)};
     texture.to_uv = uv_transform(p);
     p.ignore({"max_anisotropy", "cache", "format", "accel"}); // of speed and memory
     return texture;
@@ -100,6 +88,19 @@ constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
 };
 
 } // namespace
+
+std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& p, bool srgb) {
+    const LoadContext::File file = context.take_file(p);
+    auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb}];
+    if (!shared) {
+        shared = std::make_shared<Bitmap>();
+        context.jobs.add(file.parameter, [target = shared, path = file.path, srgb] {
+            *target = read_bitmap(path, srgb);
+            return std::string();
+        });
+    }
+    return shared;
+}
 
 Texture read_texture(LoadContext& context, const XmlElement& element) {
     const NestingGuard guard(context, element);

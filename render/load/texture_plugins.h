@@ -8,6 +8,9 @@ namespace tessera {
 /// A <texture>. An unknown plugin becomes a marking colour, with a note.
 Texture read_texture(LoadContext& context, const XmlElement& element);
 
+/// The image file of a plugin, read later and shared by all that name it. `srgb`: what its bytes are.
+std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& properties, bool srgb);
+
 /// A parameter that is a colour, a texture or a reference to a texture.
 Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
 

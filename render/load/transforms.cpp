@@ -119,6 +119,10 @@ glm::mat4 read_transform(const XmlElement& transform) {
     return product_of_steps(transform, false);
 }
 
+glm::vec3 read_vector(const XmlElement& element) {
+    return components(element, 0, false);
+}
+
 glm::mat3 read_uv_transform(const XmlElement& transform) {
     const glm::mat4 m = product_of_steps(transform, true);
     return {m[0][0], m[0][1], 0, m[1][0], m[1][1], 0, m[3][0], m[3][1], 1};

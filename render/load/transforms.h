@@ -14,4 +14,7 @@ glm::mat4 read_transform(const XmlElement& transform);
 /// The same for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
 glm::mat3 read_uv_transform(const XmlElement& transform);
 
+/// A <point> or <vector>: value="x y z", or attributes x, y and z, of which those absent are 0. Throws LoadError.
+glm::vec3 read_vector(const XmlElement& element);
+
 } // namespace tessera

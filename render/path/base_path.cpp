@@ -14,40 +14,33 @@ void sample_light(const Tracer& tracer, const Random& random, int index, BaseVer
     v.light_brings = Rgb(0);
     if (lights.empty() || x.bsdf.roughness() <= 0)
         return;
-    const LightTriangle& triangle = lights.choose(random.draw_2d(index, Draw::emitter));
-    if (!triangle.faces(x.position))
+    if (!lights.sample(x.position, random, index, v.light))
         return;
-    const LightPoint light = triangle.sample(random.draw_2d(index, Draw::emitter_position));
-    const glm::vec3 d = light.position - x.position;
-    const float facing = -glm::dot(d, light.normal);
-    if (!(facing > 0))
-        return; // as good as edge-on
-    const float distance2 = glm::dot(d, d);
-    const float distance = std::sqrt(distance2);
-    const glm::vec3 direction = d / distance;
-    v.to_light = x.to_local(direction);
+    const std::optional<LightRay> seen = v.light.seen_from(x.position);
+    if (!seen)
+        return;
+    v.to_light = x.to_local(seen->direction);
     const BsdfValue b = x.bsdf.evaluate(x.to_previous, v.to_light);
-    if (is_black(b.f_cos))
+    if (is_black(b.f_cos) || tracer.occluded(tracer.toward_light(x, v.light, seen->direction)))
         return;
-    if (tracer.occluded(tracer.between(x.position, x.geometric_normal, light.position, light.normal, direction)))
-        return;
-    v.light = light;
-    v.light_pdf_w = light.pdf_a * distance2 * distance / facing;
-    v.light_pdf_sum = v.light_pdf_w + b.pdf_w;
-    v.light_brings = b.f_cos * light.radiance / v.light_pdf_sum;
+    v.light_pdf_w = seen->pdf_w;
+    v.light_pdf_sum = seen->pdf_w + (v.light.can_be_hit() ? b.pdf_w : 0);
+    v.light_brings = b.f_cos * seen->radiance / v.light_pdf_sum;
 }
 
-/// The emission of the next vertex, found by BSDF sampling at v.
-void add_hit(BaseVertex& v, const Vertex& next, glm::vec3 direction) {
-    v.hit_pdf_w = 0;
-    v.hit_brings = Rgb(0);
-    if (next.emitter_pdf_a <= 0)
+/// A light that BSDF sampling at v has met. `pdf_w` is that of emitter sampling there.
+void add_hit(BaseVertex& v, Rgb radiance, float pdf_w) {
+    v.hit_pdf_w = v.is_delta || is_black(radiance) ? 0 : pdf_w;
+    v.hit_brings = radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
+}
+
+/// BSDF sampling at v has left the scene.
+void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
+    if (!tracer.scene.lights().environment())
         return;
-    const LightPoint light = next.light_toward(-direction);
-    if (is_black(light.radiance))
-        return;
-    v.hit_pdf_w = v.is_delta ? 0 : light.pdf_a / v.next_geometry; // per area over geometry is per solid angle
-    v.hit_brings = light.radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
+    const LightPoint light = tracer.scene.lights().environment_toward(direction);
+    add_hit(v, light.radiance, light.pdf);
+    v.escapes = true;
 }
 
 /// Samples the BSDF at the last vertex, x_index, and appends what lies in that direction; false: the path ends.
@@ -62,20 +55,36 @@ bool extend(const Tracer& tracer, const Random& random, int index, int max_depth
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
     const Ray ray = tracer.leave(x, direction);
-    const bool is_last = index + 1 == max_depth;
-    if (!(is_last ? tracer.closest_light(ray, next.vertex) : tracer.closest(ray, next.vertex)))
-        return false;
-    const glm::vec3 d = next.vertex.position - x.position;
-    const float distance2 = glm::dot(d, d);
-    v.next_geometry = std::abs(glm::dot(next.vertex.geometric_normal, direction)) / distance2;
-    if (!(v.next_geometry > 0) || !(distance2 > 0))
+    using Met = Tracer::Met;
+    Met met = Met::light;
+    if (index + 1 == max_depth)
+        met = tracer.closest_light(ray, next.vertex);
+    else if (!tracer.closest(ray, next.vertex))
+        met = Met::infinity;
+    if (met == Met::darkness)
         return false;
     v.to_next = s->to_next;
     v.f_cos = s->f_cos;
     v.pdf_w = s->pdf_w;
     v.is_delta = s->is_delta;
     v.scatter = s->scatter;
-    add_hit(v, next.vertex, direction);
+    if (met == Met::infinity) {
+        escape(tracer, v, direction);
+        return false;
+    }
+    const glm::vec3 d = next.vertex.position - x.position;
+    const float distance2 = glm::dot(d, d);
+    v.next_geometry = std::abs(glm::dot(next.vertex.geometric_normal, direction)) / distance2;
+    if (!(v.next_geometry > 0) || !(distance2 > 0))
+        return false;
+    v.hit_pdf_w = 0;
+    v.hit_brings = Rgb(0);
+    if (next.vertex.emitter_pdf_a > 0) {
+        const LightPoint light = next.vertex.light_toward(-direction);
+        add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
+    }
+    next.escapes = false;
+    next.light_brings = Rgb(0);
     path.keep();
     return true;
 }
@@ -87,7 +96,7 @@ void gather(BasePath& path) {
         BaseVertex& v = path[i];
         v.arriving = toward_camera;
         toward_camera = v.light_brings;
-        if (i + 1 < path.size())
+        if (i + 1 < path.size() || v.escapes)
             toward_camera += v.f_cos * (v.hit_brings + v.arriving) / v.pdf_w;
     }
     path.radiance = toward_camera;
@@ -101,8 +110,12 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, int max_depth,
     path.very_direct = path.radiance = Rgb(0);
     ++tracer.counters.camera_paths;
     BaseVertex& primary = path.spare();
-    if (!tracer.closest(camera_ray, primary.vertex))
+    if (!tracer.closest(camera_ray, primary.vertex)) {
+        path.very_direct = tracer.scene.lights().environment_toward(camera_ray.direction).radiance;
         return;
+    }
+    primary.escapes = false;
+    primary.light_brings = Rgb(0);
     path.keep();
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     // Emitter sampling at x_i makes i + 1 edges, and so does going on to x_{i+1} for its emission.
@@ -111,8 +124,6 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, int max_depth,
         if (!extend(tracer, random, i, max_depth, path))
             break;
     }
-    if (path.size() == max_depth)
-        path[max_depth - 1].light_brings = Rgb(0); // nothing was sampled there
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
     gather(path);
 }

@@ -17,10 +17,11 @@ struct BaseVertex {
     LightPoint light;
     glm::vec3 to_light;      ///< unit, in the vertex's frame
     float light_pdf_w = 0;   ///< of emitter sampling
-    float light_pdf_sum = 0; ///< of emitter and BSDF sampling together
+    float light_pdf_sum = 0; ///< of all strategies that could have found this light together
     Rgb light_brings{0};     ///< radiance toward x_{i-1}, with its MIS weight: f cos Le / light_pdf_sum
 
-    // BSDF sampling; valid when the path has a next vertex.
+    // BSDF sampling; valid when the path has a next vertex, or leaves the scene here.
+    bool escapes = false; ///< it leaves the scene toward an environment: its light counts as a hit
     glm::vec3 to_next;
     Rgb f_cos{0};
     float pdf_w = 0;
@@ -28,8 +29,8 @@ struct BaseVertex {
     Scatter scatter = Scatter::reflect;
     float next_geometry = 0; ///< |cos| at x_{i+1} over the squared distance: what turns pdf_w into pdf_a
 
-    float hit_pdf_w = 0; ///< of emitter sampling at the emitter that x_{i+1} lies on; 0: cannot be sampled
-    Rgb hit_brings{0};   ///< radiance from x_{i+1}'s own emission, with its MIS weight
+    float hit_pdf_w = 0; ///< of emitter sampling at the emitter met: x_{i+1}, or infinity; 0: cannot be sampled
+    Rgb hit_brings{0};   ///< radiance from that emitter, with its MIS weight
     Rgb arriving{0};     ///< radiance from x_{i+1} by all longer light paths, with their MIS weights
 };
 

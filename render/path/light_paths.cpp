@@ -12,7 +12,7 @@ void LightPaths::reset(const BasePath& path, float threshold) {
     for (int i = 0; i < count; ++i) {
         const BaseVertex& v = path[i];
         carried_.push_back(throughput * v.light_brings);
-        if (i + 1 == count) {
+        if (i + 1 == count && !v.escapes) {
             carried_.emplace_back(0);
             break;
         }

@@ -21,7 +21,7 @@ public:
     void reset(const BasePath& path, float threshold);
 
     static int emitter_slot(int vertex) { return 2 * vertex; } ///< ends by emitter sampling at the vertex
-    static int hit_slot(int vertex) { return 2 * vertex + 1; } ///< ends by BSDF sampling there hitting an emitter
+    static int hit_slot(int vertex) { return 2 * vertex + 1; } ///< ends by BSDF sampling there meeting an emitter
     int tail_slot() const { return 2 * join_ + 2; }            ///< ends further on; only where has_join()
 
     /// The vertex at which offsets join the base path: the first j >= 1 for which j-1 and j are connectable.
@@ -36,7 +36,7 @@ public:
     /// The last slot that carries light; -1: none does.
     int last_alive() const { return last_alive_; }
 
-    /// Whether the step from the vertex onward (there is one) is connectable.
+    /// Whether the step from the vertex onward (there is one, perhaps to infinity) is connectable.
     bool step_is_connectable(int vertex) const { return step_connectable_[static_cast<std::size_t>(vertex)] != 0; }
 
 private:

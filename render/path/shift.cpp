@@ -79,10 +79,12 @@ private:
     void shift_light(int i, const Vertex& y);
     void connect_light(int i, const Vertex& y);
     void bounce_to_light(int i, const Vertex& y);
-    void end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, glm::vec3 direction, const Vertex& hit,
+    void end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
-    void set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum,
-                       const LightPoint& light, float light_pdf_w);
+    void set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum, Rgb radiance,
+                       float light_pdf_w);
+    void escape(int i, const Vertex& y);
+    void connect_infinity(int i, const Vertex& y);
     bool connect_vertex(int i, const Vertex& y);
     void connect_beyond(int next, glm::vec3 to_previous, const Prefix& prefix);
     bool bounce(int i, const Vertex& y, Vertex& next);
@@ -111,8 +113,12 @@ ShiftOutcome ShiftWalk::run(const Vertex& primary) {
     for (int i = 0; i < count; ++i) {
         if (light_.is_alive(LightPaths::emitter_slot(i)) && !light_is_connected)
             shift_light(i, *y);
-        if (i + 1 == count || !alive_from(LightPaths::hit_slot(i)))
+        if (!alive_from(LightPaths::hit_slot(i)))
             break;
+        if (i + 1 == count) {
+            escape(i, *y); // what else could carry light there
+            break;
+        }
         light_is_connected = false;
         if (light_.step_is_connectable(i)) {
             light_is_connected = is_connectable(base(i + 1).vertex, threshold_);
@@ -132,38 +138,37 @@ ShiftOutcome ShiftWalk::run(const Vertex& primary) {
 }
 
 /// The end of a light path at the light, by either strategy: both could have made it, so both count.
-void ShiftWalk::set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum,
-                              const LightPoint& light, float light_pdf_w) {
+void ShiftWalk::set_light_end(int slot, float pdf_w, float jacobian, Rgb f_cos, float base_pdf_sum, Rgb radiance,
+                              float light_pdf_w) {
     const float scale = jacobian / base_pdf_sum;
     paths_.set(slot, offset_, prefix_.density * (pdf_w + light_pdf_w) * scale,
-               prefix_.value * f_cos * light.radiance * scale);
+               prefix_.value * f_cos * radiance * scale);
 }
 
 void ShiftWalk::shift_light(int i, const Vertex& y) {
     const bool connectable = is_connectable(base(i).vertex, threshold_);
     if (y.bsdf.roughness() <= 0 || connectable != is_connectable(y, threshold_))
         return note(ShiftOutcome::kind_mismatch);
-    connectable ? connect_light(i, y) : bounce_to_light(i, y);
+    // A copied half vector cannot meet a light without extent: that is always joined to.
+    connectable || !base(i).light.can_be_hit() ? connect_light(i, y) : bounce_to_light(i, y);
 }
 
-/// Emitter sampling at x_i: the offset is joined to the same point of the light.
+/// Emitter sampling at x_i: the offset is joined to the same point of the light, at infinity to the same
+/// direction.
 void ShiftWalk::connect_light(int i, const Vertex& y) {
     const BaseVertex& x = base(i);
-    const glm::vec3 d = x.light.position - y.position;
-    const float distance2 = glm::dot(d, d);
-    const glm::vec3 direction = d / std::sqrt(distance2);
-    const float cos_light = -glm::dot(direction, x.light.normal);
-    if (!(cos_light > 0) || !(distance2 > 0))
+    const std::optional<LightRay> seen = x.light.seen_from(y.position);
+    if (!seen)
         return note(ShiftOutcome::no_light);
-    const BsdfValue b = y.bsdf.evaluate(y.to_previous, y.to_local(direction));
+    const BsdfValue b = y.bsdf.evaluate(y.to_previous, y.to_local(seen->direction));
     if (is_black(b.f_cos))
         return note(ShiftOutcome::no_light);
-    // pdf_a of the light is the same for all, so the ratio of the solid angles is the inverse of that of the pdfs.
-    const float light_pdf_w = x.light.pdf_a * distance2 / cos_light;
+    // The pdf of the light's point is the same for all, so the ratio of the solid angles is the inverse of that of
+    // the pdfs per solid angle.
     const int slot = LightPaths::emitter_slot(i);
-    set_light_end(slot, b.pdf_w, x.light_pdf_w / light_pdf_w, b.f_cos, x.light_pdf_sum, x.light, light_pdf_w);
-    edges_.add(slot, tracer_.between(y.position, y.geometric_normal, x.light.position, x.light.normal, direction),
-               offset_, slot, slot + 1);
+    set_light_end(slot, x.light.can_be_hit() ? b.pdf_w : 0, x.light_pdf_w / seen->pdf_w, b.f_cos, x.light_pdf_sum,
+                  seen->radiance, seen->pdf_w);
+    edges_.add(slot, tracer_.toward_light(y, x.light, seen->direction), offset_, slot, slot + 1);
 }
 
 /// Emitter sampling at a vertex too glossy to connect: the half vector is copied, and the ray must find a light.
@@ -172,24 +177,47 @@ void ShiftWalk::bounce_to_light(int i, const Vertex& y) {
     const std::optional<CopiedScatter> s = copy_half_vector(x.vertex, x.to_light, y);
     if (!s)
         return note(ShiftOutcome::no_light);
-    const glm::vec3 direction = y.to_world(s->to_next);
-    Vertex hit;
-    if (!tracer_.closest_light(tracer_.leave(y, direction), hit))
-        return note(ShiftOutcome::no_light);
-    end_at_light(LightPaths::emitter_slot(i), *s, y.position, direction, hit, x.light_pdf_sum, false);
+    Vertex scratch;
+    const LightPoint light = tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch);
+    end_at_light(LightPaths::emitter_slot(i), *s, y.position, light, x.light_pdf_sum, false);
 }
 
-/// A copied scatter, from `origin` along `direction`, that ends the light path at `hit`: a light, or else it
-/// fails.
-void ShiftWalk::end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, glm::vec3 direction,
-                             const Vertex& hit, float base_pdf_sum, bool is_delta) {
-    const LightPoint light = hit.light_toward(-direction);
-    if (is_black(light.radiance))
+/// A copied scatter, from `origin`, that ends the light path at `light`; it fails where that is black.
+void ShiftWalk::end_at_light(int slot, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
+                             float base_pdf_sum, bool is_delta) {
+    const std::optional<LightRay> seen = light.seen_from(origin);
+    if (!seen || is_black(seen->radiance))
         return note(ShiftOutcome::no_light);
-    const glm::vec3 d = hit.position - origin;
-    const float light_pdf_w =
-        is_delta ? 0 : light.pdf_a * glm::dot(d, d) / std::abs(glm::dot(light.normal, direction));
-    set_light_end(slot, s.pdf_w, s.jacobian, s.f_cos, base_pdf_sum, light, light_pdf_w);
+    set_light_end(slot, s.pdf_w, s.jacobian, s.f_cos, base_pdf_sum, seen->radiance, is_delta ? 0 : seen->pdf_w);
+}
+
+/// The base leaves the scene at its last vertex, x_i, and meets the environment.
+void ShiftWalk::escape(int i, const Vertex& y) {
+    const BaseVertex& x = base(i);
+    if (light_.step_is_connectable(i))
+        return connect_infinity(i, y);
+    const std::optional<CopiedScatter> s = copy_scatter(i, y);
+    if (!s)
+        return;
+    Vertex scratch;
+    const LightPoint light = tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch);
+    end_at_light(LightPaths::hit_slot(i), *s, y.position, light, x.pdf_w + x.hit_pdf_w, x.is_delta);
+}
+
+/// Joins y to the environment: the same direction, so with a Jacobian of 1.
+void ShiftWalk::connect_infinity(int i, const Vertex& y) {
+    if (!is_connectable(y, threshold_))
+        return note(ShiftOutcome::kind_mismatch);
+    const BaseVertex& x = base(i);
+    const glm::vec3 direction = x.vertex.to_world(x.to_next);
+    const BsdfValue b = y.bsdf.evaluate(y.to_previous, y.to_local(direction));
+    if (is_black(b.f_cos))
+        return note(ShiftOutcome::no_light);
+    const int slot = LightPaths::hit_slot(i);
+    const float pdf_sum = x.pdf_w + x.hit_pdf_w;
+    set_light_end(slot, b.pdf_w, 1, b.f_cos, pdf_sum, x.hit_brings * (pdf_sum / x.pdf_w), x.hit_pdf_w);
+    const LightPoint infinity{LightPoint::Kind::environment, direction, glm::vec3(0), Rgb(0), 0};
+    edges_.add(slot, tracer_.toward_light(y, infinity, direction), offset_, slot, slot + 1);
 }
 
 /// Joins y to x_{i+1}: for its emission, for emitter sampling there, and beyond it if that is where offsets join.
@@ -225,8 +253,8 @@ bool ShiftWalk::connect_vertex(int i, const Vertex& y) {
     const float jacobian = geometry / x.next_geometry;
     if (light_.is_alive(LightPaths::hit_slot(i))) {
         const LightPoint light = next.light_toward(-direction);
-        set_light_end(LightPaths::hit_slot(i), b.pdf_w, jacobian, b.f_cos, x.pdf_w + x.hit_pdf_w, light,
-                      light.pdf_a / geometry);
+        set_light_end(LightPaths::hit_slot(i), b.pdf_w, jacobian, b.f_cos, x.pdf_w + x.hit_pdf_w, light.radiance,
+                      light.pdf / geometry);
     }
     const float scale = jacobian / x.pdf_w;
     const Prefix joined{prefix_.density * b.pdf_w * scale, prefix_.value * b.f_cos * scale};
@@ -244,8 +272,9 @@ void ShiftWalk::connect_beyond(int next, glm::vec3 to_previous, const Prefix& jo
     const Prefix before = std::exchange(prefix_, joined);
     if (light_.is_alive(LightPaths::emitter_slot(next)) && is_connectable(x.vertex, threshold_)) {
         const BsdfValue b = x.vertex.bsdf.evaluate(to_previous, x.to_light);
-        set_light_end(LightPaths::emitter_slot(next), b.pdf_w, 1, b.f_cos, x.light_pdf_sum, x.light,
-                      x.light_pdf_w);
+        if (const std::optional<LightRay> seen = x.light.seen_from(x.vertex.position))
+            set_light_end(LightPaths::emitter_slot(next), x.light.can_be_hit() ? b.pdf_w : 0, 1, b.f_cos,
+                          x.light_pdf_sum, seen->radiance, x.light_pdf_w);
     }
     if (light_.join() == next && alive_from(LightPaths::hit_slot(next))) {
         const BsdfValue b = x.vertex.bsdf.evaluate(to_previous, x.to_next);
@@ -290,13 +319,17 @@ bool ShiftWalk::bounce(int i, const Vertex& y, Vertex& next) {
         return false;
     const glm::vec3 direction = y.to_world(s->to_next);
     const glm::vec3 origin = y.position;
-    if (!tracer_.closest(tracer_.leave(y, direction), next)) {
+    const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next);
+    // From a connectable vertex, an emitter is reached by connecting (done before); else by this very ray.
+    if (!light_.step_is_connectable(i) && light_.is_alive(LightPaths::hit_slot(i))) {
+        const LightPoint met =
+            is_inside ? next.light_toward(-direction) : tracer_.scene.lights().environment_toward(direction);
+        end_at_light(LightPaths::hit_slot(i), *s, origin, met, x.pdf_w + x.hit_pdf_w, x.is_delta);
+    }
+    if (!is_inside) {
         note(ShiftOutcome::outside);
         return false;
     }
-    // From a connectable vertex, an emitter is reached by connecting (done before); else by this very ray.
-    if (!light_.step_is_connectable(i) && light_.is_alive(LightPaths::hit_slot(i)))
-        end_at_light(LightPaths::hit_slot(i), *s, origin, direction, next, x.pdf_w + x.hit_pdf_w, x.is_delta);
     const float scale = s->jacobian / x.pdf_w;
     prefix_ = {prefix_.density * s->pdf_w * scale, prefix_.value * s->f_cos * scale};
     return true;

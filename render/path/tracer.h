@@ -14,7 +14,7 @@ struct Tracer {
     const Scene& scene;
     Counters& counters;
 
-    /// Makes `vertex` what the ray meets first. False: it meets nothing.
+    /// Makes `vertex` what the ray meets first. False: it leaves the scene.
     bool closest(const Ray& ray, Vertex& vertex) const {
         ++counters.closest_hit_rays;
         Hit hit;
@@ -24,16 +24,31 @@ struct Tracer {
         return true;
     }
 
-    /// The same for a ray on which only a light is of interest. False, too, where it meets something else.
-    bool closest_light(const Ray& ray, Vertex& vertex) const {
+    enum class Met : std::uint8_t { light, darkness, infinity };
+
+    /// The same for a ray on which only a light is of interest: `vertex` is made where it meets one.
+    Met closest_light(const Ray& ray, Vertex& vertex) const {
         if (!scene.lights().may_be_hit(ray))
-            return false;
+            return Met::darkness;
         ++counters.closest_hit_rays;
         Hit hit;
-        if (!scene.intersector().closest(ray, hit) || scene.record(hit.shape).emitter_pdf_a <= 0)
-            return false;
+        if (!scene.intersector().closest(ray, hit))
+            return Met::infinity;
+        if (scene.record(hit.shape).emitter_pdf_a <= 0)
+            return Met::darkness;
         make_vertex(scene, hit, ray, vertex);
-        return true;
+        return Met::light;
+    }
+
+    /// The light that a ray runs into; black: none. `scratch` is overwritten.
+    LightPoint light_along(const Ray& ray, Vertex& scratch) const {
+        const Met met = closest_light(ray, scratch);
+        if (met == Met::infinity)
+            return scene.lights().environment_toward(ray.direction);
+        LightPoint light = scratch.light_toward(-ray.direction);
+        if (met == Met::darkness)
+            light.radiance = Rgb(0);
+        return light;
     }
 
     /// The ray that leaves a vertex in a unit direction (world).
@@ -46,6 +61,15 @@ struct Tracer {
                     glm::vec3 direction) const {
         return {scene.intersector().off_surface(from, from_normal, direction),
                 scene.intersector().off_surface(to, to_normal, -direction)};
+    }
+
+    /// The stretch from a surface to a light that lies in the unit direction `direction` of it.
+    Segment toward_light(const Vertex& from, const LightPoint& light, glm::vec3 direction) const {
+        if (!light.is_at_infinity())
+            return between(from.position, from.geometric_normal, light.position, light.normal, direction);
+        const float way_out = 1.01f * (glm::distance(from.position, scene.center()) + scene.radius());
+        return {scene.intersector().off_surface(from.position, from.geometric_normal, direction),
+                from.position + way_out * direction};
     }
 
     bool occluded(const Segment& segment) const {

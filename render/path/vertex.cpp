@@ -59,7 +59,7 @@ glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, g
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
     const bool front = glm::dot(geometric_normal, direction) > 0;
-    return {position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
+    return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
 }
 
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) {
@@ -106,7 +106,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
     if (v.bsdf.is_bent)
         v.bsdf.unbent_normal = v.to_local(side * normal);
     v.to_previous = v.to_local(-ray.direction);
-    v.emitted = shape.emitted;
+    v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;
     v.emitter_pdf_a = shape.emitter_pdf_a;
 }
 

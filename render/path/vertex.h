@@ -23,7 +23,7 @@ struct Vertex {
     glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
     glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
 
-    /// The light of this vertex as seen from `direction` (world, away from the surface); black from behind.
+    /// The light of this vertex toward a unit direction (world, away from the surface); black from behind.
     LightPoint light_toward(glm::vec3 direction) const;
 };
 

@@ -1,6 +1,7 @@
 #include "render/scene/light.h"
 
 #include "render/sampling.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,79 +9,142 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace tessera {
 
+Rgb PointLight::toward(glm::vec3 direction) const {
+    if (cutoff >= 180)
+        return intensity;
+    const float angle = glm::degrees(std::acos(glm::clamp(glm::dot(direction, axis), -1.0f, 1.0f)));
+    if (angle <= full_within)
+        return intensity;
+    return angle >= cutoff ? Rgb(0) : intensity * ((cutoff - angle) / (cutoff - full_within));
+}
+
+std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) const {
+    if (is_at_infinity())
+        return LightRay{position, radiance, pdf};
+    const glm::vec3 d = position - receiver;
+    const float distance2 = glm::dot(d, d);
+    if (!(distance2 > 0))
+        return {};
+    const glm::vec3 direction = d / std::sqrt(distance2);
+    const Rgb intensity = light->toward(-direction);
+    if (is_black(intensity))
+        return {};
+    return LightRay{direction, intensity, pdf * distance2};
+}
+
+void LightTriangle::sample(glm::vec2 u, LightPoint& point) const {
+    const glm::vec2 b = sample_triangle(u);
+    point.kind = LightPoint::Kind::surface;
+    point.position = corner + b.x * edge1 + b.y * edge2;
+    point.normal = normal;
+    point.radiance = radiance;
+    point.pdf = pdf_a;
+    if (radiance_map) {
+        const float first = 1 - b.x - b.y;
+        point.radiance = radiance_map->evaluate(
+            {first * at[0].uv + b.x * at[1].uv + b.y * at[2].uv,
+             first * at[0].vertex_color + b.x * at[1].vertex_color + b.y * at[2].vertex_color});
+    }
+}
+
 namespace {
 
-/// Splits weights of mean 1 into halves of two: entry i keeps its share up to threshold[i] and gives the rest of
-/// its place to alias[i] [Vose 1991].
-void build_alias(std::vector<float>& threshold, std::vector<std::uint32_t>& alias) {
-    std::vector<std::uint32_t> small, large;
-    for (std::uint32_t i = 0; i < threshold.size(); ++i)
-        (threshold[i] < 1 ? small : large).push_back(i);
-    while (!small.empty() && !large.empty()) {
-        const std::uint32_t s = small.back(), l = large.back();
-        small.pop_back();
-        alias[s] = l;
-        threshold[l] -= 1 - threshold[s];
-        if (threshold[l] < 1) {
-            large.pop_back();
-            small.push_back(l);
-        }
-    }
-    for (std::uint32_t i : small)
-        threshold[i] = 1; // by rounding
-    for (std::uint32_t i : large)
-        threshold[i] = 1;
+SurfacePoint corner_of(const Mesh& mesh, unsigned vertex, glm::vec2 barycentric) {
+    SurfacePoint at{barycentric};
+    if (!mesh.uvs.empty())
+        at.uv = mesh.uvs[vertex];
+    if (!mesh.colors.empty())
+        at.vertex_color = mesh.colors[vertex];
+    return at;
+}
+
+double cone_solid_angle(const PointLight& light) {
+    const double half_way = 0.5 * glm::radians(double(light.cutoff) + double(light.full_within));
+    return 2 * double(pi) * (1 - std::cos(half_way));
 }
 
 } // namespace
 
-LightPoint LightTriangle::sample(glm::vec2 u) const {
-    const glm::vec2 b = sample_triangle(u);
-    return {corner + b.x * edge1 + b.y * edge2, normal, radiance, pdf_a};
+LightTable::LightTable(const SceneDescription& description, float radius)
+    : pdf_a_(description.area_lights.size(), 0.0f), points_(description.point_lights),
+      directionals_(description.directional_lights) {
+    std::vector<double> power;
+    add_triangles(description, power);
+    const auto add = [&](Source source, double watts) {
+        if (!(watts > 0))
+            return;
+        sources_.push_back(source);
+        power.push_back(watts);
+    };
+    const double disk = double(pi) * radius * radius; // what light from infinity falls through
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        add(Point{i, 0}, cone_solid_angle(points_[i]) * luminance(points_[i].intensity));
+    for (std::size_t i = 0; i < directionals_.size(); ++i)
+        add(Directional{i, 0}, disk * luminance(directionals_[i].irradiance));
+    if (!description.environment.empty()) {
+        environment_ = std::make_shared<const Environment>(description.environment);
+        add(Infinite{}, disk * environment_->flux());
+    }
+
+    choice_ = AliasTable(power);
+    const double total = std::accumulate(power.begin(), power.end(), 0.0);
+    for (std::size_t i = 0; i < pdf_a_.size() && total > 0; ++i)
+        pdf_a_[i] = static_cast<float>(double(pi) * luminance(description.area_lights[i].radiance.mean()) / total);
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        const float probability = choice_.probability(i);
+        if (auto* triangle = std::get_if<LightTriangle>(&sources_[i]))
+            triangle->pdf_a = pdf_a_[triangle->light];
+        else if (auto* point = std::get_if<Point>(&sources_[i]))
+            point->probability = probability;
+        else if (auto* directional = std::get_if<Directional>(&sources_[i]))
+            directional->probability = probability;
+        else if (std::holds_alternative<Infinite>(sources_[i]))
+            environment_probability_ = probability;
+    }
 }
 
-LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaLight>& lights)
-    : pdf_a_(lights.size(), 0.0f), low_(std::numeric_limits<float>::max()),
-      high_(std::numeric_limits<float>::lowest()) {
-    std::vector<double> power;
-    std::vector<int> light_of;
-    for (const Shape& shape : shapes) {
+void LightTable::add_triangles(const SceneDescription& description, std::vector<double>& power) {
+    // Per area, every triangle of a light is as likely as its mean radiance is bright.
+    std::vector<Rgb> mean;
+    for (const AreaLight& light : description.area_lights)
+        mean.push_back(light.radiance.mean());
+    low_ = glm::vec3(std::numeric_limits<float>::max());
+    high_ = glm::vec3(std::numeric_limits<float>::lowest());
+    for (const Shape& shape : description.shapes) {
         if (shape.area_light < 0)
             continue;
-        const Rgb radiance = lights[static_cast<std::size_t>(shape.area_light)].radiance;
-        for (const glm::uvec3 t : shape.mesh.triangles) {
-            const glm::vec3 corner = shape.mesh.positions[t.x];
-            const glm::vec3 edge1 = shape.mesh.positions[t.y] - corner;
-            const glm::vec3 edge2 = shape.mesh.positions[t.z] - corner;
-            const double area2 = glm::length(glm::cross(glm::dvec3(edge1), glm::dvec3(edge2)));
-            if (!(area2 > 0) || is_black(radiance))
+        const Mesh& mesh = shape.mesh;
+        const auto light = static_cast<std::size_t>(shape.area_light);
+        for (const glm::uvec3 t : mesh.triangles) {
+            LightTriangle triangle;
+            triangle.corner = mesh.positions[t.x];
+            triangle.edge1 = mesh.positions[t.y] - triangle.corner;
+            triangle.edge2 = mesh.positions[t.z] - triangle.corner;
+            const double area2 = glm::length(glm::cross(glm::dvec3(triangle.edge1), glm::dvec3(triangle.edge2)));
+            if (!(area2 > 0) || is_black(mean[light]))
                 continue; // no area, no light
-            entries_.push_back({{corner, edge1, edge2, front_normal(shape.mesh, t), radiance, 0}, 0, 0});
-            power.push_back(0.5 * area2 * luminance(radiance));
-            light_of.push_back(shape.area_light);
-            for (const glm::vec3 p : {corner, corner + edge1, corner + edge2}) {
+            triangle.normal = front_normal(mesh, t);
+            triangle.radiance = mean[light];
+            triangle.light = light;
+            if (!description.area_lights[light].radiance.is_constant()) {
+                triangle.radiance_map = &description.area_lights[light].radiance;
+                triangle.at[0] = corner_of(mesh, t.x, {0, 0});
+                triangle.at[1] = corner_of(mesh, t.y, {1, 0});
+                triangle.at[2] = corner_of(mesh, t.z, {0, 1});
+            }
+            sources_.emplace_back(triangle);
+            power.push_back(double(pi) * 0.5 * area2 * luminance(mean[light]));
+            has_triangles_ = true;
+            for (const glm::vec3 p :
+                 {triangle.corner, triangle.corner + triangle.edge1, triangle.corner + triangle.edge2}) {
                 low_ = glm::min(low_, p);
                 high_ = glm::max(high_, p);
             }
         }
-    }
-    const double total = std::accumulate(power.begin(), power.end(), 0.0);
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        pdf_a_[i] = total > 0 ? static_cast<float>(luminance(lights[i].radiance) / total) : 0.0f;
-
-    std::vector<float> threshold(entries_.size());
-    std::vector<std::uint32_t> alias(entries_.size());
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        threshold[i] = static_cast<float>(power[i] / total * static_cast<double>(entries_.size()));
-    std::iota(alias.begin(), alias.end(), 0u);
-    build_alias(threshold, alias);
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-        entries_[i].triangle.pdf_a = pdf_a(light_of[i]);
-        entries_[i].threshold = threshold[i];
-        entries_[i].alias = alias[i];
     }
     // A flat box has no inside for rounding to hit.
     const glm::vec3 margin = 1e-4f * (glm::max(glm::abs(low_), glm::abs(high_)));
@@ -88,14 +152,46 @@ LightTable::LightTable(const std::vector<Shape>& shapes, const std::vector<AreaL
     high_ += margin;
 }
 
-const LightTriangle& LightTable::choose(glm::vec2 u) const {
-    // A number of its own for the threshold: of one float, many entries would leave few bits for it.
-    const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
-    const Entry& first = entries_[std::min(slot, entries_.size() - 1)];
-    return (u.y < first.threshold ? first : entries_[first.alias]).triangle;
+bool LightTable::sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const {
+    const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter))];
+    if (const auto* triangle = std::get_if<LightTriangle>(&source)) {
+        if (!triangle->faces(receiver))
+            return false;
+        triangle->sample(random.draw_2d(vertex, Draw::emitter_position), point);
+        return true;
+    }
+    point = sample_other(source, random, vertex);
+    return true;
+}
+
+LightPoint LightTable::sample_other(const Source& source, const Random& random, int vertex) const {
+    using Kind = LightPoint::Kind;
+    if (const auto* chosen = std::get_if<Point>(&source)) {
+        const PointLight& light = points_[chosen->index];
+        return {Kind::point, light.position, glm::vec3(0), light.intensity, chosen->probability, &light};
+    }
+    if (const auto* chosen = std::get_if<Directional>(&source)) {
+        const DirectionalLight& light = directionals_[chosen->index];
+        return {Kind::directional, light.to_light, glm::vec3(0), light.irradiance, chosen->probability};
+    }
+    return environment_toward(environment_->sample(random.draw_2d(vertex, Draw::emitter_cell),
+                                                   random.draw_2d(vertex, Draw::emitter_position)));
+}
+
+LightPoint LightTable::environment_toward(glm::vec3 direction) const {
+    LightPoint light{LightPoint::Kind::environment, direction, glm::vec3(0), Rgb(0), 0};
+    if (environment_) {
+        light.radiance = environment_->radiance(direction);
+        light.pdf = environment_probability_ * environment_->pdf_w(direction);
+    }
+    return light;
 }
 
 bool LightTable::may_be_hit(const Ray& ray) const {
+    if (environment_)
+        return true;
+    if (!has_triangles_)
+        return false;
     // Slabs [Kay and Kajiya 1986]; a NaN of 0 / 0, on a slab's very face, leaves the other slabs to decide.
     const glm::vec3 a = (low_ - ray.origin) / ray.direction, b = (high_ - ray.origin) / ray.direction;
     float enter = 0, leave = std::numeric_limits<float>::max();

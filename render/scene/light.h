@@ -1,10 +1,17 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/scene/mesh.h"
+#include "render/random.h"
+#include "render/scene/alias_table.h"
+#include "render/scene/environment.h"
+#include "render/scene/texture.h"
 #include "render/trace/ray.h"
 
+#include <cmath>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,17 +20,69 @@
 
 namespace tessera {
 
-/// A mesh that gives off the same radiance from every point and in every direction of its front side.
+struct SceneDescription;
+
+/// A mesh that gives off light on its front side, the same in every direction.
 struct AreaLight {
-    Rgb radiance{1};
+    Texture radiance{Rgb(1)};
 };
 
-/// A point chosen on a light, whoever chose it: emitter sampling, or a ray that happened to hit it.
+/// A point that gives off light, in all directions or within a cone.
+struct PointLight {
+    glm::vec3 position{0};
+    Rgb intensity{1};        ///< power per solid angle
+    glm::vec3 axis{0, 0, 1}; ///< unit, of the cone
+    float cutoff = 180;      ///< degrees from the axis beyond which there is no light; 180: no cone
+    float full_within = 180; ///< degrees up to which there is all of it; in between it falls linearly
+
+    /// Intensity toward a unit direction.
+    Rgb toward(glm::vec3 direction) const;
+};
+
+/// Light that arrives from one direction everywhere.
+struct DirectionalLight {
+    glm::vec3 to_light{0, 0, 1}; ///< unit
+    Rgb irradiance{1};           ///< on a surface that faces it
+};
+
+/// How a receiver sees a point on a light.
+struct LightRay {
+    glm::vec3 direction; ///< unit, toward the light
+    Rgb radiance;        ///< that arrives; of a point the intensity, of a directional light the irradiance
+    float pdf_w;         ///< of emitter sampling per solid angle, or what stands for it where light comes from one
+                         ///< direction alone: f cos radiance / pdf_w is what emitter sampling brings
+};
+
+/// The end of a light path, whoever chose it: emitter sampling, or a ray that happened to meet a light.
 struct LightPoint {
-    glm::vec3 position;
-    glm::vec3 normal; ///< unit, the side that gives light
-    Rgb radiance;     ///< given off toward the receiver
-    float pdf_a;      ///< density of emitter sampling at this point, per area; does not depend on the receiver
+    enum class Kind : std::uint8_t { surface, point, directional, environment };
+    Kind kind = Kind::surface;
+    glm::vec3 position{0}; ///< or, at infinity, the unit direction toward it
+    glm::vec3 normal{0};   ///< of a surface: unit, the side that gives light; else 0
+    Rgb radiance{0};       ///< given off toward the receiver; of a directional light its irradiance
+    float pdf = 0; ///< of emitter sampling: per area, per solid angle (environment) or a probability; does not
+                   ///< depend on the receiver
+    const PointLight* light = nullptr; ///< of a point
+
+    /// Whether rays can meet it, so that BSDF sampling could have found it, too.
+    bool can_be_hit() const { return kind == Kind::surface || kind == Kind::environment; }
+    bool is_at_infinity() const { return kind == Kind::directional || kind == Kind::environment; }
+
+    /// Empty: no light goes that way.
+    std::optional<LightRay> seen_from(glm::vec3 receiver) const {
+        if (kind != Kind::surface)
+            return seen_without_surface(receiver);
+        const glm::vec3 d = position - receiver;
+        const float facing = -glm::dot(d, normal); // cos times the distance
+        if (!(facing > 0))
+            return {};
+        const float distance2 = glm::dot(d, d);
+        const float distance = std::sqrt(distance2);
+        return LightRay{d / distance, radiance, pdf * distance2 * distance / facing};
+    }
+
+private:
+    std::optional<LightRay> seen_without_surface(glm::vec3 receiver) const;
 };
 
 /// An emitting triangle.
@@ -31,41 +90,71 @@ struct LightTriangle {
     glm::vec3 corner, edge1, edge2;
     glm::vec3 normal; ///< unit, the side that gives light
     Rgb radiance;
-    float pdf_a; ///< of choosing this triangle and a point on it, per area
+    float pdf_a;       ///< of choosing this triangle and a point on it, per area
+    std::size_t light; ///< index of its area light
+
+    // Where radiance varies: its texture and where the corners are on it.
+    const Texture* radiance_map = nullptr;
+    SurfacePoint at[3];
 
     /// Whether it sends light toward a point, from anywhere on it.
     bool faces(glm::vec3 point) const { return glm::dot(point - corner, normal) > 0; }
-    LightPoint sample(glm::vec2 u) const;
+    void sample(glm::vec2 u, LightPoint& point) const;
 };
 
-/// The lights of a scene, chosen in proportion to their power, by an alias table over all emitting triangles: the
-/// choice costs the same for one and for thousands.
+/// The lights of a scene, chosen in proportion to their power, by an alias table over all emitting triangles and
+/// all other lights: the choice costs the same for one and for thousands.
 class LightTable {
 public:
     LightTable() = default;
-    LightTable(const std::vector<Shape>& shapes, const std::vector<AreaLight>& lights);
+    /// Keeps pointers into the description. All of the scene is within `radius` of `center`: what comes from
+    /// infinity has power in proportion to that.
+    LightTable(const SceneDescription& description, float radius);
 
-    bool empty() const { return entries_.empty(); }
-    std::size_t size() const { return entries_.size(); }
+    bool empty() const { return sources_.empty(); }
+    std::size_t size() const { return sources_.size(); } ///< emitting triangles and other lights
 
-    /// Chooses a triangle with random numbers in [0, 1)^2; not for an empty table.
-    const LightTriangle& choose(glm::vec2 u) const;
+    /// Chooses a point of a light with the numbers of a path's vertex. False: it surely sends no light to the
+    /// receiver. Not for an empty table. (In place: this is where paths spend their time.)
+    bool sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const;
 
-    /// pdf_a at any point of a light.
+    /// LightPoint::pdf at any point of an area light.
     float pdf_a(int area_light) const { return pdf_a_[static_cast<std::size_t>(area_light)]; }
 
-    /// Whether the ray meets the box around all lights: cheaper than tracing it, where only lights count.
+    /// What a ray meets that leaves the scene in a unit direction. Black without an environment.
+    LightPoint environment_toward(glm::vec3 direction) const;
+    const Environment* environment() const { return environment_.get(); } ///< null: none
+
+    /// Whether the ray may meet a light: cheaper than tracing it, where only lights count.
     bool may_be_hit(const Ray& ray) const;
 
+    const std::vector<PointLight>& points() const { return points_; }
+    const std::vector<DirectionalLight>& directionals() const { return directionals_; }
+
 private:
-    struct Entry {
-        LightTriangle triangle;
-        float threshold; // alias method [Walker 1974, Vose 1991]: below it this entry, else `alias`
-        std::uint32_t alias;
+    struct Point {
+        std::size_t index;
+        float probability;
     };
-    std::vector<Entry> entries_;
+    struct Directional {
+        std::size_t index;
+        float probability;
+    };
+    struct Infinite {};
+    using Source = std::variant<LightTriangle, Point, Directional, Infinite>;
+
+    void add_triangles(const SceneDescription& description, std::vector<double>& power);
+    LightPoint sample_other(const Source& source, const Random& random, int vertex) const;
+
+    AliasTable choice_;
+    std::vector<Source> sources_;
     std::vector<float> pdf_a_;
-    glm::vec3 low_{0}, high_{0};
+    std::vector<PointLight> points_;
+    std::vector<DirectionalLight> directionals_;
+    std::shared_ptr<const Environment> environment_;
+    float environment_probability_ = 0;
+    bool has_triangles_ = false;
+    glm::vec3 low_{0}, high_{0}; // of the emitting triangles
 };
 
 } // namespace tessera

@@ -13,32 +13,52 @@ namespace {
 ShapeRecord make_record(const Shape& shape, const SceneDescription& description, const LightTable& lights) {
     const Mesh& mesh = shape.mesh;
     const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
-    ShapeRecord record{
-        mesh.triangles.data(), mesh.positions.data(), nullptr, nullptr, nullptr, &material, Rgb(0), 0};
+    ShapeRecord record{};
+    record.triangles = mesh.triangles.data();
+    record.positions = mesh.positions.data();
+    record.material = &material;
     if (!mesh.normals.empty())
         record.normals = mesh.normals.data();
-    if (!mesh.uvs.empty() && material.is_textured())
-        record.uvs = mesh.uvs.data();
-    if (!mesh.colors.empty() && material.is_textured())
-        record.colors = mesh.colors.data();
+    bool is_textured = material.is_textured();
     if (shape.area_light >= 0) {
-        record.emitted = description.area_lights[static_cast<std::size_t>(shape.area_light)].radiance;
+        const Texture& radiance = description.area_lights[static_cast<std::size_t>(shape.area_light)].radiance;
         record.emitter_pdf_a = lights.pdf_a(shape.area_light);
+        record.emitted = radiance.mean();
+        if (!radiance.is_constant())
+            record.emission_map = &radiance;
+        is_textured = is_textured || !radiance.is_constant();
     }
+    if (!mesh.uvs.empty() && is_textured)
+        record.uvs = mesh.uvs.data();
+    if (!mesh.colors.empty() && is_textured)
+        record.colors = mesh.colors.data();
     return record;
+}
+
+/// The opacity of each shape; null: it is opaque.
+std::vector<const Texture*> opacities_of(const SceneDescription& description) {
+    std::vector<const Texture*> opacities;
+    for (const Shape& shape : description.shapes) {
+        const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
+        opacities.push_back(material.opacity ? &*material.opacity : nullptr);
+    }
+    return opacities;
 }
 
 } // namespace
 
-Scene::Scene(SceneDescription description)
-    : description_(std::move(description)), lights_(description_.shapes, description_.area_lights) {
+Scene::Scene(SceneDescription description) : description_(std::move(description)) {
+    measure();
+    lights_ = LightTable(description_, radius_);
     const auto start = std::chrono::steady_clock::now();
-    intersector_ = Intersector(description_.shapes);
+    intersector_ = Intersector(description_.shapes, opacities_of(description_));
     bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
     for (const Shape& shape : description_.shapes)
         records_.push_back(make_record(shape, description_, lights_));
+}
 
+/// Finds the sphere around all triangles.
+void Scene::measure() {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
     for (const Shape& shape : description_.shapes)

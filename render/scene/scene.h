@@ -19,6 +19,9 @@ struct SceneDescription {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::vector<AreaLight> area_lights;
+    std::vector<PointLight> point_lights;
+    std::vector<DirectionalLight> directional_lights;
+    EnvironmentDescription environment;
     Camera camera;
     glm::ivec2 size{768, 576}; ///< of the film, pixels
     int max_depth = 65; ///< edges of a light path, as in Mitsuba: 1 is emission only; -1 in a file becomes 65
@@ -32,8 +35,9 @@ struct ShapeRecord {
     const glm::vec2* uvs;     ///< null: none, or nothing looks them up
     const Rgb* colors;        ///< null: none, or nothing looks them up
     const Material* material;
-    Rgb emitted;         ///< radiance given off on the front side
-    float emitter_pdf_a; ///< 0: no light
+    Rgb emitted;                 ///< radiance given off on the front side, where it is the same everywhere
+    const Texture* emission_map; ///< null: it is
+    float emitter_pdf_a;         ///< 0: no light
 };
 
 /// A scene ready to be rendered: immutable, shared by all who render it.
@@ -69,6 +73,8 @@ private:
     glm::vec3 center_{0};
     float radius_ = 1;
     double bvh_seconds_ = 0;
+
+    void measure();
 };
 
 } // namespace tessera

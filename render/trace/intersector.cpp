@@ -1,6 +1,10 @@
 #include "render/trace/intersector.h"
 
+#include "render/random.h"
+#include "render/scene/texture.h"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -96,17 +100,77 @@ void test_occluded(RTCScene scene, const int* valid, RTCRay8& rays) {
 }
 #endif
 
-/// Copies a mesh into Embree's own buffers, which it pads as it needs.
-void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
+/// A surface that not all light meets.
+struct Mask {
+    const Mesh* mesh;
+    const Texture* opacity;
+};
+
+SurfacePoint surface_point(const Mesh& mesh, unsigned triangle, glm::vec2 barycentric) {
+    const glm::uvec3 t = mesh.triangles[triangle];
+    const float first = 1 - barycentric.x - barycentric.y;
+    SurfacePoint at{barycentric};
+    if (!mesh.uvs.empty())
+        at.uv = first * mesh.uvs[t.x] + barycentric.x * mesh.uvs[t.y] + barycentric.y * mesh.uvs[t.z];
+    if (!mesh.colors.empty())
+        at.vertex_color =
+            first * mesh.colors[t.x] + barycentric.x * mesh.colors[t.y] + barycentric.y * mesh.colors[t.z];
+    return at;
+}
+
+/// A number in [0, 1) that depends on every bit of a ray's direction and of where it meets the surface.
+float chance(glm::vec3 direction, glm::vec2 barycentric, unsigned shape, unsigned triangle) {
+    const auto bits = [](float a, float b) {
+        return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+    };
+    std::uint64_t key = Random::mix(bits(direction.x, direction.y));
+    key = Random::mix(key ^ bits(direction.z, barycentric.x));
+    key = Random::mix(key ^ bits(barycentric.y, 0) ^ (std::uint64_t{shape} << 20) ^ triangle);
+    return static_cast<float>(key >> 40) * 0x1p-24f;
+}
+
+/// Lets rays through a mask.
+void filter(const RTCFilterFunctionNArguments* arguments) {
+    const Mask& mask = *static_cast<const Mask*>(arguments->geometryUserPtr);
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] != -1)
+            continue;
+        const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, count, i), RTCRayN_dir_y(arguments->ray, count, i),
+                                  RTCRayN_dir_z(arguments->ray, count, i));
+        const glm::vec2 barycentric(RTCHitN_u(arguments->hit, count, i), RTCHitN_v(arguments->hit, count, i));
+        const unsigned triangle = RTCHitN_primID(arguments->hit, count, i);
+        const float opacity = luminance(mask.opacity->evaluate(surface_point(*mask.mesh, triangle, barycentric)));
+        if (chance(direction, barycentric, RTCHitN_geomID(arguments->hit, count, i), triangle) >= opacity)
+            arguments->valid[i] = 0;
+    }
+}
+
+/// Hands a mesh's arrays to Embree, which reads 16 bytes where a position has 12: where the last one is not
+/// followed by memory of the vector's own, Embree gets a copy, which it pads.
+void set_buffers(RTCGeometry geometry, const Mesh& mesh) {
+    if (mesh.positions.capacity() > mesh.positions.size()) {
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
+                                   0, sizeof(glm::vec3), mesh.positions.size());
+    } else {
+        auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
+        std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+    }
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                               sizeof(glm::uvec3), mesh.triangles.size());
+}
+
+void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, Mask* mask, unsigned id) {
     if (mesh.triangles.empty())
         return;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
-    std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
-    auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
-    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    set_buffers(geometry, mesh);
+    if (mask) {
+        rtcSetGeometryUserData(geometry, mask);
+        rtcSetGeometryIntersectFilterFunction(geometry, filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, filter);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
     rtcReleaseGeometry(geometry);
@@ -126,6 +190,7 @@ float extent(const std::vector<Shape>& shapes) {
 struct Intersector::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::vector<std::unique_ptr<Mask>> masks; // Embree has their addresses
 
     ~Impl() {
         if (scene)
@@ -140,7 +205,8 @@ Intersector::~Intersector() = default;
 Intersector::Intersector(Intersector&&) noexcept = default;
 Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
-Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_unique<Impl>()) {
+Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities)
+    : impl_(std::make_unique<Impl>()) {
     // Embree's 512-bit kernels trace single rays some 4 % slower than its 256-bit ones (measured on an EPYC).
     impl_->device = rtcNewDevice("max_isa=avx2");
     if (!impl_->device)
@@ -148,8 +214,12 @@ Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_uni
     rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
-    for (std::size_t i = 0; i < shapes.size(); ++i)
-        attach(impl_->device, impl_->scene, shapes[i].mesh, static_cast<unsigned>(i));
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        Mask* mask = nullptr;
+        if (i < opacities.size() && opacities[i])
+            mask = impl_->masks.emplace_back(new Mask{&shapes[i].mesh, opacities[i]}).get();
+        attach(impl_->device, impl_->scene, shapes[i].mesh, mask, static_cast<unsigned>(i));
+    }
     rtcCommitScene(impl_->scene);
     smallest_coordinate_ = extent(shapes) / 8;
 }

@@ -16,6 +16,8 @@
 
 namespace tessera {
 
+struct Texture;
+
 struct Hit {
     std::uint32_t shape;
     std::uint32_t triangle;
@@ -30,12 +32,17 @@ struct Segment {
     glm::vec3 to;
 };
 
-/// The only place that knows Embree. Every ray is checked on its way in: one that is not finite hits nothing (the
-/// Embree of Debian would end the process).
+/// The only place that knows Embree. A surface that is not opaque is there for one ray and not for another, by
+/// chance in proportion to its opacity; the chance is a function of the ray, so that the same ray sees the same.
+/// Every ray is checked on its way in: one that is not finite hits nothing (the Embree of Debian would end the
+/// process).
 class Intersector {
 public:
     Intersector();
-    explicit Intersector(const std::vector<Shape>& shapes); ///< keeps no reference to the shapes
+    /// @param opacities one a shape: the share of light (luminance) that meets it; null: all does. May be empty: all
+    ///                  shapes are opaque.
+    /// Meshes and textures must stay where they are for as long as this lives.
+    explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;
     Intersector& operator=(Intersector&&) noexcept;

@@ -100,7 +100,7 @@ TEST(RealScenes, CornellBox) {
     EXPECT_EQ(triangle_count(scene), 36u);
     EXPECT_EQ(scene.materials.size(), 8u);
     ASSERT_EQ(scene.area_lights.size(), 1u);
-    EXPECT_EQ(scene.area_lights[0].radiance, Rgb(17, 12, 4));
+    EXPECT_EQ(scene.area_lights[0].radiance.mean(), Rgb(17, 12, 4));
     EXPECT_EQ(scene.size, glm::ivec2(1024));
     EXPECT_EQ(scene.max_depth, 65);
     EXPECT_FLOAT_EQ(scene.camera.fov, 19.5f);

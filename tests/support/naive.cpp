@@ -24,12 +24,17 @@ public:
         Rgb sum(0), throughput(1);
         for (int edges = 1; edges <= max_depth; ++edges) {
             Hit hit;
-            if (!scene_.intersector().closest(ray, hit))
+            if (!scene_.intersector().closest(ray, hit)) {
+                if (const Environment* around = scene_.lights().environment(); around && edges > 1)
+                    sum += throughput * around->radiance(ray.direction);
                 break;
+            }
             Vertex v;
             make_vertex(scene_, hit, ray, v);
             if (edges > 1)
                 sum += throughput * v.light_toward(-ray.direction).radiance;
+            if (edges < max_depth)
+                sum += throughput * from_lights_without_extent(v);
             const float lobe = uniform();
             const auto s = v.bsdf.sample(v.to_previous, lobe, uniform_2d());
             if (!s)
@@ -42,6 +47,28 @@ public:
     }
 
 private:
+    /// Inverse square law and Lambert's, for every point and every directional light.
+    Rgb from_lights_without_extent(const Vertex& v) const {
+        Rgb sum(0);
+        for (const PointLight& light : scene_.lights().points()) {
+            const glm::vec3 d = light.position - v.position;
+            const glm::vec3 direction = glm::normalize(d);
+            if (visible(v, direction, light.position))
+                sum += f_cos(v, direction) * light.toward(-direction) / glm::dot(d, d);
+        }
+        for (const DirectionalLight& light : scene_.lights().directionals())
+            if (visible(v, light.to_light, v.position + 100 * scene_.radius() * light.to_light))
+                sum += f_cos(v, light.to_light) * light.irradiance;
+        return sum;
+    }
+    static Rgb f_cos(const Vertex& v, glm::vec3 direction) {
+        return v.bsdf.evaluate(v.to_previous, v.to_local(direction)).f_cos;
+    }
+    bool visible(const Vertex& v, glm::vec3 direction, glm::vec3 end) const {
+        const glm::vec3 start = scene_.intersector().off_surface(v.position, v.geometric_normal, direction);
+        return !scene_.intersector().occluded(Segment{start, end});
+    }
+
     const Scene& scene_;
     std::mt19937 engine_;
 };

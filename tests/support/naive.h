@@ -14,8 +14,8 @@ struct Measured {
 };
 
 /// The judge: a path tracer without emitter sampling and without weights, with random numbers of its own; light is
-/// counted only where a path runs into it. Nothing of the estimators under test is in it but vertices and BSDF
-/// sampling. Very direct light is left out.
+/// counted only where a path runs into it, but for lights that no ray can meet: of these all are summed at every
+/// vertex. Nothing of the estimators under test is in it but vertices and BSDFs. Very direct light is left out.
 Measured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
 
 } // namespace tessera::test

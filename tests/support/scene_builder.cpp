@@ -44,9 +44,29 @@ int SceneBuilder::plastic(Rgb diffuse, float alpha) {
     return material({"plastic", m, true});
 }
 
-int SceneBuilder::light(Rgb radiance) {
+int SceneBuilder::light(Texture radiance) {
     description_.area_lights.push_back({radiance});
     return static_cast<int>(description_.area_lights.size()) - 1;
+}
+
+void SceneBuilder::point(PointLight light) {
+    description_.point_lights.push_back(light);
+}
+
+void SceneBuilder::directional(DirectionalLight light) {
+    description_.directional_lights.push_back(light);
+}
+
+void SceneBuilder::environment(const std::vector<Rgb>& pixels, int width, glm::mat3 to_world) {
+    Bitmap bitmap;
+    bitmap.width = width;
+    bitmap.height = static_cast<int>(pixels.size()) / width;
+    bitmap.floats = pixels;
+    description_.environment.map = {std::make_shared<const Bitmap>(std::move(bitmap)), 1, to_world};
+}
+
+void SceneBuilder::sun(SunDisk sun) {
+    description_.environment.sun = sun;
 }
 
 void SceneBuilder::quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int material, int light) {

@@ -18,7 +18,12 @@ public:
     int mirror();
     int glass(float eta = 1.5f, bool thin = false);
     int plastic(Rgb diffuse, float alpha); ///< alpha = 0: a smooth coating
-    int light(Rgb radiance);
+    int light(Texture radiance);
+    void point(PointLight light);
+    void directional(DirectionalLight light);
+    /// Latitude and longitude, rows from the top; `width` pixels a row.
+    void environment(const std::vector<Rgb>& pixels, int width, glm::mat3 to_world = glm::mat3(1));
+    void sun(SunDisk sun);
 
     /// A parallelogram; its front is the side of cross(edge1, edge2).
     void quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int material, int light = -1);

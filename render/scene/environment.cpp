@@ -1,0 +1,156 @@
+#include "render/scene/environment.h"
+
+#include "render/sampling.h"
+#include "render/scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Cells a map is sampled by at most; more would cost memory and cache, and bring little.
+constexpr glm::ivec2 most_cells(1024, 512);
+
+/// The pixel at column x, which runs around, and row y, which ends at the poles.
+Rgb pixel(const Bitmap& bitmap, int x, int y) {
+    x = (x % bitmap.width + bitmap.width) % bitmap.width;
+    return bitmap.texel(x, std::clamp(y, 0, bitmap.height - 1));
+}
+
+Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
+    const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y);
+    const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+    const Rgb upper = glm::mix(pixel(bitmap, x0, y0), pixel(bitmap, x0 + 1, y0), x - left);
+    const Rgb lower = glm::mix(pixel(bitmap, x0, y0 + 1), pixel(bitmap, x0 + 1, y0 + 1), x - left);
+    return glm::mix(upper, lower, y - top);
+}
+
+/// The mean of the bilinear interpolation over a pixel's own square: positive wherever that is positive in it.
+double mean_luminance(const Bitmap& bitmap, int x, int y) {
+    constexpr double weights[3] = {0.125, 0.75, 0.125};
+    double sum = 0;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+            sum += weights[i] * weights[j] * luminance(pixel(bitmap, x + i - 1, y + j - 1));
+    return sum;
+}
+
+/// cos(theta) at the upper edge of a row.
+double edge_cosine(int row, int rows) {
+    return std::cos(3.14159265358979323846 * row / rows);
+}
+
+/// Of one cell of a row, where the sphere is cut into `count` cells.
+double cell_solid_angle(int row, glm::ivec2 count) {
+    return 2 * 3.14159265358979323846 / count.x * (edge_cosine(row, count.y) - edge_cosine(row + 1, count.y));
+}
+
+glm::vec3 direction_at(float cosine, float phi) {
+    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f));
+    return {sine * std::sin(phi), cosine, -sine * std::cos(phi)};
+}
+
+} // namespace
+
+Environment::Environment(const EnvironmentDescription& description) : description_(description) {
+    if (description_.map) {
+        to_map_ = glm::inverse(description_.map->to_world);
+        build_cells();
+    }
+    if (description_.sun) {
+        const float half_sine = std::sin(description_.sun->radius / 2);
+        sun_chord2_ = 4 * half_sine * half_sine;
+        sun_flux_ = double(pi) * sun_chord2_ * luminance(description_.sun->radiance);
+    }
+    sun_share_ = flux() > 0 ? static_cast<float>(sun_flux_ / flux()) : 0;
+}
+
+void Environment::build_cells() {
+    const Bitmap& bitmap = *description_.map->bitmap;
+    cell_count_ = glm::min(most_cells, glm::ivec2(bitmap.width, bitmap.height));
+    std::vector<double> weights(static_cast<std::size_t>(cell_count_.x) * static_cast<std::size_t>(cell_count_.y));
+    for (int y = 0; y < bitmap.height; ++y) {
+        const double solid_angle = cell_solid_angle(y, {bitmap.width, bitmap.height});
+        const int row = static_cast<int>((y + 0.5) / bitmap.height * cell_count_.y);
+        for (int x = 0; x < bitmap.width; ++x) {
+            const int column = static_cast<int>((x + 0.5) / bitmap.width * cell_count_.x);
+            const double flux = mean_luminance(bitmap, x, y) * solid_angle * description_.map->scale;
+            weights[static_cast<std::size_t>(row * cell_count_.x + column)] += flux;
+            map_flux_ += flux;
+        }
+    }
+    cells_ = AliasTable(weights);
+    for (int row = 0; row < cell_count_.y; ++row)
+        row_solid_angle_.push_back(static_cast<float>(cell_solid_angle(row, cell_count_)));
+}
+
+glm::vec2 Environment::uv_of(glm::vec3 direction) const {
+    if (cell_count_ == glm::ivec2(1))
+        return {0.5f, 0.5f}; // constant
+    const glm::vec3 d = to_map_ * direction;
+    const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
+    return {u - std::floor(u), std::acos(glm::clamp(d.y, -1.0f, 1.0f)) * inv_pi};
+}
+
+Rgb Environment::map_radiance(glm::vec2 uv) const {
+    return description_.map->scale * bilinear(*description_.map->bitmap, uv);
+}
+
+Rgb Environment::radiance(glm::vec3 direction) const {
+    Rgb sum(0);
+    if (description_.map)
+        sum += map_radiance(uv_of(direction));
+    if (description_.sun) {
+        const glm::vec3 d = direction - description_.sun->direction;
+        if (glm::dot(d, d) < sun_chord2_)
+            sum += description_.sun->radiance;
+    }
+    return sum;
+}
+
+float Environment::pdf_w(glm::vec3 direction) const {
+    float pdf = 0;
+    if (map_flux_ > 0) {
+        const glm::vec2 uv = uv_of(direction);
+        const int column = std::min(static_cast<int>(uv.x * static_cast<float>(cell_count_.x)), cell_count_.x - 1);
+        const int row = std::min(static_cast<int>(uv.y * static_cast<float>(cell_count_.y)), cell_count_.y - 1);
+        const auto cell = static_cast<std::size_t>(row * cell_count_.x + column);
+        const float solid_angle = row_solid_angle_[static_cast<std::size_t>(row)];
+        pdf += (1 - sun_share_) * cells_.probability(cell) / solid_angle;
+    }
+    if (sun_share_ > 0) {
+        const glm::vec3 d = direction - description_.sun->direction;
+        if (glm::dot(d, d) < sun_chord2_)
+            pdf += sun_share_ / (pi * sun_chord2_);
+    }
+    return pdf;
+}
+
+glm::vec3 Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
+    if (u_cell.x < sun_share_) {
+        // Uniform on the cap: its chord's square is uniform [0, chord^2], and 1 - chord^2 / 2 is the cosine.
+        const float chord2 = u_position.x * sun_chord2_;
+        const float sine = std::sqrt(std::max(chord2 * (1 - chord2 / 4), 0.0f));
+        const float phi = 2 * pi * u_position.y;
+        return Frame(description_.sun->direction)
+            .to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - chord2 / 2});
+    }
+    const float rest = std::min((u_cell.x - sun_share_) / (1 - sun_share_), 0x1.fffffep-1f);
+    const auto cell = static_cast<int>(cells_.choose({rest, u_cell.y}));
+    const int row = cell / cell_count_.x, column = cell % cell_count_.x;
+    const auto top = static_cast<float>(edge_cosine(row, cell_count_.y));
+    const auto bottom = static_cast<float>(edge_cosine(row + 1, cell_count_.y));
+    const float phi = 2 * pi * (static_cast<float>(column) + u_position.x) / static_cast<float>(cell_count_.x);
+    return glm::normalize(description_.map->to_world * direction_at(top + u_position.y * (bottom - top), phi));
+}
+
+} // namespace tessera

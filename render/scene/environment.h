@@ -1,0 +1,75 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/scene/alias_table.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+struct Bitmap;
+
+/// Radiance from all directions, in latitude and longitude: a direction d in the map's frame, in which +y is up,
+/// is at u = atan2(d.x, -d.z) / 2 pi, v = acos(d.y) / pi, as in Mitsuba; v = 0 is the top row. Pixels count at
+/// their centres, with bilinear interpolation; one pixel makes a constant environment.
+struct EnvironmentMap {
+    std::shared_ptr<const Bitmap> bitmap;
+    float scale = 1;
+    glm::mat3 to_world{1.0f}; ///< a rotation, perhaps mirrored
+};
+
+/// A disk of constant radiance at infinity.
+struct SunDisk {
+    glm::vec3 direction{0, 1, 0}; ///< toward its centre, unit, world
+    float radius = 0.004675f;     ///< as an angle, radians
+    Rgb radiance{0};
+};
+
+/// What a scene has around it: light that arrives from infinity.
+struct EnvironmentDescription {
+    std::optional<EnvironmentMap> map;
+    std::optional<SunDisk> sun;
+
+    bool empty() const { return !map && !sun; }
+};
+
+/// An environment, made ready for look-ups and for sampling by luminance.
+class Environment {
+public:
+    explicit Environment(const EnvironmentDescription& description);
+
+    /// Radiance from a unit direction (world).
+    Rgb radiance(glm::vec3 direction) const;
+
+    /// Density of sample(), per solid angle. Positive wherever radiance() is.
+    float pdf_w(glm::vec3 direction) const;
+
+    /// A direction chosen with random numbers in [0, 1)^2.
+    glm::vec3 sample(glm::vec2 u_cell, glm::vec2 u_position) const;
+
+    /// Integral of the luminance over all directions; 0: it is black.
+    double flux() const { return map_flux_ + sun_flux_; }
+
+private:
+    void build_cells();
+    Rgb map_radiance(glm::vec2 uv) const;
+    glm::vec2 uv_of(glm::vec3 direction) const;
+
+    EnvironmentDescription description_;
+    glm::mat3 to_map_{1.0f};
+    // The map's sphere in cells of equal u and v; within a cell, directions are uniform by solid angle.
+    glm::ivec2 cell_count_{0};
+    AliasTable cells_;
+    std::vector<float> row_solid_angle_; // of a cell in each row
+    double map_flux_ = 0, sun_flux_ = 0;
+    float sun_share_ = 0;  // probability that sample() takes the sun
+    float sun_chord2_ = 0; // square of the distance from the centre to the edge of the disk, on the unit sphere
+};
+
+} // namespace tessera

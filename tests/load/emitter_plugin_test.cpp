@@ -1,0 +1,120 @@
+// Emitters of a scene, as the loader reads them.
+#include "render/load/mitsuba_xml.h"
+
+#include <gmock/gmock.h>
+
+namespace tessera {
+
+namespace {
+
+LoadedScene load(const std::string& xml, const std::string& version = "3.0.0") {
+    return parse_mitsuba_xml("<scene version='" + version + "'>" + xml + "<sensor type='perspective'/></scene>",
+                             "test");
+}
+
+std::string error_of(const std::string& xml) {
+    try {
+        load(xml);
+    } catch (const LoadError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+TEST(EmitterPlugins, PointHasAPositionOrATransform) {
+    const LoadedScene loaded =
+        load("<emitter type='point'><point name='position' x='1' y='2' z='3'/>"
+             "<rgb name='intensity' value='4, 5, 6'/></emitter>"
+             "<emitter type='point'><transform name='to_world'><translate x='7'/></transform>"
+             "</emitter>");
+    ASSERT_EQ(loaded.description.point_lights.size(), 2u);
+    EXPECT_EQ(loaded.description.point_lights[0].position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(loaded.description.point_lights[0].intensity, Rgb(4, 5, 6));
+    EXPECT_EQ(loaded.description.point_lights[1].position, glm::vec3(7, 0, 0));
+    EXPECT_TRUE(loaded.notes.empty());
+}
+
+TEST(EmitterPlugins, SpotFallsOffLinearlyWithTheAngle) {
+    const LoadedScene loaded = load(
+        "<emitter type='spot'><float name='cutoffAngle' value='30'/><float name='beamWidth' value='10'/>"
+        "<transform name='toWorld'><lookat origin='0,0,0' target='0,0,-5' up='0,1,0'/></transform></emitter>");
+    const PointLight& spot = loaded.description.point_lights.at(0);
+    const auto at = [&](float degrees) {
+        const float a = degrees * 3.14159265f / 180;
+        return spot.toward({std::sin(a), 0, -std::cos(a)}).r;
+    };
+    EXPECT_FLOAT_EQ(at(0), 1);
+    EXPECT_FLOAT_EQ(at(9.9f), 1);
+    EXPECT_NEAR(at(20), 0.5f, 1e-4f);
+    EXPECT_EQ(at(30.1f), 0);
+    EXPECT_EQ(at(180), 0);
+}
+
+TEST(EmitterPlugins, DirectionIsTheWayOfTheLight) {
+    const LoadedScene loaded = load("<emitter type='directional'><vector name='direction' x='0' y='-2' z='0'/>"
+                                    "<rgb name='irradiance' value='3'/></emitter>");
+    EXPECT_EQ(loaded.description.directional_lights.at(0).to_light, glm::vec3(0, 1, 0));
+    EXPECT_EQ(loaded.description.directional_lights.at(0).irradiance, Rgb(3));
+}
+
+TEST(EmitterPlugins, ThereIsOneEnvironment) {
+    const LoadedScene loaded = load("<emitter type='constant'><rgb name='radiance' value='0.5'/></emitter>"
+                                    "<emitter type='constant'/>");
+    EXPECT_EQ(loaded.description.environment.map->bitmap->floats.at(0), Rgb(0.5f));
+    ASSERT_EQ(loaded.notes.size(), 1u);
+    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("another environment already"));
+}
+
+TEST(EmitterPlugins, TexturedAreaLight) {
+    const LoadedScene loaded = load("<shape type='rectangle'><emitter type='area'><texture type='checkerboard' "
+                                    "name='radiance'><rgb name='color0' value='3'/></texture></emitter></shape>");
+    EXPECT_FALSE(loaded.description.area_lights.at(0).radiance.is_constant());
+    EXPECT_TRUE(loaded.notes.empty());
+}
+
+TEST(EmitterPlugins, SunskyOfBothSyntaxes) {
+    const std::string emitter = "<emitter type='sunsky'><float name='turbidity' value='3'/>"
+                                "<vector name='sunDirection' x='0.3' y='0.8' z='-0.2'/></emitter>";
+    const LoadedScene old = load(emitter, "0.6.0");
+    const auto& environment = old.description.environment;
+    ASSERT_TRUE(environment.map && environment.sun);
+    const glm::vec3 expected = glm::normalize(glm::vec3(0.3f, 0.8f, -0.2f));
+    EXPECT_LT(glm::distance(environment.sun->direction, expected), 1e-5f);
+    EXPECT_GT(environment.sun->radiance.r, environment.sun->radiance.b); // yellowish
+    const Environment sky(environment);
+    const Rgb up = sky.radiance({0, 1, 0});
+    EXPECT_GT(up.b, up.r); // blue
+    EXPECT_TRUE(is_black(sky.radiance({0, -1, 0})));
+    ASSERT_EQ(old.notes.size(), 1u);
+    EXPECT_THAT(old.notes[0].text, testing::HasSubstr("Preetham"));
+
+    // +z is up in the new syntax.
+    const Environment turned(load("<emitter type='sky'><vector name='sun_direction' x='0.3' y='0.2' z='0.8'/>"
+                                  "</emitter>")
+                                 .description.environment);
+    EXPECT_GT(turned.radiance({0, 0, 1}).b, 0);
+    EXPECT_TRUE(is_black(turned.radiance({0, 0, -1})));
+}
+
+TEST(EmitterPlugins, BadValuesAreNamed) {
+    const auto has = [](const char* text) { return testing::HasSubstr(text); };
+    EXPECT_THAT(error_of("<emitter type='point'><rgb name='intensity' value='-1'/></emitter>"),
+                has("'intensity' must not be negative"));
+    EXPECT_THAT(error_of("<emitter type='spot'><float name='cutoff_angle' value='200'/></emitter>"),
+                has("'cutoff_angle' must be between 0 and 180"));
+    EXPECT_THAT(error_of("<emitter type='directional'><vector name='direction' x='0' y='0' z='0'/></emitter>"),
+                has("the direction must not be 0"));
+    EXPECT_THAT(error_of("<emitter type='envmap'/>"), has("'envmap' needs a 'filename'"));
+    EXPECT_THAT(error_of("<emitter type='sky'><float name='turbidity' value='70'/></emitter>"),
+                has("'turbidity' must be from 1 to 10"));
+}
+
+TEST(EmitterPlugins, UnknownOnesAreMissingLight) {
+    const LoadedScene loaded = load("<emitter type='projector'/>");
+    ASSERT_EQ(loaded.notes.size(), 1u);
+    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'projector' is not known; it gives no light"));
+}
+
+} // namespace
+
+} // namespace tessera

@@ -1,0 +1,135 @@
+#include "render/sampling.h"
+#include "render/scene/environment.h"
+#include "render/scene/texture.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+/// Uneven, in part black, one pixel far brighter than all others.
+EnvironmentDescription uneven(int width, int height) {
+    Bitmap bitmap;
+    bitmap.width = width;
+    bitmap.height = height;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            bitmap.floats.push_back(y < height / 3 ? Rgb(0) : Rgb(0.1f * float(x % 5), 0.5f, 0.2f * float(y % 3)));
+    bitmap.floats[bitmap.floats.size() * 2 / 3] = Rgb(300, 200, 100);
+    EnvironmentDescription description;
+    description.map = {std::make_shared<const Bitmap>(bitmap), 2,
+                       glm::mat3(0, 0, -1, 0.6f, 0.8f, 0, 0.8f, -0.6f, 0)};
+    return description;
+}
+
+glm::vec3 uniform_direction(glm::vec2 u) {
+    const float z = 1 - 2 * u.x, r = std::sqrt(1 - z * z);
+    return {r * std::cos(2 * pi * u.y), r * std::sin(2 * pi * u.y), z};
+}
+
+class Environments : public testing::TestWithParam<std::pair<const char*, EnvironmentDescription>> {
+protected:
+    Environment environment{GetParam().second};
+    std::mt19937 engine{7};
+    glm::vec2 random() {
+        std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
+        const float x = uniform(engine);
+        return {x, uniform(engine)};
+    }
+};
+
+TEST_P(Environments, PdfIntegratesToOneAndFluxToTheLuminance) {
+    // Stratified by a grid over the sphere.
+    constexpr int steps = 2000;
+    double pdf = 0, flux = 0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const glm::vec3 d = uniform_direction((glm::vec2(i, j) + random()) / float(steps));
+            pdf += environment.pdf_w(d);
+            flux += luminance(environment.radiance(d));
+            if (environment.pdf_w(d) <= 0) {
+                ASSERT_TRUE(is_black(environment.radiance(d))); // or light would be lost
+            }
+        }
+    const double cell = 4 * pi / (double(steps) * steps);
+    EXPECT_NEAR(pdf * cell, 1, 0.01);
+    EXPECT_NEAR(flux * cell, environment.flux(), 0.01 * environment.flux());
+}
+
+TEST_P(Environments, SamplesFollowThePdf) {
+    // Means of smooth functions over samples and, by their pdf, over the sphere.
+    constexpr int samples = 400000;
+    glm::dvec3 mean(0), expected(0);
+    for (int i = 0; i < samples; ++i) {
+        const glm::vec3 d = environment.sample(random(), random());
+        ASSERT_NEAR(glm::length(d), 1, 1e-5f);
+        ASSERT_GT(environment.pdf_w(d), 0);
+        mean += glm::dvec3(d) / double(samples);
+    }
+    constexpr int steps = 2000;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const glm::vec3 d = uniform_direction((glm::vec2(i, j) + random()) / float(steps));
+            expected +=
+                glm::dvec3(d) * double(environment.pdf_w(d)) * (4.0 * double(pi) / (double(steps) * steps));
+        }
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(mean[axis], expected[axis], 0.006);
+}
+
+EnvironmentDescription constant() {
+    EnvironmentDescription description;
+    Bitmap pixel;
+    pixel.width = pixel.height = 1;
+    pixel.floats = {Rgb(0.5f, 1, 2)};
+    description.map = {std::make_shared<const Bitmap>(pixel)};
+    return description;
+}
+
+EnvironmentDescription with_sun(EnvironmentDescription description, float radius) {
+    description.sun = {glm::normalize(glm::vec3(1, 2, -1)), radius, Rgb(50)};
+    return description;
+}
+
+INSTANTIATE_TEST_SUITE_P(kinds, Environments,
+                         testing::Values(std::pair{"constant", constant()}, std::pair{"map", uneven(24, 13)},
+                                         std::pair{"large_map", uneven(2500, 700)},
+                                         std::pair{"sun", with_sun({}, 0.1f)},
+                                         std::pair{"sun_and_map", with_sun(uneven(24, 13), 0.2f)}),
+                         [](const auto& p) { return p.param.first; });
+
+TEST(Environment, MapIsOrientedAsMitsubas) {
+    // u = atan2(x, -z) / 2 pi: the left edge of the picture is -z, a quarter to the right is +x; v = 0 is +y.
+    EnvironmentDescription description;
+    Bitmap bitmap;
+    bitmap.width = 64;
+    bitmap.height = 32;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            bitmap.floats.emplace_back(x, y, 0);
+    description.map = {std::make_shared<const Bitmap>(bitmap)};
+    const Environment environment(description);
+    EXPECT_NEAR(environment.radiance({1, 0, 0}).r, 15.5f, 0.01f);
+    EXPECT_NEAR(environment.radiance({1, 0, 0}).g, 15.5f, 0.01f);
+    EXPECT_NEAR(environment.radiance({0, 0, 1}).r, 31.5f, 0.01f);
+    EXPECT_NEAR(environment.radiance({-1, 0, 0}).r, 47.5f, 0.01f);
+    EXPECT_NEAR(environment.radiance({0, 1, 0}).g, 0, 0.01f);
+    EXPECT_NEAR(environment.radiance({0, -1, 0}).g, 31, 0.01f);
+}
+
+TEST(Environment, BlackOneHasNoFlux) {
+    EnvironmentDescription description = constant();
+    Bitmap black = *description.map->bitmap;
+    black.floats = {Rgb(0)};
+    description.map->bitmap = std::make_shared<const Bitmap>(black);
+    const Environment environment(description);
+    EXPECT_EQ(environment.flux(), 0);
+    EXPECT_EQ(environment.pdf_w({0, 1, 0}), 0);
+}
+
+} // namespace
+
+} // namespace tessera

@@ -1,0 +1,140 @@
+#include "render/scene/light.h"
+#include "tests/support/scene_builder.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+using test::SceneBuilder;
+
+TEST(AliasTable, ChoosesInProportionToTheWeights) {
+    const std::vector<double> weights = {0.5, 0, 3, 1e-3, 2, 2.5};
+    const AliasTable table(weights);
+    std::vector<double> share(weights.size());
+    constexpr int steps = 1200;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j)
+            share[table.choose((glm::vec2(i, j) + 0.5f) / float(steps))] += 1.0 / (steps * steps);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        EXPECT_NEAR(share[i], weights[i] / 8.001, 1e-3);
+        EXPECT_FLOAT_EQ(table.probability(i), static_cast<float>(weights[i] / 8.001));
+    }
+}
+
+TEST(AliasTable, WithoutWeightAllIsZero) {
+    const AliasTable table(std::vector<double>{0, 0});
+    EXPECT_EQ(table.probability(0), 0);
+    EXPECT_TRUE(AliasTable(std::vector<double>{}).empty());
+}
+
+/// One of each kind, of very different power.
+std::shared_ptr<const Scene> all_kinds() {
+    SceneBuilder b;
+    b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
+    Texture pattern;
+    pattern.kind = CheckerboardTexture{Rgb(4, 2, 1), Rgb(0, 0.5f, 3)};
+    b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, b.diffuse(Rgb(0)), b.light(pattern));
+    b.quad({-1, 3, -1}, {1, 0, 0}, {0, 0, 1}, b.diffuse(Rgb(0)), b.light(Rgb(0.1f)));
+    b.point({{0, 1, 0}, Rgb(3)});
+    b.point({{0.5f, 1, 0}, Rgb(3), {0, -1, 0}, 40, 20});
+    b.directional({glm::normalize(glm::vec3(1, 1, 0)), Rgb(0.2f)});
+    b.environment({Rgb(1), Rgb(0.5f)}, 1);
+    b.camera({0, 1, 5}, {0, 1, 0}, 40);
+    return b.build();
+}
+
+/// The light that arrives at a point, by emitter sampling without occlusion, and summed by kind.
+TEST(LightTable, EverySampleIsWeighedByItsPdf) {
+    const auto scene = all_kinds();
+    const glm::vec3 receiver(0.2f, 0, 0.1f), normal(0, 1, 0);
+    std::map<LightPoint::Kind, double> sums;
+    constexpr int samples = 1000000;
+    for (int i = 0; i < samples; ++i) {
+        LightPoint light;
+        if (!scene->lights().sample(receiver, Random(3, 1, static_cast<std::uint32_t>(i)), 0, light))
+            continue;
+        const auto seen = light.seen_from(receiver);
+        if (!seen)
+            continue;
+        ASSERT_NEAR(glm::length(seen->direction), 1, 1e-5f);
+        sums[light.kind] +=
+            std::max(glm::dot(seen->direction, normal), 0.0f) * luminance(seen->radiance) / seen->pdf_w / samples;
+    }
+    // By hand: cos / r^2 for points; the environment's upper half is 1 but for the mixing with the lower at the
+    // horizon: integral of cos (3/4 + cos-dependent) is taken from a fine sum.
+    const double point = 3 * 1 / std::pow(0.04 + 1 + 0.01, 1.5);
+    const double to_spot2 = 0.09 + 1 + 0.01;
+    const double angle = std::acos(1 / std::sqrt(to_spot2)) * 180 / double(pi);
+    const double spot = 3 * std::min(1.0, (40 - angle) / 20) / std::pow(to_spot2, 1.5);
+    EXPECT_NEAR(sums[LightPoint::Kind::point], point + spot, 0.02 * (point + spot));
+    EXPECT_NEAR(sums[LightPoint::Kind::directional], 0.2 * std::sqrt(0.5), 0.02 * 0.2);
+    double above = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const float cosine = (float(i) + 0.5f) / 20000;
+        const glm::vec3 d(std::sqrt(1 - cosine * cosine), cosine, 0);
+        above += 2 * double(pi) * cosine * luminance(scene->lights().environment()->radiance(d)) / 20000;
+    }
+    EXPECT_NEAR(sums[LightPoint::Kind::environment], above, 0.02 * above);
+    EXPECT_GT(sums[LightPoint::Kind::surface], 1); // the z-tests judge this one
+}
+
+TEST(LightTable, PowerDecidesAndUnlitTrianglesAreLeftOut) {
+    SceneBuilder b;
+    const int black = b.diffuse(Rgb(0));
+    b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(9)));
+    b.quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(1)));
+    b.quad({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(0)));
+    b.quad({0, 0, 3}, {1, 0, 0}, {2, 0, 0}, black, b.light(Rgb(5))); // no area
+    const auto scene = b.build();
+    EXPECT_EQ(scene->lights().size(), 4u); // triangles of two quads
+    EXPECT_FLOAT_EQ(scene->lights().pdf_a(0), 0.9f);
+    EXPECT_FLOAT_EQ(scene->lights().pdf_a(1), 0.1f);
+    EXPECT_EQ(scene->lights().pdf_a(2), 0);
+}
+
+TEST(LightTable, RaysThatMissAllLightsAreKnown) {
+    SceneBuilder b;
+    b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.diffuse(Rgb(0)), b.light(Rgb(9)));
+    const auto scene = b.build();
+    EXPECT_TRUE(scene->lights().may_be_hit({{0.5f, 0.5f, 2}, {0, 0, -1}}));
+    EXPECT_FALSE(scene->lights().may_be_hit({{0.5f, 0.5f, 2}, {0, 0, 1}}));
+    SceneBuilder dark;
+    dark.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, dark.diffuse(Rgb(0)));
+    dark.point({{0, 0, 1}, Rgb(1)});
+    EXPECT_FALSE(dark.build()->lights().may_be_hit({{0.5f, 0.5f, 2}, {0, 0, -1}}));
+}
+
+/// Of many rays through a mask, its opacity is stopped; single rays and packets agree on the share.
+TEST(Intersector, MaskStopsItsShareOfRays) {
+    SceneBuilder b;
+    Material half{"half", DiffuseMaterial{}, true};
+    half.opacity = Texture(Rgb(0.3f));
+    b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.material(half));
+    const auto scene = b.build();
+    int hits = 0, blocked = 0, blocked_in_packets = 0;
+    constexpr int side = 200;
+    std::vector<Segment> segments;
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+            const glm::vec3 from((glm::vec2(i, j) + 0.3f) / float(side), 1);
+            Hit hit;
+            hits += scene->intersector().closest({from, {0, 0, -1}}, hit);
+            segments.push_back({from, from - glm::vec3(0, 0, 2)});
+            blocked += scene->intersector().occluded(segments.back());
+        }
+    std::vector<std::uint8_t> result(segments.size());
+    scene->intersector().occluded(segments, result.data());
+    for (std::uint8_t r : result)
+        blocked_in_packets += r;
+    const double count = side * side;
+    for (int n : {hits, blocked, blocked_in_packets})
+        EXPECT_NEAR(n / count, 0.3, 4 * std::sqrt(0.21 / count));
+}
+
+} // namespace
+
+} // namespace tessera
