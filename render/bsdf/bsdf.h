@@ -22,13 +22,13 @@ struct Bsdf {
     std::variant<Diffuse, RoughConductor, SmoothConductor, SmoothDielectric, ThinDielectric, Plastic> kind =
         Diffuse{};
 
-    /// Where relief has bent the frame: the normal before that, in the frame. Light that would cross the one
-    /// surface but not the other is cut off.
+    /// Where relief has bent the frame: the normal before that, in the frame. What is above the one surface and
+    /// below the other is cut off, or light would leak through.
     glm::vec3 unbent_normal{0, 0, 1};
     bool is_bent = false;
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-        if (is_cut(to_next)) [[unlikely]]
+        if (is_bent && (is_cut(to_previous) || is_cut(to_next))) [[unlikely]]
             return {};
         return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
     }
@@ -40,16 +40,14 @@ struct Bsdf {
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
         const DeltaValue v =
             std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-        return is_cut(v.to_next) ? DeltaValue{} : v;
+        return is_bent && (is_cut(to_previous) || is_cut(v.to_next)) ? DeltaValue{} : v;
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
 
 private:
-    bool is_cut(glm::vec3 to_next) const {
-        return is_bent && to_next.z * glm::dot(unbent_normal, to_next) <= 0;
-    }
+    bool is_cut(glm::vec3 direction) const { return direction.z * glm::dot(unbent_normal, direction) <= 0; }
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
 

@@ -197,12 +197,13 @@ int material_of(LoadContext& context, const XmlElement& element) {
     return index;
 }
 
-int default_material(LoadContext& context) {
-    const void* const no_element = nullptr;
+int default_material(LoadContext& context, bool gives_light) {
+    static const char none[2] = {}; // keys that no element has
+    const void* const key = &none[gives_light ? 1 : 0];
     const auto [entry, is_new] =
-        context.materials.try_emplace(no_element, static_cast<int>(context.scene.materials.size()));
+        context.materials.try_emplace(key, static_cast<int>(context.scene.materials.size()));
     if (is_new)
-        context.scene.materials.push_back({"default", DiffuseMaterial{}, false});
+        context.scene.materials.push_back({"default", DiffuseMaterial{Rgb(gives_light ? 0.0f : 0.5f)}, false});
     return entry->second;
 }
 

@@ -10,7 +10,7 @@ Material read_bsdf(LoadContext& context, const XmlElement& element);
 /// The index in scene.materials of a <bsdf>, which is read when it is met for the first time.
 int material_of(LoadContext& context, const XmlElement& element);
 
-/// The index of the material of a shape that names none.
-int default_material(LoadContext& context);
+/// The index of the material of a shape that names none: grey, or black where the shape gives light.
+int default_material(LoadContext& context, bool gives_light);
 
 } // namespace tessera

@@ -3,12 +3,8 @@
 #include "render/load/plugin_table.h"
 #include "render/load/sky_plugins.h"
 #include "render/load/texture_plugins.h"
-#include "render/load/transforms.h"
-
-#include <array>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace tessera {
 
@@ -90,25 +86,12 @@ void read_constant(LoadContext& context, Properties& p) {
     set_map(context, p, {std::make_shared<const Bitmap>(std::move(pixel))});
 }
 
-/// The rotation (and mirroring) in a transform.
-glm::mat3 rotation_parameter(Properties& p) {
-    glm::mat3 m(p.transform("to_world"));
-    if (!(std::abs(glm::determinant(m)) > 0))
-        p.take("to_world")->fail("the transform is flat");
-    for (int i = 0; i < 3; ++i)
-        m[i] = glm::normalize(m[i]);
-    const auto off_square = [&](int i, int j) { return std::abs(glm::dot(m[i], m[j])) > 1e-3f; };
-    if (off_square(0, 1) || off_square(1, 2) || off_square(2, 0))
-        p.note(*p.take("to_world"), "the transform shears the environment; directions are taken as they come");
-    return m;
-}
-
 void read_environment_map(LoadContext& context, Properties& p) {
     EnvironmentMap map;
     map.scale = p.number("scale", 1);
     if (map.scale < 0)
         p.take("scale")->fail("'scale' must not be negative", "value");
-    map.to_world = rotation_parameter(p);
+    map.to_world = p.rotation("to_world");
     map.bitmap = bitmap_parameter(context, p, true);
     p.ignore({"sampling_weight", "mis_compensation", "cache"});
     set_map(context, p, std::move(map));

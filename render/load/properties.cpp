@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 namespace tessera {
 
 namespace {
@@ -115,6 +117,17 @@ glm::mat4 Properties::transform(std::string_view parameter) {
         return glm::mat4(1.0f);
     expect_tag(*element, {"transform"});
     return read_transform(*element);
+}
+
+glm::mat3 Properties::rotation(std::string_view parameter) {
+    const glm::mat4 transform = Properties::transform(parameter);
+    const std::optional<glm::mat3> rotation = rotation_of(transform);
+    if (!rotation)
+        take(parameter)->fail("the transform is flat");
+    for (int i = 0; i < 3; ++i)
+        if (glm::dot(glm::normalize(glm::vec3(transform[i])), (*rotation)[i]) < 0.9999f)
+            note(*take(parameter), "only the rotation in the transform is used, not its shear");
+    return *rotation;
 }
 
 std::optional<glm::vec3> Properties::vector(std::string_view parameter) {

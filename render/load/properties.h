@@ -36,6 +36,8 @@ public:
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
     glm::mat4 transform(std::string_view parameter);
+    /// The rotation in a transform; says so where there is more to it. Throws LoadError for a flat one.
+    glm::mat3 rotation(std::string_view parameter);
     /// A <point> or <vector>; empty: absent.
     std::optional<glm::vec3> vector(std::string_view parameter);
 

@@ -69,11 +69,11 @@ constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::s
     {"ply", read_ply_shape},
 };
 
-int material_parameter(LoadContext& context, Properties& p) {
+int material_parameter(LoadContext& context, Properties& p, bool gives_light) {
     const std::vector<XmlElement> bsdfs = context.take_nested(p, "bsdf");
     if (bsdfs.size() > 1)
         p.note(bsdfs[1], "only the first <bsdf> of a shape is used");
-    return bsdfs.empty() ? default_material(context) : material_of(context, bsdfs[0]);
+    return bsdfs.empty() ? default_material(context, gives_light) : material_of(context, bsdfs[0]);
 }
 
 int area_light_parameter(LoadContext& context, Properties& p) {
@@ -95,8 +95,8 @@ void add_shape(LoadContext& context, const XmlElement& element) {
     std::vector<Shape>& shapes = context.scene.shapes;
     Shape shape;
     shape.name = properties.name();
-    shape.material = material_parameter(context, properties);
     shape.area_light = area_light_parameter(context, properties);
+    shape.material = material_parameter(context, properties, shape.area_light >= 0);
     shapes.push_back(std::move(shape));
     plugin->read(context, properties, shapes, shapes.size() - 1);
     properties.report_unused();

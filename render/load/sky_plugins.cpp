@@ -1,5 +1,6 @@
 #include "render/load/sky_plugins.h"
 
+#include "render/sampling.h"
 #include "render/scene/sky.h"
 #include "render/scene/sun.h"
 
@@ -15,9 +16,10 @@ namespace {
 
 constexpr int usual_resolution = 512;
 constexpr int highest_resolution = 8192;
+constexpr float smallest_disk = 1e-4f; // radians; for smaller ones floats are too coarse
 
-float factor(Properties& p, std::string_view name) {
-    const float value = p.number(name, 1);
+float factor(Properties& p, std::string_view name, float fallback = 1) {
+    const float value = p.number(name, fallback);
     if (value < 0)
         p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
     return value;
@@ -42,19 +44,17 @@ struct Daylight {
     glm::mat3 to_world; ///< of the model's frame, in which +y is up
     glm::vec3 sun;      ///< toward it, in the model's frame
     float turbidity = 3;
+    float stretch = 1; ///< factor on all angles from the zenith
 
     float elevation() const { return std::asin(glm::clamp(sun.y, 0.0f, 1.0f)); }
 };
 
 Daylight read_daylight(const LoadContext& context, Properties& p) {
     Daylight day;
-    day.to_world = glm::mat3(p.transform("to_world"));
-    if (!(std::abs(glm::determinant(day.to_world)) > 0))
-        p.take("to_world")->fail("the transform is flat");
-    for (int i = 0; i < 3; ++i)
-        day.to_world[i] = glm::normalize(day.to_world[i]);
-    if (!context.old_syntax) // +z is up there
-        day.to_world = day.to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, -1, 0);
+    day.to_world = p.rotation("to_world");
+    const glm::mat3 up_z(1, 0, 0, 0, 0, 1, 0, -1, 0); // of Mitsuba 3: (x, y, z) of the model is (x, -z, y) there
+    if (!context.old_syntax)
+        day.to_world = day.to_world * up_z;
     day.turbidity = p.number("turbidity", day.turbidity);
     if (!(day.turbidity >= 1 && day.turbidity <= 10))
         p.take("turbidity")->fail("'turbidity' must be from 1 to 10", "value");
@@ -65,20 +65,23 @@ Daylight read_daylight(const LoadContext& context, Properties& p) {
         day.sun = glm::inverse(day.to_world) * glm::normalize(*direction);
     } else {
         day.sun = sun_direction(when);
+        if (!context.old_syntax) // +x is south and +y west
+            day.sun = glm::transpose(up_z) * glm::vec3(day.sun.z, -day.sun.x, day.sun.y);
     }
+    day.stretch = glm::clamp(p.number("stretch", 1), 1.0f, 2.0f);
     if (day.sun.y < 0)
         p.note("the sun is below the horizon; it is taken to stand on it");
     p.ignore({"sampling_weight", "complex_sun"});
     return day;
 }
 
-void add_sky(LoadContext& context, Properties& p, const Daylight& day, std::string_view scale) {
+void add_sky(LoadContext& context, Properties& p, const Daylight& day, float scale) {
     SkySettings settings;
     settings.sun_direction = day.sun;
     settings.turbidity = day.turbidity;
-    settings.stretch = glm::clamp(p.number("stretch", 1), 1.0f, 2.0f);
+    settings.stretch = day.stretch;
     settings.extend = p.boolean("extend", false);
-    settings.scale = Rgb(hosek_level * factor(p, scale));
+    settings.scale = Rgb(hosek_level * scale);
     const int resolution = p.integer("resolution", usual_resolution);
     if (resolution < 2 || resolution > highest_resolution)
         p.take("resolution")
@@ -95,13 +98,23 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, std::stri
                                      day.to_world};
 }
 
-void add_sun(LoadContext& context, Properties& p, const Daylight& day, std::string_view scale) {
+/// Where the disk stands, in the world.
+glm::vec3 disk_direction(const Daylight& day) {
+    const float zenith_angle = day.stretch * (pi / 2 - day.elevation());
+    const glm::vec3 along(day.sun.x, 0, day.sun.z);
+    const float length = glm::length(along);
+    const glm::vec3 horizontal = length > 0 ? along / length : glm::vec3(1, 0, 0);
+    return glm::normalize(day.to_world *
+                          (std::sin(zenith_angle) * horizontal + std::cos(zenith_angle) * glm::vec3(0, 1, 0)));
+}
+
+void add_sun(LoadContext& context, Properties& p, const Daylight& day, float scale) {
     float radius = sun_angular_radius * factor(p, "sun_radius_scale");
     if (p.has("sun_aperture")) // degrees across
         radius = glm::radians(p.number("sun_aperture", 1)) / 2;
-    const Rgb radiance = factor(p, scale) * sun_radiance(day.turbidity, day.elevation());
-    const glm::vec3 direction = glm::normalize(day.to_world * day.sun);
-    if (!(radius > 0))
+    const Rgb radiance = scale * sun_radiance(day.turbidity, day.elevation());
+    const glm::vec3 direction = disk_direction(day);
+    if (radius < smallest_disk)
         context.scene.directional_lights.push_back({direction, sun_irradiance(radiance)});
     else if (context.scene.environment.sun)
         p.note("the scene has another sun already; this one gives no light");
@@ -113,16 +126,19 @@ void add_sun(LoadContext& context, Properties& p, const Daylight& day, std::stri
 
 void read_sunsky(LoadContext& context, Properties& p) {
     const Daylight day = read_daylight(context, p);
-    add_sky(context, p, day, "sky_scale");
-    add_sun(context, p, day, "sun_scale");
+    const float both = factor(p, "scale");
+    add_sky(context, p, day, factor(p, "sky_scale", both));
+    add_sun(context, p, day, factor(p, "sun_scale", both));
 }
 
 void read_sky(LoadContext& context, Properties& p) {
-    add_sky(context, p, read_daylight(context, p), "scale");
+    const Daylight day = read_daylight(context, p);
+    add_sky(context, p, day, factor(p, "scale"));
 }
 
 void read_sun(LoadContext& context, Properties& p) {
-    add_sun(context, p, read_daylight(context, p), "scale");
+    const Daylight day = read_daylight(context, p);
+    add_sun(context, p, day, factor(p, "scale"));
 }
 
 } // namespace tessera

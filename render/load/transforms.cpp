@@ -119,6 +119,20 @@ glm::mat4 read_transform(const XmlElement& transform) {
     return product_of_steps(transform, false);
 }
 
+std::optional<glm::mat3> rotation_of(const glm::mat4& transform) {
+    glm::mat3 m(transform);
+    for (int i = 0; i < 3; ++i) {
+        const float before = glm::length(m[i]);
+        for (int j = 0; j < i; ++j)
+            m[i] -= glm::dot(m[i], m[j]) * m[j];
+        const float length = glm::length(m[i]);
+        if (!(length > 1e-5f * before))
+            return {};
+        m[i] /= length;
+    }
+    return m;
+}
+
 glm::vec3 read_vector(const XmlElement& element) {
     return components(element, 0, false);
 }

@@ -2,6 +2,8 @@
 
 #include "render/load/xml_document.h"
 
+#include <optional>
+
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
@@ -11,7 +13,10 @@ namespace tessera {
 /// point first. Throws LoadError.
 glm::mat4 read_transform(const XmlElement& transform);
 
-/// The same for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
+/// The rotation (and mirroring) nearest to a transform, by Gram and Schmidt; empty: the transform is flat.
+std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
+
+/// The same as read_transform() for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
 glm::mat3 read_uv_transform(const XmlElement& transform);
 
 /// A <point> or <vector>: value="x y z", or attributes x, y and z, of which those absent are 0. Throws LoadError.

@@ -42,13 +42,15 @@ struct Tracer {
 
     /// The light that a ray runs into; black: none. `scratch` is overwritten.
     LightPoint light_along(const Ray& ray, Vertex& scratch) const {
-        const Met met = closest_light(ray, scratch);
-        if (met == Met::infinity)
+        switch (closest_light(ray, scratch)) {
+        case Met::light:
+            return scratch.light_toward(-ray.direction);
+        case Met::infinity:
             return scene.lights().environment_toward(ray.direction);
-        LightPoint light = scratch.light_toward(-ray.direction);
-        if (met == Met::darkness)
-            light.radiance = Rgb(0);
-        return light;
+        case Met::darkness:
+            break;
+        }
+        return {};
     }
 
     /// The ray that leaves a vertex in a unit direction (world).
@@ -68,8 +70,8 @@ struct Tracer {
         if (!light.is_at_infinity())
             return between(from.position, from.geometric_normal, light.position, light.normal, direction);
         const float way_out = 1.01f * (glm::distance(from.position, scene.center()) + scene.radius());
-        return {scene.intersector().off_surface(from.position, from.geometric_normal, direction),
-                from.position + way_out * direction};
+        const glm::vec3 start = scene.intersector().off_surface(from.position, from.geometric_normal, direction);
+        return {start, start + way_out * direction};
     }
 
     bool occluded(const Segment& segment) const {

@@ -101,7 +101,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
             v.bsdf.is_bent = true;
         }
     }
-    const float side = shape.material->two_sided && glm::dot(bent, ray.direction) > 0 ? -1.0f : 1.0f;
+    const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
     v.frame = Frame(side * bent);
     if (v.bsdf.is_bent)
         v.bsdf.unbent_normal = v.to_local(side * normal);

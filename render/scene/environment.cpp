@@ -4,6 +4,7 @@
 #include "render/scene/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -21,7 +22,8 @@ constexpr glm::ivec2 most_cells(1024, 512);
 /// The pixel at column x, which runs around, and row y, which ends at the poles.
 Rgb pixel(const Bitmap& bitmap, int x, int y) {
     x = (x % bitmap.width + bitmap.width) % bitmap.width;
-    return bitmap.texel(x, std::clamp(y, 0, bitmap.height - 1));
+    return glm::max(bitmap.texel(x, std::clamp(y, 0, bitmap.height - 1)),
+                    0.0f); // some filters leave negative ones
 }
 
 Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
@@ -61,6 +63,19 @@ glm::vec3 direction_at(float cosine, float phi) {
 
 } // namespace
 
+glm::vec3 direction_of_map(glm::vec2 uv) {
+    const float azimuth = 2 * pi * uv.x;
+    const float zenith_angle = pi * uv.y;
+    return {std::sin(azimuth) * std::sin(zenith_angle), std::cos(zenith_angle),
+            -std::cos(azimuth) * std::sin(zenith_angle)};
+}
+
+glm::vec2 map_of_direction(glm::vec3 d) {
+    const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
+    // By atan2, which is exact at the poles, too.
+    return {u < 0 ? u + 1 : u, std::atan2(std::hypot(d.x, d.z), d.y) * inv_pi};
+}
+
 Environment::Environment(const EnvironmentDescription& description) : description_(description) {
     if (description_.map) {
         to_map_ = glm::inverse(description_.map->to_world);
@@ -76,7 +91,9 @@ Environment::Environment(const EnvironmentDescription& description) : descriptio
 
 void Environment::build_cells() {
     const Bitmap& bitmap = *description_.map->bitmap;
-    cell_count_ = glm::min(most_cells, glm::ivec2(bitmap.width, bitmap.height));
+    // Powers of two: a random number of 24 bits then chooses all cells alike.
+    cell_count_ = {std::bit_floor(static_cast<unsigned>(std::min(most_cells.x, bitmap.width))),
+                   std::bit_floor(static_cast<unsigned>(std::min(most_cells.y, bitmap.height)))};
     std::vector<double> weights(static_cast<std::size_t>(cell_count_.x) * static_cast<std::size_t>(cell_count_.y));
     for (int y = 0; y < bitmap.height; ++y) {
         const double solid_angle = cell_solid_angle(y, {bitmap.width, bitmap.height});
@@ -94,11 +111,9 @@ void Environment::build_cells() {
 }
 
 glm::vec2 Environment::uv_of(glm::vec3 direction) const {
-    if (cell_count_ == glm::ivec2(1))
+    if (description_.map->bitmap->width == 1 && description_.map->bitmap->height == 1)
         return {0.5f, 0.5f}; // constant
-    const glm::vec3 d = to_map_ * direction;
-    const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
-    return {u - std::floor(u), std::acos(glm::clamp(d.y, -1.0f, 1.0f)) * inv_pi};
+    return map_of_direction(to_map_ * direction);
 }
 
 Rgb Environment::map_radiance(glm::vec2 uv) const {
@@ -136,7 +151,8 @@ float Environment::pdf_w(glm::vec3 direction) const {
 }
 
 glm::vec3 Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
-    if (u_cell.x < sun_share_) {
+    if (u_position.x < sun_share_) {
+        u_position.x /= sun_share_;
         // Uniform on the cap: its chord's square is uniform [0, chord^2], and 1 - chord^2 / 2 is the cosine.
         const float chord2 = u_position.x * sun_chord2_;
         const float sine = std::sqrt(std::max(chord2 * (1 - chord2 / 4), 0.0f));
@@ -144,8 +160,8 @@ glm::vec3 Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
         return Frame(description_.sun->direction)
             .to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - chord2 / 2});
     }
-    const float rest = std::min((u_cell.x - sun_share_) / (1 - sun_share_), 0x1.fffffep-1f);
-    const auto cell = static_cast<int>(cells_.choose({rest, u_cell.y}));
+    u_position.x = (u_position.x - sun_share_) / (1 - sun_share_);
+    const auto cell = static_cast<int>(cells_.choose(u_cell));
     const int row = cell / cell_count_.x, column = cell % cell_count_.x;
     const auto top = static_cast<float>(edge_cosine(row, cell_count_.y));
     const auto bottom = static_cast<float>(edge_cosine(row + 1, cell_count_.y));

@@ -15,9 +15,13 @@ namespace tessera {
 
 struct Bitmap;
 
-/// Radiance from all directions, in latitude and longitude: a direction d in the map's frame, in which +y is up,
-/// is at u = atan2(d.x, -d.z) / 2 pi, v = acos(d.y) / pi, as in Mitsuba; v = 0 is the top row. Pixels count at
-/// their centres, with bilinear interpolation; one pixel makes a constant environment.
+/// Where a unit direction is on a map in latitude and longitude, as in Mitsuba: u = atan2(x, -z) / 2 pi in [0, 1]
+/// and v = acos(y) / pi; +y is up, v = 0 the top row. And the way back.
+glm::vec2 map_of_direction(glm::vec3 direction);
+glm::vec3 direction_of_map(glm::vec2 uv);
+
+/// Radiance from all directions, mapped as above. Pixels count at their centres, with bilinear interpolation; one
+/// pixel makes a constant environment.
 struct EnvironmentMap {
     std::shared_ptr<const Bitmap> bitmap;
     float scale = 1;
@@ -50,7 +54,7 @@ public:
     /// Density of sample(), per solid angle. Positive wherever radiance() is.
     float pdf_w(glm::vec3 direction) const;
 
-    /// A direction chosen with random numbers in [0, 1)^2.
+    /// A direction chosen with random numbers in [0, 1)^2: a cell of the map and a place in it, or on the sun.
     glm::vec3 sample(glm::vec2 u_cell, glm::vec2 u_position) const;
 
     /// Integral of the luminance over all directions; 0: it is black.

@@ -16,7 +16,9 @@ namespace tessera {
 Rgb PointLight::toward(glm::vec3 direction) const {
     if (cutoff >= 180)
         return intensity;
-    const float angle = glm::degrees(std::acos(glm::clamp(glm::dot(direction, axis), -1.0f, 1.0f)));
+    // Not by acos, which has no digits left for narrow cones.
+    const float angle =
+        glm::degrees(std::atan2(glm::length(glm::cross(direction, axis)), glm::dot(direction, axis)));
     if (angle <= full_within)
         return intensity;
     return angle >= cutoff ? Rgb(0) : intensity * ((cutoff - angle) / (cutoff - full_within));
@@ -36,19 +38,11 @@ std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) con
     return LightRay{direction, intensity, pdf * distance2};
 }
 
-void LightTriangle::sample(glm::vec2 u, LightPoint& point) const {
-    const glm::vec2 b = sample_triangle(u);
-    point.kind = LightPoint::Kind::surface;
-    point.position = corner + b.x * edge1 + b.y * edge2;
-    point.normal = normal;
-    point.radiance = radiance;
-    point.pdf = pdf_a;
-    if (radiance_map) {
-        const float first = 1 - b.x - b.y;
-        point.radiance = radiance_map->evaluate(
-            {first * at[0].uv + b.x * at[1].uv + b.y * at[2].uv,
-             first * at[0].vertex_color + b.x * at[1].vertex_color + b.y * at[2].vertex_color});
-    }
+Rgb LightTriangle::radiance_at(glm::vec2 b) const {
+    const float first = 1 - b.x - b.y;
+    return radiance_map->evaluate(
+        {first * at[0].uv + b.x * at[1].uv + b.y * at[2].uv,
+         first * at[0].vertex_color + b.x * at[1].vertex_color + b.y * at[2].vertex_color});
 }
 
 namespace {
@@ -125,7 +119,7 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
             triangle.edge1 = mesh.positions[t.y] - triangle.corner;
             triangle.edge2 = mesh.positions[t.z] - triangle.corner;
             const double area2 = glm::length(glm::cross(glm::dvec3(triangle.edge1), glm::dvec3(triangle.edge2)));
-            if (!(area2 > 0) || is_black(mean[light]))
+            if (!(area2 * luminance(mean[light]) > 0))
                 continue; // no area, no light
             triangle.normal = front_normal(mesh, t);
             triangle.radiance = mean[light];
@@ -152,18 +146,6 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
     high_ += margin;
 }
 
-bool LightTable::sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const {
-    const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter))];
-    if (const auto* triangle = std::get_if<LightTriangle>(&source)) {
-        if (!triangle->faces(receiver))
-            return false;
-        triangle->sample(random.draw_2d(vertex, Draw::emitter_position), point);
-        return true;
-    }
-    point = sample_other(source, random, vertex);
-    return true;
-}
-
 LightPoint LightTable::sample_other(const Source& source, const Random& random, int vertex) const {
     using Kind = LightPoint::Kind;
     if (const auto* chosen = std::get_if<Point>(&source)) {
@@ -180,7 +162,7 @@ LightPoint LightTable::sample_other(const Source& source, const Random& random, 
 
 LightPoint LightTable::environment_toward(glm::vec3 direction) const {
     LightPoint light{LightPoint::Kind::environment, direction, glm::vec3(0), Rgb(0), 0};
-    if (environment_) {
+    if (environment_ && glm::dot(direction, direction) > 0.5f) { // not for what is no direction
         light.radiance = environment_->radiance(direction);
         light.pdf = environment_probability_ * environment_->pdf_w(direction);
     }

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 #include "render/random.h"
+#include "render/sampling.h"
 #include "render/scene/alias_table.h"
 #include "render/scene/environment.h"
 #include "render/scene/texture.h"
@@ -77,6 +78,8 @@ struct LightPoint {
         if (!(facing > 0))
             return {};
         const float distance2 = glm::dot(d, d);
+        if (!(distance2 > 0))
+            return {};
         const float distance = std::sqrt(distance2);
         return LightRay{d / distance, radiance, pdf * distance2 * distance / facing};
     }
@@ -99,7 +102,17 @@ struct LightTriangle {
 
     /// Whether it sends light toward a point, from anywhere on it.
     bool faces(glm::vec3 point) const { return glm::dot(point - corner, normal) > 0; }
-    void sample(glm::vec2 u, LightPoint& point) const;
+    void sample(glm::vec2 u, LightPoint& point) const {
+        const glm::vec2 b = sample_triangle(u);
+        point.kind = LightPoint::Kind::surface;
+        point.position = corner + b.x * edge1 + b.y * edge2;
+        point.normal = normal;
+        point.radiance = radiance_map ? radiance_at(b) : radiance;
+        point.pdf = pdf_a;
+    }
+
+private:
+    Rgb radiance_at(glm::vec2 barycentric) const;
 };
 
 /// The lights of a scene, chosen in proportion to their power, by an alias table over all emitting triangles and
@@ -116,7 +129,17 @@ public:
 
     /// Chooses a point of a light with the numbers of a path's vertex. False: it surely sends no light to the
     /// receiver. Not for an empty table. (In place: this is where paths spend their time.)
-    bool sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const;
+    bool sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const {
+        const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter))];
+        const auto* triangle = std::get_if<LightTriangle>(&source);
+        if (!triangle)
+            point = sample_other(source, random, vertex);
+        else if (triangle->faces(receiver))
+            triangle->sample(random.draw_2d(vertex, Draw::emitter_position), point);
+        else
+            return false;
+        return true;
+    }
 
     /// LightPoint::pdf at any point of an area light.
     float pdf_a(int area_light) const { return pdf_a_[static_cast<std::size_t>(area_light)]; }

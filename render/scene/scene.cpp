@@ -35,12 +35,13 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
     return record;
 }
 
-/// The opacity of each shape; null: it is opaque.
+/// The opacity of each shape; null: it is opaque. So is what gives light: emitter sampling does not ask, and as in
+/// Mitsuba all of the surface shines.
 std::vector<const Texture*> opacities_of(const SceneDescription& description) {
     std::vector<const Texture*> opacities;
     for (const Shape& shape : description.shapes) {
         const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
-        opacities.push_back(material.opacity ? &*material.opacity : nullptr);
+        opacities.push_back(material.opacity && shape.area_light < 0 ? &*material.opacity : nullptr);
     }
     return opacities;
 }

@@ -2,6 +2,7 @@
 
 #include "render/sampling.h"
 #include "render/scene/color_space.h"
+#include "render/scene/environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,18 +113,6 @@ Bitmap sky_bitmap(const Sky& sky, int width) {
                 sky_radiance(sky, direction_of_map(centre / glm::vec2(bitmap.width, bitmap.height))));
         }
     return bitmap;
-}
-
-glm::vec3 direction_of_map(glm::vec2 uv) {
-    const float azimuth = 2 * pi * uv.x;
-    const float zenith_angle = pi * uv.y;
-    return {std::sin(azimuth) * std::sin(zenith_angle), std::cos(zenith_angle),
-            -std::cos(azimuth) * std::sin(zenith_angle)};
-}
-
-glm::vec2 map_of_direction(glm::vec3 d) {
-    const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
-    return {u < 0 ? u + 1 : u, angle_between(d, {0, 1, 0}) * inv_pi};
 }
 
 } // namespace tessera

@@ -14,7 +14,7 @@ namespace tessera {
 inline constexpr float candela_per_radiance = 683.0f * 106.856980f;
 
 /// What a Preetham sky is to be scaled by to come near the brightness of the sky of [Hosek 2012], which both
-/// Mitsubas have. Preetham's is the brighter one: the light falling on the ground is 1.2 to 2.1 times as much for
+/// Mitsubas have. Preetham's is the brighter one: the light falling on the ground is 1.45 to 2.1 times as much for
 /// turbidities of 2 to 6 with the sun 25 to 70 degrees high; this is the middle of it, and the rest depends on
 /// both.
 inline constexpr float hosek_level = 0.6f;
@@ -46,9 +46,5 @@ Rgb sky_radiance(const Sky& sky, glm::vec3 direction);
 /// The sky as an environment map of `width` times `width / 2` pixels, rows from +y down, in Mitsuba's mapping
 /// uv = (atan2(x, -z) / 2 pi, acos(y) / pi); pixels hold the radiance at their centres. `width` is at least 2.
 Bitmap sky_bitmap(const Sky& sky, int width);
-
-/// The unit direction at uv in that mapping, and the way back with u and v in [0, 1].
-glm::vec3 direction_of_map(glm::vec2 uv);
-glm::vec2 map_of_direction(glm::vec3 direction);
 
 } // namespace tessera

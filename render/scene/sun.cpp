@@ -113,30 +113,6 @@ Rgb resized_sun_radiance(Rgb radiance, float angular_radius) {
     return radiance * (disk_solid_angle(sun_angular_radius) / disk_solid_angle(angular_radius));
 }
 
-void add_disk(Bitmap& map, glm::vec3 direction, float angular_radius, Rgb radiance) {
-    // Many points spread evenly over the disk, each brings its part of the light to the pixel where it lies.
-    const glm::vec2 size(map.width, map.height);
-    const float pixels_across = 2 * angular_radius / pi * size.y;
-    const int n = std::clamp(static_cast<int>(32 * pixels_across), 64, 2048);
-    const Rgb part = radiance * disk_solid_angle(angular_radius) / (static_cast<float>(n) * static_cast<float>(n));
-    const Frame frame(direction);
-    const float one_minus_cos = disk_solid_angle(angular_radius) / (2 * pi);
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const glm::vec2 p = sample_disk((glm::vec2(i, j) + 0.5f) / static_cast<float>(n));
-            const float h = one_minus_cos * glm::dot(p, p); // 1 - cos, even in solid angle
-            const glm::vec2 across = p * std::sqrt(one_minus_cos * (2 - h));
-            const glm::vec2 at = map_of_direction(frame.to_world({across.x, across.y, 1 - h})) * size;
-            const int x = std::min(static_cast<int>(at.x), map.width - 1);
-            const int y = std::min(static_cast<int>(at.y), map.height - 1);
-            const float row = static_cast<float>(y);
-            // The height of the row is cos(a) - cos(b) = 2 sin((a + b) / 2) sin((b - a) / 2).
-            const float height = 2 * std::sin(pi * (row + 0.5f) / size.y) * std::sin(pi / (2 * size.y));
-            map.floats[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                       static_cast<std::size_t>(x)] += part / (2 * pi / size.x * height);
-        }
-}
-
 glm::vec3 sun_direction(const PlaceAndTime& when) {
     using namespace std::chrono;
     constexpr double degree = 3.14159265358979323846 / 180;

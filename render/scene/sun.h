@@ -28,10 +28,6 @@ inline Rgb sun_irradiance(Rgb radiance) {
     return radiance * disk_solid_angle(sun_angular_radius);
 }
 
-/// Adds a disk of even radiance to an environment map in the mapping of sky.h. However coarse the map, its light
-/// adds up to radiance times solid angle. `direction` is unit, `angular_radius` above 0, the bitmap holds floats.
-void add_disk(Bitmap& map, glm::vec3 direction, float angular_radius, Rgb radiance);
-
 /// When and where; the values are the defaults of both Mitsubas: Tokyo, 10 July 2010, 3 pm.
 struct PlaceAndTime {
     double latitude = 35.6894;   ///< degrees, north positive

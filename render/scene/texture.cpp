@@ -123,8 +123,11 @@ glm::vec2 Texture::gradient(const SurfacePoint& at) const {
     if (!texture)
         return glm::vec2(0);
     const glm::vec2 uv(to_uv * glm::vec3(at.uv, 1));
-    const glm::vec2 by_look_up =
+    glm::vec2 by_look_up =
         bilinear_gradient(*texture->bitmap, {wrap(uv.x, texture->wrap), wrap(uv.y, texture->wrap)}, texture->wrap);
+    for (int i = 0; i < 2; ++i)
+        if (texture->wrap == Wrap::mirror && std::fmod(std::abs(std::floor(uv[i])), 2.0f) == 1)
+            by_look_up[i] = -by_look_up[i];         // looked up backward
     return scale * (by_look_up * glm::mat2(to_uv)); // the row vector times the matrix: chain rule
 }
 

@@ -217,6 +217,22 @@ TEST(Plastic, InternalReflectanceIsTheKnownOne) {
     EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0.01f).transmittance(1), 0.96f, 2e-3f);
 }
 
+// From values of Mitsuba 3.9's `roughplastic` without its highlight, at cosines 0.9 and 0.8, for two colours of
+// the base.
+TEST(Plastic, RoughCoatingIsMitsubas) {
+    const struct {
+        float alpha, eta, internal_reflectance, both_ways;
+    } cases[] = {{0.1f, 1.49f, 0.54578f, 0.41261f}, {0.1f, 1.9f, 0.72035f, 0.22390f},
+                 {0.3f, 1.49f, 0.40901f, 0.40213f}, {0.3f, 1.9f, 0.58275f, 0.21799f},
+                 {0.5f, 1.49f, 0.28493f, 0.38382f}, {0.5f, 1.9f, 0.43969f, 0.20688f}};
+    for (const auto& c : cases) {
+        const Coating coating(c.eta, MicrofacetDistribution::ggx, c.alpha);
+        EXPECT_NEAR(coating.internal_reflectance, c.internal_reflectance, 0.004f) << c.alpha << ", " << c.eta;
+        const float both_ways = coating.transmittance(0.9f) * coating.transmittance(0.8f) / (c.eta * c.eta);
+        EXPECT_NEAR(both_ways, c.both_ways, 0.003f * c.both_ways) << c.alpha << ", " << c.eta;
+    }
+}
+
 TEST(Dielectric, SharesAddUpAndAgreeWithTheSamples) {
     for (float eta : {1.5f, 1 / 1.5f, 1.0f})
         for (float theta : {0.0f, 0.4f, 1.0f, 1.5f, 2.0f, 3.0f}) {

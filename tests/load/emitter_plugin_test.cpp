@@ -72,6 +72,20 @@ TEST(EmitterPlugins, TexturedAreaLight) {
     EXPECT_TRUE(loaded.notes.empty());
 }
 
+TEST(EmitterPlugins, ShapeThatGivesLightIsBlackUnlessItNamesAMaterial) {
+    const LoadedScene loaded =
+        load("<shape type='rectangle'><emitter type='area'/></shape>"
+             "<shape type='rectangle'/>"
+             "<shape type='rectangle'><emitter type='area'/><bsdf type='diffuse'/></shape>");
+    const auto reflectance = [&](std::size_t shape) {
+        const auto& material = loaded.description.materials[loaded.description.shapes[shape].material];
+        return std::get<DiffuseMaterial>(material.kind).reflectance.mean();
+    };
+    EXPECT_EQ(reflectance(0), Rgb(0));
+    EXPECT_EQ(reflectance(1), Rgb(0.5f));
+    EXPECT_EQ(reflectance(2), Rgb(0.5f));
+}
+
 TEST(EmitterPlugins, SunskyOfBothSyntaxes) {
     const std::string emitter = "<emitter type='sunsky'><float name='turbidity' value='3'/>"
                                 "<vector name='sunDirection' x='0.3' y='0.8' z='-0.2'/></emitter>";

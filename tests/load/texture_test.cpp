@@ -25,6 +25,27 @@ float at(const Texture& texture, float u, float v) {
     return texture.evaluate({{u, v}}).g;
 }
 
+TEST(Texture, GradientIsTheDerivative) {
+    Bitmap bitmap;
+    bitmap.width = 5;
+    bitmap.height = 4;
+    for (int i = 0; i < 20; ++i)
+        bitmap.floats.emplace_back(0.1f * static_cast<float>((7 * i) % 11));
+    Texture texture;
+    texture.to_uv = {1.5f, 0.4f, 0, -0.3f, 2, 0, 0.1f, 0.2f, 1};
+    texture.scale = 3;
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
+        texture.kind = BitmapTexture{std::make_shared<const Bitmap>(bitmap), Filter::bilinear, wrap};
+        for (const glm::vec2 uv : {glm::vec2(0.31f, 0.17f), glm::vec2(1.03f, -0.41f), glm::vec2(-0.77f, 1.63f)}) {
+            constexpr float h = 1e-3f;
+            const auto value = [&](float u, float v) { return luminance(texture.evaluate({{u, v}})); };
+            const glm::vec2 gradient = texture.gradient({uv});
+            EXPECT_NEAR(gradient.x, (value(uv.x + h, uv.y) - value(uv.x - h, uv.y)) / (2 * h), 0.02f);
+            EXPECT_NEAR(gradient.y, (value(uv.x, uv.y + h) - value(uv.x, uv.y - h)) / (2 * h), 0.02f);
+        }
+    }
+}
+
 } // namespace
 
 TEST(Texture, BytesAreDecoded) {

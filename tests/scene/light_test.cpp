@@ -21,8 +21,17 @@ TEST(AliasTable, ChoosesInProportionToTheWeights) {
             share[table.choose((glm::vec2(i, j) + 0.5f) / float(steps))] += 1.0 / (steps * steps);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         EXPECT_NEAR(share[i], weights[i] / 8.001, 1e-3);
-        EXPECT_FLOAT_EQ(table.probability(i), static_cast<float>(weights[i] / 8.001));
+        EXPECT_NEAR(table.probability(i), weights[i] / 8.001, 1e-7); // thresholds have 24 bits
     }
+}
+
+TEST(AliasTable, SaysWhatItDoesForTinyWeights) {
+    const AliasTable table(std::vector<double>{1, 1e-9});
+    int tiny = 0;
+    for (int i = 0; i < 1 << 24; ++i)
+        tiny += table.choose({0.75f, static_cast<float>(i) * 0x1p-24f}) == 1;
+    EXPECT_FLOAT_EQ(table.probability(1), static_cast<float>(tiny) * 0x1p-25f);
+    EXPECT_GE(tiny, 1);
 }
 
 TEST(AliasTable, WithoutWeightAllIsZero) {

@@ -1,4 +1,5 @@
 #include "render/sampling.h"
+#include "render/scene/environment.h"
 #include "render/scene/sky.h"
 
 #include <cmath>

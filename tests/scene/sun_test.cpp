@@ -1,4 +1,5 @@
 #include "render/sampling.h"
+#include "render/scene/environment.h"
 #include "render/scene/sky.h"
 #include "render/scene/sun.h"
 
@@ -61,49 +62,6 @@ TEST(Sun, ResizedKeepsItsIrradiance) {
         EXPECT_LT(glm::length(resized - sun_irradiance(radiance)), 1e-5f * glm::length(sun_irradiance(radiance)));
     }
     EXPECT_NEAR(disk_solid_angle(pi), 4 * pi, 1e-5f);
-}
-
-TEST(Sun, DiskInAMapHasTheRightLightAndPlace) {
-    for (const float radius : {0.0005f, sun_angular_radius, 5 * degree, 30 * degree})
-        for (const float elevation : {2.0f, 45.0f, 90.0f}) {
-            Bitmap map;
-            map.width = 128;
-            map.height = 64;
-            map.floats.assign(128 * 64, Rgb(0));
-            const glm::vec3 direction = direction_of_map({0.99f, (90 - elevation) / 180});
-            add_disk(map, direction, radius, Rgb(2, 1, 0.5f));
-            double light = 0;
-            glm::dvec3 mean(0);
-            for (int y = 0; y < map.height; ++y)
-                for (int x = 0; x < map.width; ++x) {
-                    const double area = 2 * double(pi) / 128 *
-                                        (std::cos(double(pi) * y / 64) - std::cos(double(pi) * (y + 1) / 64));
-                    light += map.texel(x, y).g * area;
-                    const glm::vec2 uv((float(x) + 0.5f) / 128, (float(y) + 0.5f) / 64);
-                    mean += map.texel(x, y).g * area * glm::dvec3(direction_of_map(uv));
-                }
-            EXPECT_NEAR(light, disk_solid_angle(radius), 1e-3 * disk_solid_angle(radius));
-            EXPECT_LT(glm::length(glm::normalize(glm::vec3(mean)) - direction), 2 * pi / 128);
-        }
-}
-
-TEST(Sun, WideDiskIsEven) {
-    Bitmap map;
-    map.width = 256;
-    map.height = 128;
-    map.floats.assign(256 * 128, Rgb(0));
-    const glm::vec3 direction = direction_of_map({0.3f, 0.4f});
-    add_disk(map, direction, 10 * degree, Rgb(1));
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x) {
-            const glm::vec3 d = direction_of_map({(float(x) + 0.5f) / 256, (float(y) + 0.5f) / 128});
-            const float away = std::acos(glm::dot(d, direction)) / degree;
-            if (away < 8.5f) {
-                EXPECT_NEAR(map.texel(x, y).r, 1, 0.05f);
-            } else if (away > 11.5f) {
-                EXPECT_EQ(map.texel(x, y).r, 0);
-            }
-        }
 }
 
 // The example of [Reda 2004, A.5]: Golden, Colorado, 17 October 2003. Elevation before refraction.

@@ -218,6 +218,20 @@ std::shared_ptr<const Scene> masks() {
     return r.build();
 }
 
+/// Such panes in front of a glossy floor, a sky and a sun.
+std::shared_ptr<const Scene> masks_outside() {
+    OpenRoom r;
+    r.sky();
+    r.sun({glm::normalize(glm::vec3(1, 2, 1)), 0.3f, Rgb(6, 5, 4)});
+    Material half{"half", DiffuseMaterial{{white}}, true};
+    half.opacity = Texture(Rgb(0.4f));
+    const int m = r.material(half);
+    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.12f));
+    r.quad({-0.9f, -0.9f, 0.5f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
+    r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, m);
+    return r.build();
+}
+
 /// Waves on a glossy floor and a wall, by their normals alone.
 std::shared_ptr<const Scene> relief() {
     Room r;
@@ -285,6 +299,9 @@ std::vector<TestScene> all_test_scenes() {
         {"point_lights_half_vectors", point_lights(), 4, 0.3f},
         {"textured_light", textured_light(), 4},
         {"masks", masks(), 4},
+        {"masks_outside", masks_outside(), 4},
+        {"masks_outside_half_vectors", masks_outside(), 4, 0.15f},
+        {"lamp_and_sky_in_gloss", environment_patchwork(), 2, 0.35f, 3},
         {"relief", relief(), 4},
         {"relief_half_vectors", relief(), 4, 0.25f},
     };
