@@ -13,18 +13,27 @@ namespace {
 
 std::string kind_of(const Material& m) {
     struct Namer {
-        std::string operator()(const DiffuseMaterial&) const { return "diffuse"; }
-        std::string operator()(const ConductorMaterial& c) const {
-            return c.alpha.is_constant() && std::get<Rgb>(c.alpha.kind).r <= 0 ? "conductor" : "roughconductor";
+        static std::string rough(const Texture& alpha) {
+            return alpha.is_constant() && std::get<Rgb>(alpha.kind).r <= 0 ? "" : "rough";
         }
+        std::string operator()(const DiffuseMaterial& d) const { return rough(d.alpha) + "diffuse"; }
+        std::string operator()(const ConductorMaterial& c) const { return rough(c.alpha) + "conductor"; }
         std::string operator()(const DielectricMaterial& d) const {
-            return d.thin ? "thindielectric" : "dielectric";
+            return d.thin ? "thindielectric" : rough(d.alpha) + "dielectric";
         }
         std::string operator()(const PlasticMaterial& p) const {
             return p.facets.alpha > 0 ? "roughplastic" : "plastic";
         }
+        std::string operator()(const PhongMaterial&) const { return "phong"; }
+        std::string operator()(const MixtureMaterial& m) const {
+            return m.second_share ? "blendbsdf" : "mixturebsdf";
+        }
+        std::string operator()(const CoatedMaterial& c) const { return "coating on " + kind_of(*c.base); }
     };
-    return std::visit(Namer(), m.kind) + (m.two_sided ? ", two-sided" : "");
+    std::string kind = std::visit(Namer(), m.kind);
+    if (m.relief)
+        kind += m.relief->kind == Relief::Kind::bump ? ", bumpmap" : ", normalmap";
+    return kind + (m.opacity ? ", mask" : "") + (m.two_sided ? ", two-sided" : "");
 }
 
 struct TextureSummary {

@@ -1,12 +1,18 @@
 #pragma once
 
+#include "render/bsdf/coated.h"
 #include "render/bsdf/conductor.h"
 #include "render/bsdf/dielectric.h"
 #include "render/bsdf/diffuse.h"
+#include "render/bsdf/mixture.h"
+#include "render/bsdf/phong.h"
 #include "render/bsdf/plastic.h"
+#include "render/bsdf/rough_dielectric.h"
+#include "render/bsdf/rough_diffuse.h"
 #include "render/bsdf/scattering.h"
 
 #include <optional>
+#include <type_traits>
 #include <variant>
 
 namespace tessera {
@@ -19,8 +25,9 @@ namespace tessera {
 /// Directions are unit, in the shading frame, and point away from the surface. Values hold for radiance that
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
-    std::variant<Diffuse, RoughConductor, SmoothConductor, SmoothDielectric, ThinDielectric, Plastic> kind =
-        Diffuse{};
+    std::variant<Diffuse, RoughDiffuse, RoughConductor, SmoothConductor, SmoothDielectric, RoughDielectric,
+                 ThinDielectric, Plastic, Phong, Mixture, Coated>
+        kind = Diffuse{};
 
     /// Where relief has bent the frame: the normal before that, in the frame. What is above the one surface and
     /// below the other is cut off, or light would leak through.
@@ -46,9 +53,27 @@ struct Bsdf {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
 
+    /// Where light is scattered through the surface: index on the far side over that on the side of to_previous,
+    /// by which such scatters have their half vector. 1: the non-delta part transmits nothing.
+    float relative_index(glm::vec3 to_previous) const {
+        return std::visit(
+            [&](const auto& b) {
+                if constexpr (requires { b.relative_index(to_previous); })
+                    return b.relative_index(to_previous);
+                else
+                    return 1.0f;
+            },
+            kind);
+    }
+
 private:
     bool is_cut(glm::vec3 direction) const { return direction.z * glm::dot(unbent_normal, direction) <= 0; }
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
+
+// Paths are made of these: plain numbers, and no more of them than a plastic takes. (libstdc++ visits up to 11
+// alternatives by a switch, more through a table of pointers.)
+static_assert(std::is_trivially_copyable_v<Bsdf>);
+static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 16);
 
 } // namespace tessera

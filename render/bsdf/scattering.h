@@ -2,7 +2,9 @@
 
 #include "recon/image.h"
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -44,10 +46,28 @@ inline glm::vec3 reflect(glm::vec3 d, glm::vec3 half) {
     return 2 * glm::dot(d, half) * half - d;
 }
 
-/// The half vector of a reflection, unit and on the upper side of the frame.
-inline glm::vec3 half_vector(glm::vec3 a, glm::vec3 b) {
-    const glm::vec3 h = glm::normalize(a + b);
+/// Bends a direction, away from the surface, at a facet of unit normal `half` on either side by Snell's law. Away
+/// from the surface again; nothing: total reflection.
+/// @param eta index beyond the facet over that on the side of d
+inline std::optional<glm::vec3> refract(glm::vec3 d, glm::vec3 half, float eta) {
+    const float c = glm::dot(d, half);
+    const float cos2 = 1 - (1 - c * c) / (eta * eta);
+    if (cos2 <= 0)
+        return {};
+    return (c / eta - std::copysign(std::sqrt(cos2), c)) * half - d / eta;
+}
+
+/// The half vector, unit and on the upper side of the frame, of a reflection (eta = 1), or of a refraction.
+/// @param eta index on the side of to_next over that on the side of to_previous
+inline glm::vec3 half_vector(glm::vec3 to_previous, glm::vec3 to_next, float eta = 1) {
+    const glm::vec3 h = glm::normalize(to_previous + eta * to_next);
     return h.z < 0 ? -h : h;
+}
+
+/// Solid angle of the half vector over that of to_next [Walter 2007, eq. 14 and 17]; eta as in half_vector().
+inline float half_vector_jacobian(glm::vec3 to_previous, glm::vec3 to_next, glm::vec3 half, float eta) {
+    const float sum = glm::dot(to_previous, half) + eta * glm::dot(to_next, half);
+    return eta * eta * std::abs(glm::dot(to_next, half)) / (sum * sum);
 }
 
 } // namespace tessera

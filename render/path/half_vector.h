@@ -14,9 +14,10 @@ struct CopiedScatter {
     float jacobian; ///< solid angle at the offset over solid angle at the base; 1 after a delta scatter
 };
 
-/// Copies the half vector of a reflection from the base's frame to the offset's [Kettunen 2015, 5.2; Jacobian from
-/// Walter 2007, eq. 14: the half vector's solid angle is 1 / (4 |to_next . h|) of the direction's].
-/// Empty: light cannot go that way at the offset, which then carries nothing.
+/// Copies the half vector of a reflection or, where base_to_next is on the other side, of a refraction from the
+/// base's frame to the offset's [Kettunen 2015, 5.2; Jacobians from Walter 2007, eq. 14 and 17]. The index of
+/// refraction is each vertex's own.
+/// Empty: light cannot go that way at the offset, or only on the other side; the offset then carries nothing.
 std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base_to_next, const Vertex& offset);
 
 /// Repeats a delta scatter at the offset. Empty: it has no such part, or all light is reflected.

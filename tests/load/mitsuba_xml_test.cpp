@@ -197,7 +197,7 @@ TEST(MitsubaXml, NamedIndicesOfRefraction) {
 
 TEST(MitsubaXml, MaterialsAreSharedAndNested) {
     const auto loaded =
-        parse("<bsdf type='bumpmap'><bsdf type='diffuse' id='inner'/></bsdf>"
+        parse("<bsdf type='bumpmap'><bsdf type='diffuse' id='inner'/><texture type='checkerboard'/></bsdf>"
               "<shape type='cube'><ref id='late'/></shape><shape type='cube'><ref id='late'/></shape>"
               "<shape type='cube'><ref id='inner'/></shape><shape type='cube'/>"
               "<shape type='cube'><bsdf type='twosided'><ref id='late'/></bsdf></shape>"

@@ -191,6 +191,26 @@ TEST(RealScenes, VariablesOfTheCommandLineWin) {
     EXPECT_NE(all(loaded.notes).find("'nosuch'"), std::string::npos);
 }
 
+TEST(RealScenes, KitchenMasksAndBumps) {
+    const auto file = shared_scene("kitchen");
+    if (file.empty())
+        GTEST_SKIP() << "the shared scenes are not here";
+    const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
+    expect_sound(loaded.description);
+    EXPECT_EQ(all(loaded.notes).find("bsdf"), std::string::npos) << all(loaded.notes);
+    const auto named = [&](const std::string& name) -> const Material& {
+        for (const Material& m : loaded.description.materials)
+            if (m.name == name)
+                return m;
+        throw std::runtime_error("no material " + name);
+    };
+    EXPECT_FLOAT_EQ(named("Blinds").opacity.value().evaluate({}).r, 0.612066f);
+    // The shapes refer to what is nested in a nameless bumpmap, and so get no bumps in Mitsuba either.
+    EXPECT_FALSE(named("Cushion1").relief);
+    const Texture& map = named("bumpmap").relief.value().map;
+    EXPECT_FALSE(std::get<BitmapTexture>(map.kind).bitmap->srgb);
+}
+
 /// The other scenes have plugins still to come: they load, and each gap has its note.
 TEST(RealScenes, AllOthersLoadWithNotes) {
     const std::pair<const char*, std::size_t> expected[] = {

@@ -44,6 +44,41 @@ int SceneBuilder::plastic(Rgb diffuse, float alpha) {
     return material({"plastic", m, true});
 }
 
+int SceneBuilder::rough_diffuse(Rgb reflectance, float alpha) {
+    return material({"rough diffuse", DiffuseMaterial{{reflectance}, {Rgb(alpha)}}, true});
+}
+
+int SceneBuilder::rough_glass(float alpha, float eta) {
+    DielectricMaterial m;
+    m.eta = eta;
+    m.distribution = MicrofacetDistribution::ggx;
+    m.alpha = Texture(Rgb(alpha));
+    return material({"rough glass", m, false});
+}
+
+int SceneBuilder::phong(Rgb diffuse, Rgb specular, float exponent) {
+    return material({"phong", PhongMaterial{{Rgb(exponent)}, {diffuse}, {specular}}, true});
+}
+
+std::shared_ptr<const Material> SceneBuilder::copy_of(int material) const {
+    return std::make_shared<const Material>(description_.materials.at(static_cast<std::size_t>(material)));
+}
+
+int SceneBuilder::blend(int first, int second, float share_of_second) {
+    MixtureMaterial m{{copy_of(first), copy_of(second)}};
+    m.second_share = Texture(Rgb(share_of_second));
+    const bool two_sided = m.parts[0]->two_sided && m.parts[1]->two_sided;
+    return material({"blend", m, two_sided});
+}
+
+int SceneBuilder::coated(int base, Rgb sigma_a, float eta) {
+    CoatedMaterial m;
+    m.eta = eta;
+    m.sigma_a = Texture(sigma_a);
+    m.base = copy_of(base);
+    return material({"coated", m, true});
+}
+
 int SceneBuilder::light(Texture radiance) {
     description_.area_lights.push_back({radiance});
     return static_cast<int>(description_.area_lights.size()) - 1;

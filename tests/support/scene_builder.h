@@ -18,6 +18,11 @@ public:
     int mirror();
     int glass(float eta = 1.5f, bool thin = false);
     int plastic(Rgb diffuse, float alpha); ///< alpha = 0: a smooth coating
+    int rough_diffuse(Rgb reflectance, float alpha);
+    int rough_glass(float alpha, float eta = 1.5f);
+    int phong(Rgb diffuse, Rgb specular, float exponent);
+    int blend(int first, int second, float share_of_second); ///< of materials made before
+    int coated(int base, Rgb sigma_a, float eta = 1.5f);     ///< over a material made before
     int light(Texture radiance);
     void point(PointLight light);
     void directional(DirectionalLight light);
@@ -37,6 +42,8 @@ public:
     std::shared_ptr<const Scene> build() const;
 
 private:
+    std::shared_ptr<const Material> copy_of(int material) const;
+
     SceneDescription description_;
 };
 

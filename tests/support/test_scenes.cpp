@@ -253,6 +253,37 @@ std::shared_ptr<const Scene> relief() {
     return r.build();
 }
 
+/// Two balls of different indices: light goes through one, both, or from one to the other.
+std::shared_ptr<const Scene> rough_glass() {
+    Room r;
+    r.sphere({-0.3f, -0.4f, 0}, 0.5f, r.rough_glass(0.3f));
+    r.sphere({0.5f, -0.5f, 0.2f}, 0.4f, r.rough_glass(0.2f, 1.33f));
+    return r.build();
+}
+
+/// Sums of what scatters, reflects and refracts, smooth and rough.
+std::shared_ptr<const Scene> blends() {
+    Room r;
+    const int floor = r.blend(r.diffuse(green), r.mirror(), 0.4f);
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, floor);
+    r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.blend(r.rough_glass(0.3f), r.conductor(0.2f), 0.3f));
+    r.sphere({0.4f, -0.5f, 0.1f}, 0.35f, r.blend(r.glass(), r.conductor(0.3f), 0.4f));
+    return r.build();
+}
+
+std::shared_ptr<const Scene> coated() {
+    Room r;
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f},
+           r.coated(r.conductor(0.2f), Rgb(0.2f, 0.4f, 0.1f)));
+    r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.coated(r.mirror(), Rgb(0.3f, 0.1f, 0.1f)));
+    r.sphere({0.4f, -0.5f, 0.1f}, 0.35f, r.coated(r.rough_diffuse(red, 0.5f), Rgb(0)));
+    return r.build();
+}
+
+std::shared_ptr<const Scene> phong() {
+    return room_with_floor([](SceneBuilder& b) { return b.phong(Rgb(0), Rgb(0.8f, 0.7f, 0.6f), 40); });
+}
+
 std::shared_ptr<const Scene> no_light() {
     SceneBuilder b;
     const int w = b.diffuse(white);
@@ -286,6 +317,12 @@ std::vector<TestScene> all_test_scenes() {
         {"patchwork", patchwork(), 5, 0.001f, 5},
         {"patchwork_half_vectors", patchwork(), 5, 0.1f, 5},
         {"glossy_second_vertex", glossy_second_vertex(), 3, 0.1f, 4},
+        {"rough_glass", rough_glass(), 7},
+        {"rough_glass_half_vectors", rough_glass(), 7, 0.25f},
+        {"blends", blends(), 6},
+        {"blends_half_vectors", blends(), 6, 0.35f},
+        {"coated", coated(), 5},
+        {"phong_half_vectors", phong(), 5, 0.5f},
         {"shining_wall", shining_wall(), 4},
         {"no_light", no_light(), 4},
         {"constant_environment", constant_environment(), 5},

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "render/bsdf/scattering.h"
+#include "render/scene/texture.h"
+
+#include <optional>
+
+namespace tessera {
+
+struct CoatedMaterial;
+
+/// A BSDF under a smooth, perhaps absorbing, dielectric layer [Weidlich 2007], as Mitsuba's `coating`: light that
+/// is sent back from the inside of the layer is lost. The upper side only. Looks its base up whenever it is asked,
+/// as a Mixture does.
+struct Coated {
+    const CoatedMaterial* material = nullptr; ///< outlives this; its base transmits nothing
+    SurfacePoint at{};
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
+    float roughness() const;
+};
+
+} // namespace tessera

@@ -1,0 +1,75 @@
+#include "render/bsdf/rough_diffuse.h"
+
+#include "render/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+/// The angles that the model is written in.
+struct Angles {
+    float alpha, beta; ///< the larger and the smaller one to the normal
+    float sin_alpha, tan_beta;
+    float tan_mean; ///< of the mean of both
+    float cos_phi;  ///< of the angle between the two directions, seen from above
+};
+
+Angles angles_of(glm::vec3 a, glm::vec3 b) {
+    if (a.z > b.z)
+        std::swap(a, b);
+    const float sin_a = std::hypot(a.x, a.y), sin_b = std::hypot(b.x, b.y);
+    const float product = sin_a * sin_b;
+    const float cos_phi = product > 1e-8f ? std::clamp((a.x * b.x + a.y * b.y) / product, -1.0f, 1.0f) : 0;
+    return {std::atan2(sin_a, a.z),
+            std::atan2(sin_b, b.z),
+            sin_a,
+            sin_b / b.z,
+            (sin_a + sin_b) / (a.z + b.z),
+            cos_phi};
+}
+
+/// pi f over the reflectance, in the qualitative model [Oren 1994].
+float qualitative(const Angles& a, float sigma2) {
+    const float constant = 1 - 0.5f * sigma2 / (sigma2 + 0.33f);
+    const float facing = 0.45f * sigma2 / (sigma2 + 0.09f);
+    return constant + facing * std::max(a.cos_phi, 0.0f) * a.sin_alpha * a.tan_beta;
+}
+
+/// pi f in the full model: light scattered once, and twice [Oren 1994].
+Rgb full(const Angles& a, float sigma2, Rgb reflectance) {
+    const float steep = sigma2 / (sigma2 + 0.09f);
+    const float beta = 2 * inv_pi * a.beta;
+    const float both = 4 * inv_pi * inv_pi * a.alpha * a.beta;
+    const float c1 = 1 - 0.5f * sigma2 / (sigma2 + 0.33f);
+    const float c2 = 0.45f * steep * (a.cos_phi > 0 ? a.sin_alpha : a.sin_alpha - beta * beta * beta);
+    const float c3 = 0.125f * steep * both * both;
+    const float once = c1 + a.cos_phi * c2 * a.tan_beta + (1 - std::abs(a.cos_phi)) * c3 * a.tan_mean;
+    const float twice = 0.17f * sigma2 / (sigma2 + 0.13f) * (1 - a.cos_phi * beta * beta);
+    return reflectance * once + reflectance * reflectance * twice;
+}
+
+} // namespace
+
+BsdfValue RoughDiffuse::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
+    if (to_previous.z <= 0 || to_next.z <= 0)
+        return {};
+    const Angles angles = angles_of(to_previous, to_next);
+    const float pdf_w = to_next.z * inv_pi;
+    const float sigma2 = sigma * sigma;
+    const Rgb pi_f = fast ? reflectance * qualitative(angles, sigma2) : full(angles, sigma2, reflectance);
+    return {pi_f * pdf_w, pdf_w};
+}
+
+std::optional<BsdfSample> RoughDiffuse::sample(glm::vec3 to_previous, float, glm::vec2 u) const {
+    const glm::vec3 to_next = sample_cosine_hemisphere(u);
+    const BsdfValue v = evaluate(to_previous, to_next);
+    if (v.pdf_w <= 0 || is_black(v.f_cos))
+        return {};
+    return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+}
+
+} // namespace tessera

@@ -1,0 +1,135 @@
+// The plugins that are made of several BSDFs, or of a BSDF and a layer on it.
+#include "render/load/bsdf_parameters.h"
+#include "render/load/bsdf_plugins.h"
+#include "render/load/bsdf_readers.h"
+#include "render/load/numbers.h"
+#include "render/load/texture_plugins.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+/// Light that several parts let through must have one direction: makes all refract like the first that does.
+/// @param first that one; null as long as none was met
+/// @return whether anything had to be changed
+bool share_refraction(Material& material, std::optional<DielectricMaterial>& first) {
+    if (auto* dielectric = std::get_if<DielectricMaterial>(&material.kind)) {
+        if (!first)
+            first = *dielectric;
+        const bool differs = dielectric->eta != first->eta || dielectric->thin != first->thin;
+        dielectric->eta = first->eta;
+        dielectric->thin = first->thin;
+        return differs;
+    }
+    bool changed = false;
+    if (auto* mixture = std::get_if<MixtureMaterial>(&material.kind))
+        for (std::shared_ptr<const Material>& part : mixture->parts) {
+            Material copy = *part;
+            changed |= share_refraction(copy, first);
+            part = std::make_shared<const Material>(std::move(copy));
+        }
+    return changed;
+}
+
+/// The BSDFs nested in a mixture, without weights.
+Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlElement>& nested) {
+    MixtureMaterial mixture;
+    std::optional<DielectricMaterial> first;
+    std::size_t two_sided = 0;
+    for (const XmlElement& element : nested) {
+        Material part = without_adapters(read_bsdf(context, element), p);
+        two_sided += part.two_sided;
+        if (share_refraction(part, first))
+            p.note(element, "this refracts like the first transparent <bsdf> in '" + p.type() + "'");
+        mixture.parts.push_back(std::make_shared<const Material>(std::move(part)));
+    }
+    const bool all_two_sided = two_sided == nested.size();
+    if (two_sided > 0 && !all_two_sided)
+        p.note("'twosided' around some of the materials in '" + p.type() + "' is left out");
+    return {{}, mixture, all_two_sided};
+}
+
+/// "0.3, 0.2": one weight for each of `count` materials, at most 1 together.
+std::vector<float> weights_parameter(Properties& p, std::size_t count) {
+    const auto element = p.take("weights");
+    if (!element)
+        p.element().fail("'mixturebsdf' needs 'weights'");
+    std::string text = element->required("value");
+    std::replace(text.begin(), text.end(), ';', ',');
+    auto weights = parse_numbers(text);
+    if (!weights)
+        element->fail("'" + text + "' is not a list of numbers", "value");
+    if (weights->size() != count)
+        element->fail(std::to_string(weights->size()) + " weights for " + std::to_string(count) + " materials",
+                      "value");
+    if (std::any_of(weights->begin(), weights->end(), [](float w) { return w < 0; }))
+        element->fail("'weights' must not be negative", "value");
+    const float sum = std::accumulate(weights->begin(), weights->end(), 0.0f);
+    if (!(sum > 0))
+        element->fail("one of the 'weights' must be above 0", "value");
+    if (sum > 1 + 1e-4f)
+        p.note(*element, "'weights' are above 1 together and scaled down to it");
+    if (sum > 1)
+        for (float& w : *weights)
+            w /= sum;
+    return *weights;
+}
+
+} // namespace
+
+Material read_blend(LoadContext& context, Properties& p) {
+    std::vector<XmlElement> nested = context.take_nested(p, "bsdf");
+    if (nested.size() < 2)
+        p.element().fail("'blendbsdf' needs two nested <bsdf>");
+    if (nested.size() > 2)
+        p.note(nested[2], "only the first two <bsdf> in 'blendbsdf' are used");
+    nested.resize(2, nested[0]);
+    Material material = mixture_of(context, p, nested);
+    auto& mixture = std::get<MixtureMaterial>(material.kind);
+    mixture.second_share = grey_parameter(context, p, "weight", 0.5f);
+    return material;
+}
+
+Material read_mixture(LoadContext& context, Properties& p) {
+    const std::vector<XmlElement> nested = context.take_nested(p, "bsdf");
+    if (nested.empty())
+        p.element().fail("'mixturebsdf' needs a nested <bsdf>");
+    const std::vector<float> weights = weights_parameter(p, nested.size());
+    Material material = mixture_of(context, p, nested);
+    std::get<MixtureMaterial>(material.kind).weights = weights;
+    return material;
+}
+
+Material read_coating(LoadContext& context, Properties& p) {
+    Material base = without_adapters(nested_bsdf(context, p), p);
+    CoatedMaterial coated;
+    coated.eta = index_parameter(p, "int_ior", "bk7") / index_parameter(p, "ext_ior", "air");
+    coated.thickness = p.number("thickness", 1);
+    if (coated.thickness < 0)
+        p.take("thickness")->fail("'thickness' must not be negative", "value");
+    coated.sigma_a = texture_parameter(context, p, "sigma_a", Rgb(0));
+    const Rgb* sigma = std::get_if<Rgb>(&coated.sigma_a.kind);
+    if (sigma && (sigma->r < 0 || sigma->g < 0 || sigma->b < 0))
+        p.take("sigma_a")->fail("'sigma_a' must not be negative", "value");
+    coated.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    if (base.is_transparent()) {
+        p.note("the coating around a transparent material is left out");
+        return base;
+    }
+    const bool two_sided = std::exchange(base.two_sided, false);
+    coated.base = std::make_shared<const Material>(std::move(base));
+    return {{}, coated, two_sided};
+}
+
+Material read_rough_coating(LoadContext& context, Properties& p) {
+    p.note("'roughcoating' is replaced by 'coating', which is smooth");
+    p.ignore({"alpha", "distribution", "sample_visible"});
+    return read_coating(context, p);
+}
+
+} // namespace tessera

@@ -1,0 +1,124 @@
+// The plugins that say themselves how a surface scatters.
+#include "render/load/bsdf_parameters.h"
+#include "render/load/bsdf_readers.h"
+#include "render/load/texture_plugins.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace tessera {
+
+Material read_diffuse(LoadContext& context, Properties& p) {
+    DiffuseMaterial diffuse;
+    diffuse.reflectance = reflectance_parameter(context, p, "reflectance", Rgb(0.5f));
+    return {{}, diffuse};
+}
+
+Material read_rough_diffuse(LoadContext& context, Properties& p) {
+    DiffuseMaterial diffuse;
+    const char* const name = p.has("reflectance") ? "reflectance" : "diffuse_reflectance"; // 0.6 takes both
+    diffuse.reflectance = reflectance_parameter(context, p, name, Rgb(0.5f));
+    diffuse.alpha = texture_parameter(context, p, "alpha", Rgb(0.2f));
+    const Rgb* alpha = std::get_if<Rgb>(&diffuse.alpha.kind);
+    if (alpha && alpha->r < 0)
+        p.take("alpha")->fail("'alpha' must not be negative", "value");
+    diffuse.fast = p.boolean("use_fast_approx", false);
+    return {{}, diffuse};
+}
+
+Material read_dielectric(LoadContext& context, Properties& p) {
+    DielectricMaterial dielectric;
+    dielectric.eta = index_parameter(p, "int_ior", "bk7") / index_parameter(p, "ext_ior", "air");
+    dielectric.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    dielectric.specular_transmittance = reflectance_parameter(context, p, "specular_transmittance", Rgb(1));
+    return {{}, dielectric};
+}
+
+Material read_rough_dielectric(LoadContext& context, Properties& p) {
+    Material material = read_dielectric(context, p);
+    auto& dielectric = std::get<DielectricMaterial>(material.kind);
+    dielectric.alpha = alpha_parameter(context, p);
+    dielectric.distribution = distribution_parameter(p);
+    p.ignore({"sample_visible"}); // visible normals are always sampled
+    return material;
+}
+
+Material read_thin_dielectric(LoadContext& context, Properties& p) {
+    Material material = read_dielectric(context, p);
+    std::get<DielectricMaterial>(material.kind).thin = true;
+    return material;
+}
+
+namespace {
+
+ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
+    ConductorMaterial conductor;
+    const ComplexIndex index = metal_parameter(context, p);
+    conductor.eta = index.eta;
+    conductor.k = index.k;
+    conductor.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    return conductor;
+}
+
+} // namespace
+
+Material read_conductor(LoadContext& context, Properties& p) {
+    return {{}, smooth_part(context, p)};
+}
+
+Material read_rough_conductor(LoadContext& context, Properties& p) {
+    ConductorMaterial conductor = smooth_part(context, p);
+    conductor.alpha = alpha_parameter(context, p);
+    conductor.distribution = distribution_parameter(p);
+    p.ignore({"sample_visible"}); // visible normals are always sampled
+    return {{}, conductor};
+}
+
+namespace {
+
+/// What plastic and roughplastic share, a coating of roughness `alpha`.
+Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
+    PlasticMaterial plastic;
+    plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
+    plastic.nonlinear = p.boolean("nonlinear", false);
+    plastic.facets = facets;
+    plastic.coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+    plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
+    plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    return {{}, plastic};
+}
+
+} // namespace
+
+Material read_plastic(LoadContext& context, Properties& p) {
+    return plastic_of(context, p, {MicrofacetDistribution::beckmann, 0});
+}
+
+Material read_rough_plastic(LoadContext& context, Properties& p) {
+    const Texture alpha = alpha_parameter(context, p);
+    if (!alpha.is_constant())
+        p.note("the texture of 'alpha' is replaced by 0.1");
+    const float constant = alpha.is_constant() ? std::get<Rgb>(alpha.kind).r : 0.1f;
+    p.ignore({"sample_visible"}); // visible normals are always sampled
+    return plastic_of(context, p, {distribution_parameter(p), std::max(constant, smallest_alpha)});
+}
+
+Material read_phong(LoadContext& context, Properties& p) {
+    PhongMaterial phong;
+    phong.exponent = texture_parameter(context, p, "exponent", Rgb(30));
+    const Rgb* exponent = std::get_if<Rgb>(&phong.exponent.kind);
+    if (exponent && exponent->r < 0)
+        p.take("exponent")->fail("'exponent' must not be negative", "value");
+    phong.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
+    phong.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(0.2f));
+    const Rgb* diffuse = std::get_if<Rgb>(&phong.diffuse_reflectance.kind);
+    const Rgb* specular = std::get_if<Rgb>(&phong.specular_reflectance.kind);
+    if (diffuse && specular) {
+        const Rgb sum = *diffuse + *specular;
+        if (std::max({sum.r, sum.g, sum.b}) > 1)
+            p.note("the two reflectances are above 1 together and scaled down to it");
+    }
+    return {{}, phong};
+}
+
+} // namespace tessera

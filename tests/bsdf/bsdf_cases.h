@@ -1,0 +1,101 @@
+#pragma once
+
+#include "render/scene/material.h"
+
+#include <cmath>
+#include <list>
+#include <memory>
+#include <ostream>
+#include <random>
+#include <vector>
+
+namespace tessera::test {
+
+/// A BSDF to be tested. `eta`: index below the surface over that above; 1: nothing is transmitted.
+struct Case {
+    const char* name;
+    Bsdf bsdf;
+    float eta = 1;
+
+    /// Over that above the surface, on the side of d.
+    float index(glm::vec3 d) const { return d.z > 0 ? 1 : eta; }
+};
+
+inline void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
+
+inline glm::vec3 direction(float theta, float phi) {
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+/// Numbers in [0, 1).
+class Uniform {
+public:
+    explicit Uniform(unsigned seed) : engine_(seed) {}
+    float operator()() { return uniform_(engine_); }
+    glm::vec2 two() {
+        const float x = uniform_(engine_);
+        return {x, uniform_(engine_)};
+    }
+
+private:
+    std::mt19937 engine_;
+    std::uniform_real_distribution<float> uniform_{0, 0x1.fffffep-1f};
+};
+
+inline std::optional<BsdfSample> draw(const Bsdf& bsdf, glm::vec3 to_previous, Uniform& uniform) {
+    const float lobe = uniform();
+    return bsdf.sample(to_previous, lobe, uniform.two());
+}
+
+inline const Rgb copper_eta(0.200438f, 0.924033f, 1.10221f);
+inline const Rgb copper_k(3.91295f, 2.45285f, 2.14219f);
+
+inline RoughConductor rough(MicrofacetDistribution d, float alpha, Rgb eta = copper_eta, Rgb k = copper_k) {
+    return {{d, alpha}, eta, k, Rgb(1)};
+}
+
+/// A plastic with a coating that lives as long as the program.
+inline Plastic plastic(MicrofacetDistribution d, float alpha, Rgb diffuse, bool nonlinear) {
+    static std::list<Coating> coatings;
+    coatings.emplace_back(1.5f, d, alpha);
+    return Plastic(coatings.back(), 1.5f, {d, alpha}, Rgb(1), diffuse, nonlinear);
+}
+
+template <class Kind>
+std::shared_ptr<const Material> shared(Kind kind) {
+    return std::make_shared<const Material>(Material{{}, kind});
+}
+
+inline ConductorMaterial copper(float alpha) {
+    return {MicrofacetDistribution::ggx, {Rgb(alpha)}, copper_eta, copper_k};
+}
+
+inline DielectricMaterial glass(float alpha, float eta = 1.5f) {
+    DielectricMaterial m;
+    m.eta = eta;
+    m.distribution = MicrofacetDistribution::ggx;
+    m.alpha = Texture(Rgb(alpha));
+    return m;
+}
+
+inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<const Material> b, float share) {
+    MixtureMaterial m{{std::move(a), std::move(b)}};
+    m.second_share = Texture(Rgb(share));
+    return m;
+}
+
+inline CoatedMaterial coated(std::shared_ptr<const Material> base, Rgb sigma_a, Rgb specular = Rgb(1)) {
+    return {1.5f, 0.7f, {sigma_a}, {specular}, std::move(base)};
+}
+
+/// The BSDF of a material that lives as long as the program.
+template <class Kind>
+Bsdf resolved(Kind kind) {
+    static std::list<Material> materials;
+    materials.push_back({{}, std::move(kind)});
+    return materials.back().resolve({});
+}
+
+} // namespace tessera::test

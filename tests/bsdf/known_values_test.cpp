@@ -1,0 +1,90 @@
+// BSDFs of which something is known without sampling: what they lose, the shares of their delta parts.
+#include "render/bsdf/fresnel.h"
+#include "tests/bsdf/bsdf_cases.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+TEST(Furnace, AWhiteFacetedMirrorLosesOnlyTheSecondBounce) {
+    // With full reflectance the energy lost to shadowing is known to be small for smooth surfaces.
+    using enum MicrofacetDistribution;
+    Uniform uniform(5);
+    for (auto distribution : {ggx, beckmann}) {
+        const Bsdf bsdf{rough(distribution, 0.05f, Rgb(0), Rgb(1))};
+        double sum = 0;
+        for (int i = 0; i < 50000; ++i) {
+            if (const auto s = bsdf.sample(direction(0.6f, 0), 0, uniform.two()))
+                sum += luminance(s->f_cos / s->pdf_w);
+        }
+        EXPECT_NEAR(sum / 50000, 1, 0.01);
+    }
+}
+
+TEST(Plastic, AWhiteBaseUnderGlassLosesNothing) {
+    // With reflectance 1 all that gets in must come out again.
+    Uniform uniform(5);
+    for (const float theta : {0.1f, 0.7f, 1.2f}) {
+        const Bsdf bsdf{plastic(MicrofacetDistribution::ggx, 0, Rgb(1), false)};
+        double sum = 0;
+        for (int i = 0; i < 200000; ++i) {
+            if (const auto s = draw(bsdf, direction(theta, 0), uniform))
+                sum += luminance(s->f_cos / s->pdf_w);
+        }
+        EXPECT_NEAR(sum / 200000, 1, 0.01) << theta;
+    }
+}
+
+TEST(Plastic, InternalReflectanceIsTheKnownOne) {
+    // 0.5963 for eta = 1.5 [Egan and Hilgeman 1973].
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0).internal_reflectance, 0.596f, 0.003f);
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0).transmittance(1), 0.96f, 1e-4f);
+    EXPECT_NEAR(Coating(1.5f, MicrofacetDistribution::ggx, 0.01f).transmittance(1), 0.96f, 2e-3f);
+}
+
+TEST(Dielectric, SharesAddUpAndAgreeWithTheSamples) {
+    for (float eta : {1.5f, 1 / 1.5f, 1.0f})
+        for (float theta : {0.0f, 0.4f, 1.0f, 1.5f, 2.0f, 3.0f}) {
+            const Bsdf bsdf{SmoothDielectric{eta, Rgb(1), Rgb(1)}};
+            const glm::vec3 wo = direction(theta, 0.3f);
+            const DeltaValue r = bsdf.evaluate_delta(wo, Scatter::reflect),
+                             t = bsdf.evaluate_delta(wo, Scatter::transmit);
+            EXPECT_NEAR(r.probability + t.probability, 1, 1e-5f);
+            EXPECT_NEAR(r.value.g, r.probability, 1e-6f);
+            if (t.probability > 0) {
+                const float relative = wo.z > 0 ? eta : 1 / eta;
+                EXPECT_NEAR(t.value.g * relative * relative, t.probability, 1e-5f);
+                EXPECT_NEAR(glm::length(t.to_next), 1, 1e-4f);
+                EXPECT_LT(t.to_next.z * wo.z, 0);
+                // Snell's law: the parallel parts are in the ratio of the indices.
+                EXPECT_NEAR(std::hypot(wo.x, wo.y), relative * std::hypot(t.to_next.x, t.to_next.y), 1e-4f);
+                const auto s = bsdf.sample(wo, 0.999999f, {});
+                ASSERT_TRUE(s);
+                EXPECT_EQ(s->to_next, t.to_next);
+                EXPECT_EQ(s->pdf_w, t.probability);
+            }
+        }
+}
+
+TEST(ThinDielectric, SumsTheBouncesBetweenItsFaces) {
+    for (const float theta : {0.0f, 0.9f, 2.5f}) {
+        const glm::vec3 wo = direction(theta, 1.1f);
+        const float r = fresnel_dielectric(std::abs(wo.z), 1.5f).reflectance, t = 1 - r;
+        float sum = r, inside = t;
+        for (int bounce = 0; bounce < 40; ++bounce) {
+            inside *= r; // at the far face, and at the near one
+            sum += inside * t;
+            inside *= r;
+        }
+        const Bsdf bsdf{ThinDielectric{1.5f, Rgb(1), Rgb(1)}};
+        EXPECT_NEAR(bsdf.evaluate_delta(wo, Scatter::reflect).probability, sum, 1e-5f);
+        EXPECT_NEAR(bsdf.evaluate_delta(wo, Scatter::transmit).value.g, 1 - sum, 1e-5f);
+        EXPECT_EQ(bsdf.evaluate_delta(wo, Scatter::transmit).to_next, -wo);
+    }
+}
+
+} // namespace
+
+} // namespace tessera::test

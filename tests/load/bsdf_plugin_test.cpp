@@ -1,0 +1,267 @@
+// What the plugins <bsdf> mean, with their notes; then those with bad values.
+
+#include "render/load/mitsuba_xml.h"
+#include "tests/load/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+LoadedScene parse(const std::string& body, const std::string& version = "3.0.0") {
+    return parse_mitsuba_xml(
+        "<scene version=\"" + version + "\">\n" + body + "<sensor type='perspective'/></scene>", "test.xml");
+}
+
+struct Read {
+    Material material;
+    std::string notes; // one a line
+};
+
+/// The one material of a scene.
+Read read(const std::string& bsdf, const std::string& version = "3.0.0") {
+    const LoadedScene loaded = parse(bsdf, version);
+    Read result{loaded.description.materials.at(0), {}};
+    for (const LoadNote& note : loaded.notes)
+        result.notes += note.text + "\n";
+    return result;
+}
+
+/// A <bsdf> around others.
+std::string around(const std::string& type, const std::string& inside) {
+    return "<bsdf type='" + type + "'>" + inside + "</bsdf>";
+}
+
+template <class Kind>
+const Kind& part(const Material& mixture, std::size_t i) {
+    return std::get<Kind>(std::get<MixtureMaterial>(mixture.kind).parts.at(i)->kind);
+}
+
+const std::string diffuse = "<bsdf type='diffuse'/>", glass = "<bsdf type='dielectric'/>",
+                  check = "<texture type='checkerboard' name='map'/>", two_sided = around("twosided", diffuse);
+
+} // namespace
+
+TEST(BsdfPlugins, Mask) {
+    const auto opacity = [](const Material& m) { return m.opacity.value().evaluate({}).r; };
+    EXPECT_EQ(opacity(read(around("mask", diffuse)).material), 0.5f);
+    EXPECT_FALSE(read(around("mask", diffuse + "<float name='opacity' value='1'/>")).material.opacity);
+    const Read coloured = read(around("mask", two_sided + "<rgb name='opacity' value='1, 0, 0'/>"));
+    EXPECT_FLOAT_EQ(opacity(coloured.material), luminance(Rgb(1, 0, 0)));
+    EXPECT_EQ(coloured.notes, "the coloured 'opacity' is replaced by its luminance\n");
+    EXPECT_TRUE(coloured.material.two_sided);
+    // One mask in another lets through what both do.
+    EXPECT_EQ(opacity(read(around("mask", around("mask", diffuse))).material), 0.25f);
+    const std::string texture = "<texture type='checkerboard' name='opacity'/>";
+    const Read half = read(around("mask", around("mask", diffuse + texture)));
+    EXPECT_FLOAT_EQ(opacity(half.material), 0.2f);
+    EXPECT_EQ(half.notes, "");
+    EXPECT_TRUE(half.material.is_textured());
+    EXPECT_EQ(read(around("mask", texture + around("mask", diffuse + texture))).notes,
+              "the mask inside this one is left out\n");
+}
+
+TEST(BsdfPlugins, Relief) {
+    const Read bump = read(around("bumpmap", diffuse + check + "<float name='scale' value='3'/>"));
+    EXPECT_EQ(bump.notes, "");
+    ASSERT_TRUE(bump.material.relief);
+    EXPECT_EQ(bump.material.relief->kind, Relief::Kind::bump);
+    EXPECT_EQ(bump.material.relief->scale, 3);
+    EXPECT_TRUE(bump.material.is_textured());
+    const Read normals =
+        read(around("normalmap", "<texture type='checkerboard' name='normalmap'/>" + two_sided), "0.6.0");
+    ASSERT_TRUE(normals.material.relief);
+    EXPECT_EQ(normals.material.relief->kind, Relief::Kind::normal_map);
+    EXPECT_TRUE(normals.material.two_sided);
+    const Read both = read(around("normalmap", check + around("bumpmap", check + diffuse)));
+    EXPECT_EQ(both.notes, "the relief inside this one is left out\n");
+    EXPECT_EQ(both.material.relief->kind, Relief::Kind::normal_map);
+    // All at once, in any order.
+    const Read all = read(around("twosided", around("mask", around("bumpmap", check + diffuse))));
+    EXPECT_TRUE(all.material.opacity && all.material.relief && all.material.two_sided);
+    EXPECT_EQ(all.notes, "");
+}
+
+TEST(BsdfPlugins, AHeightMapOfGamma1IsLinear) {
+    const TemporaryFolder folder;
+    folder.write("h.ppm", "P6\n1 1\n255\n333");
+    const auto file =
+        folder.write("s.xml", "<scene version='0.6.0'><bsdf type='bumpmap'><texture name='map' type='bitmap'>"
+                              "<string name='filename' value='h.ppm'/><float name='gamma' value='1.0'/></texture>"
+                              "<bsdf type='twosided' id='inner'><bsdf type='diffuse'/></bsdf></bsdf>"
+                              "<shape type='cube'><ref id='inner'/></shape></scene>");
+    const LoadedScene loaded = load_mitsuba_xml(file);
+    ASSERT_EQ(loaded.description.materials.size(), 2u);
+    EXPECT_NEAR(loaded.description.materials[0].relief.value().map.evaluate({}).r, 0.2f, 1e-6f);
+    // A shape that names the nested material gets it without the bumps, as in Mitsuba.
+    EXPECT_FALSE(loaded.description.materials[1].relief);
+    EXPECT_EQ(loaded.description.shapes.at(0).material, 1);
+}
+
+TEST(BsdfPlugins, RoughDiffuse) {
+    const Read r = read("<bsdf type='roughdiffuse'><float name='alpha' value='0.4'/>"
+                        "<boolean name='useFastApprox' value='true'/></bsdf>",
+                        "0.6.0");
+    EXPECT_EQ(r.notes, "");
+    const Bsdf bsdf = r.material.resolve({});
+    const auto& kind = std::get<RoughDiffuse>(bsdf.kind);
+    EXPECT_FLOAT_EQ(kind.sigma, 0.4f / std::sqrt(2.0f));
+    EXPECT_TRUE(kind.fast);
+    EXPECT_EQ(kind.reflectance, Rgb(0.5f));
+    EXPECT_TRUE(std::holds_alternative<RoughDiffuse>(
+        read("<bsdf type='roughdiffuse'/>").material.resolve({}).kind)); // alpha is 0.2
+}
+
+TEST(BsdfPlugins, RoughDielectric) {
+    const Read r =
+        read("<bsdf type='roughdielectric'><float name='alpha' value='0.3'/>"
+             "<string name='distribution' value='ggx'/><float name='intIOR' value='1.6'/>"
+             "<string name='extIOR' value='vacuum'/><rgb name='specularTransmittance' value='0.5'/></bsdf>",
+             "0.6.0");
+    EXPECT_EQ(r.notes, "");
+    const Bsdf bsdf = r.material.resolve({});
+    const auto& kind = std::get<RoughDielectric>(bsdf.kind);
+    EXPECT_EQ(kind.facets.distribution, MicrofacetDistribution::ggx);
+    EXPECT_FLOAT_EQ(kind.facets.alpha, 0.3f);
+    EXPECT_FLOAT_EQ(kind.eta, 1.6f);
+    EXPECT_EQ(kind.specular_transmittance, Rgb(0.5f));
+    EXPECT_TRUE(r.material.is_transparent());
+    // Without a step in the index no facet is seen.
+    const Read none = read("<bsdf type='roughdielectric'><float name='int_ior' value='1'/>"
+                           "<float name='ext_ior' value='1'/></bsdf>");
+    EXPECT_TRUE(std::holds_alternative<SmoothDielectric>(none.material.resolve({}).kind));
+    EXPECT_EQ(read(around("twosided", "<bsdf type='roughdielectric'/>")).notes,
+              "'twosided' means nothing around a transparent material\n");
+}
+
+TEST(BsdfPlugins, Phong) {
+    const Bsdf bsdf = read("<bsdf type='phong'/>", "0.6.0").material.resolve({});
+    EXPECT_EQ(std::get<Phong>(bsdf.kind).exponent, 30);
+    EXPECT_EQ(std::get<Phong>(bsdf.kind).specular_reflectance, Rgb(0.2f));
+    EXPECT_EQ(bsdf.roughness(), 1);
+    const Read bright = read("<bsdf type='phong'><rgb name='diffuseReflectance' value='0.9'/>"
+                             "<rgb name='specularReflectance' value='0.6'/></bsdf>");
+    EXPECT_EQ(bright.notes, "the two reflectances are above 1 together and scaled down to it\n");
+    const Bsdf scaled = bright.material.resolve({});
+    EXPECT_FLOAT_EQ(std::get<Phong>(scaled.kind).diffuse_reflectance.r, 0.6f);
+}
+
+TEST(BsdfPlugins, Blend) {
+    const Read r = read(around("blendbsdf", "<float name='weight' value='0.2'/>" + diffuse + glass));
+    const auto& mixture = std::get<MixtureMaterial>(r.material.kind);
+    EXPECT_FLOAT_EQ(mixture.weight(0, {}), 0.8f);
+    EXPECT_FLOAT_EQ(mixture.weight(1, {}), 0.2f);
+    EXPECT_TRUE(r.material.is_transparent());
+    EXPECT_FALSE(r.material.is_textured());
+    EXPECT_EQ(r.notes, "");
+    // A texture for a weight, and one within a part.
+    const Read textured =
+        read(around("blendbsdf", "<texture type='checkerboard' name='weight'/>" + two_sided + two_sided));
+    EXPECT_FLOAT_EQ(std::get<MixtureMaterial>(textured.material.kind).weight(1, {}), 0.4f);
+    EXPECT_TRUE(textured.material.is_textured() && textured.material.two_sided);
+    const std::string inner = "<bsdf type='diffuse'><texture type='checkerboard' name='reflectance'/></bsdf>";
+    EXPECT_TRUE(read(around("blendbsdf", inner + diffuse)).material.is_textured());
+    EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + inner))).material.is_textured());
+}
+
+TEST(BsdfPlugins, WhatABlendDropsHasItsNote) {
+    const Read r = read(
+        around("blendbsdf", around("mask", diffuse) + around("twosided", around("bumpmap", check + diffuse))));
+    EXPECT_EQ(r.notes, "'twosided' around some of the materials in 'blendbsdf' is left out\n"
+                       "the mask inside 'blendbsdf' is left out\n"
+                       "the relief inside 'blendbsdf' is left out\n");
+    EXPECT_FALSE(r.material.two_sided);
+    EXPECT_EQ(read(around("twosided", around("blendbsdf", diffuse + glass))).notes,
+              "'twosided' means nothing around a transparent material\n");
+    // Around the whole they work.
+    EXPECT_TRUE(read(around("mask", around("blendbsdf", two_sided + two_sided))).material.opacity);
+
+    const std::string water = "<bsdf type='dielectric'><string name='int_ior' value='water'/></bsdf>";
+    const Read clear = read(around("blendbsdf", glass + around("blendbsdf", diffuse + water)));
+    EXPECT_EQ(clear.notes, "this refracts like the first transparent <bsdf> in 'blendbsdf'\n");
+    const Material& nested = *std::get<MixtureMaterial>(clear.material.kind).parts.at(1);
+    EXPECT_EQ(part<DielectricMaterial>(nested, 1).eta, part<DielectricMaterial>(clear.material, 0).eta);
+}
+
+TEST(BsdfPlugins, Mixture) {
+    const Read r = read(
+        around("mixturebsdf", "<string name='weights' value='0.3, 0.2'/>" + diffuse + "<bsdf type='conductor'/>"),
+        "0.6.0");
+    const auto& mixture = std::get<MixtureMaterial>(r.material.kind);
+    EXPECT_EQ(mixture.weights, (std::vector<float>{0.3f, 0.2f}));
+    EXPECT_EQ(r.notes, "");
+    const Read heavy = read(around("mixturebsdf", "<string name='weights' value='3 1'/>" + diffuse + diffuse));
+    EXPECT_EQ(heavy.notes, "'weights' are above 1 together and scaled down to it\n");
+    EXPECT_FLOAT_EQ(std::get<MixtureMaterial>(heavy.material.kind).weights[0], 0.75f);
+}
+
+TEST(BsdfPlugins, Coating) {
+    const Read r =
+        read(around("coating", "<float name='thickness' value='2'/><rgb name='sigmaA' value='0.1, 2, 3'/>"
+                               "<float name='intIOR' value='1.7'/><float name='extIOR' value='1'/>" +
+                                   two_sided),
+             "0.6.0");
+    const auto& coated = std::get<CoatedMaterial>(r.material.kind);
+    EXPECT_FLOAT_EQ(coated.eta, 1.7f);
+    EXPECT_EQ(coated.thickness, 2);
+    EXPECT_EQ(coated.sigma_a.evaluate({}), Rgb(0.1f, 2, 3));
+    EXPECT_TRUE(r.material.two_sided);
+    EXPECT_EQ(r.notes, "");
+    EXPECT_EQ(read(around("roughcoating", "<float name='alpha' value='0.2'/>" + diffuse)).notes,
+              "'roughcoating' is replaced by 'coating', which is smooth\n");
+    const Read clear = read(around("coating", glass));
+    EXPECT_EQ(clear.notes, "the coating around a transparent material is left out\n");
+    EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(clear.material.kind));
+}
+
+TEST(BsdfPlugins, BadValues) {
+    const auto error = [](const std::string& bsdf) -> std::string {
+        try {
+            parse(bsdf);
+        } catch (const LoadError& e) {
+            const std::string what = e.what();
+            return what.substr(0, what.find('\n'));
+        }
+        return "no error";
+    };
+    const std::pair<std::string, std::string> table[] = {
+        {"<bsdf type='mask'/>", "2:1: 'mask' needs a nested <bsdf>"},
+        {"<bsdf type='mask'><float name='opacity' value='-1'/>" + diffuse + "</bsdf>",
+         "2:48: 'opacity' must not be negative"},
+        {"<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>", "2:1: 'bumpmap' needs a nested <texture>"},
+        {"<bsdf type='normalmap'><texture type='checkerboard'/></bsdf>", "2:1: 'normalmap' needs a nested <bsdf>"},
+        {"<bsdf type='roughdiffuse'><float name='alpha' value='-1'/></bsdf>",
+         "2:54: 'alpha' must not be negative"},
+        {"<bsdf type='roughdielectric'><float name='alpha' value='-1'/></bsdf>",
+         "2:57: 'alpha' must not be negative"},
+        {"<bsdf type='phong'><float name='exponent' value='-1'/></bsdf>", "2:50: 'exponent' must not be negative"},
+        {"<bsdf type='blendbsdf'>" + diffuse + "</bsdf>", "2:1: 'blendbsdf' needs two nested <bsdf>"},
+        {"<bsdf type='blendbsdf'><rgb name='weight' value='-1'/>" + diffuse + glass + "</bsdf>",
+         "2:50: 'weight' must not be negative"},
+        {"<bsdf type='mixturebsdf'><string name='weights' value='1'/></bsdf>",
+         "2:1: 'mixturebsdf' needs a nested <bsdf>"},
+        {"<bsdf type='mixturebsdf'>" + diffuse + "</bsdf>", "2:1: 'mixturebsdf' needs 'weights'"},
+        {"<bsdf type='mixturebsdf'><string name='weights' value='1, x'/>" + diffuse + "</bsdf>",
+         "2:56: '1, x' is not a list of numbers"},
+        {"<bsdf type='mixturebsdf'><string name='weights' value='0.5, 0.5'/>" + diffuse + "</bsdf>",
+         "2:56: 2 weights for 1 materials"},
+        {"<bsdf type='mixturebsdf'><string name='weights' value='-0.5'/>" + diffuse + "</bsdf>",
+         "2:56: 'weights' must not be negative"},
+        {"<bsdf type='mixturebsdf'><string name='weights' value='0'/>" + diffuse + "</bsdf>",
+         "2:56: one of the 'weights' must be above 0"},
+        {"<bsdf type='coating'><float name='thickness' value='-1'/>" + diffuse + "</bsdf>",
+         "2:53: 'thickness' must not be negative"},
+        {"<bsdf type='coating'><rgb name='sigma_a' value='-1'/>" + diffuse + "</bsdf>",
+         "2:49: 'sigma_a' must not be negative"},
+    };
+    for (const auto& [bsdf, message] : table)
+        EXPECT_EQ(error(bsdf), "test.xml:" + message);
+}
+
+TEST(BsdfPlugins, UnknownOnesAreMarked) {
+    const Read r = read("<bsdf type='difftrans'/>");
+    EXPECT_EQ(r.notes, "the bsdf 'difftrans' is not known; diffuse magenta stands for it\n");
+}
+
+} // namespace tessera

@@ -1,0 +1,106 @@
+// Half vectors copied between vertices: the shift is its own inverse, and its Jacobian is the derivative.
+#include "render/path/half_vector.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+Vertex vertex(const Bsdf& bsdf, glm::vec3 to_previous) {
+    Vertex v{};
+    v.bsdf = bsdf;
+    v.to_previous = glm::normalize(to_previous);
+    return v;
+}
+
+Bsdf glass(float eta, float alpha = 0.5f) {
+    return {RoughDielectric{{MicrofacetDistribution::ggx, alpha}, eta}};
+}
+
+/// Solid angle at the offset over that at the base, by differences.
+double measured_jacobian(const Vertex& base, glm::vec3 to_next, const Vertex& offset) {
+    const Frame around(to_next);
+    const float step = 5e-4f;
+    const auto moved = [&](float x, float y) {
+        const glm::vec3 d = glm::normalize(to_next + x * around.tangent + y * around.bitangent);
+        return glm::dvec3(copy_half_vector(base, d, offset).value().to_next);
+    };
+    const glm::dvec3 by_x = (moved(step, 0) - moved(-step, 0)) / (2.0 * step);
+    const glm::dvec3 by_y = (moved(0, step) - moved(0, -step)) / (2.0 * step);
+    return glm::length(glm::cross(by_x, by_y));
+}
+
+struct Tally {
+    int copied = 0, transmitted = 0, reflected = 0;
+};
+
+/// Copies many scatters of `a` to `b`, whose views differ a little, and back.
+Tally copy_there_and_back(const Bsdf& a, const Bsdf& b, float side) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
+    const auto next = [&] { return uniform(engine); };
+    Tally tally;
+    for (int i = 0; i < 400; ++i) {
+        const glm::vec3 view(next() - 0.5f, next() - 0.5f, side * (0.3f + next()));
+        const glm::vec3 other = view + 0.2f * glm::vec3(next() - 0.5f, next() - 0.5f, next() - 0.5f);
+        const Vertex base = vertex(a, view), offset = vertex(b, other);
+        const float lobe = next(), u = next();
+        const auto s = a.sample(base.to_previous, lobe, {u, next()});
+        if (!s)
+            continue;
+        const auto there = copy_half_vector(base, s->to_next, offset);
+        if (!there)
+            continue;
+        const bool transmits = s->scatter == Scatter::transmit;
+        EXPECT_EQ(there->to_next.z * offset.to_previous.z < 0, transmits);
+        ++tally.copied;
+        ++(transmits ? tally.transmitted : tally.reflected);
+        const auto back = copy_half_vector(offset, there->to_next, base);
+        if (!back) {
+            ADD_FAILURE() << "no way back";
+            continue;
+        }
+        EXPECT_LT(glm::distance(back->to_next, s->to_next), 2e-4f);
+        EXPECT_NEAR(there->jacobian * back->jacobian, 1, 1e-3f);
+        // Close to total reflection the derivative has no bound, and differences say nothing.
+        if (there->jacobian < 5 && back->jacobian < 5 && std::abs(there->to_next.z) > 0.1f &&
+            std::abs(s->to_next.z) > 0.1f) {
+            EXPECT_NEAR(measured_jacobian(base, s->to_next, offset) / there->jacobian, 1, 1e-3);
+        }
+    }
+    return tally;
+}
+
+TEST(HalfVector, IsInvertibleWithItsJacobian) {
+    for (const float side : {1.0f, -1.0f}) {
+        const Tally same = copy_there_and_back(glass(1.5f), glass(1.5f), side);
+        EXPECT_GT(same.transmitted, 50);
+        EXPECT_GT(same.reflected, 10);
+        EXPECT_GT(copy_there_and_back(glass(1.5f), glass(1.33f), side).transmitted, 50);
+        EXPECT_GT(copy_there_and_back(glass(1.33f), glass(1 / 1.2f), side).transmitted, 50);
+    }
+    const Bsdf metal{RoughConductor{{MicrofacetDistribution::ggx, 0.4f}}};
+    EXPECT_GT(copy_there_and_back(metal, glass(1.5f), 1).reflected, 100);
+    EXPECT_EQ(copy_there_and_back(glass(1.5f), metal, 1).transmitted, 0);
+}
+
+TEST(HalfVector, ATransmissionStaysOne) {
+    // A refraction into the dense side that would be total reflection at the offset, the other way round.
+    const Vertex base = vertex(glass(1.5f), {0.1f, 0, 1}), inside = vertex(glass(1.5f), {1, 0, -0.5f});
+    const auto straight = refract(base.to_previous, {0, 0, 1}, 1.5f);
+    ASSERT_TRUE(straight);
+    EXPECT_TRUE(copy_half_vector(base, *straight, base));
+    EXPECT_FALSE(copy_half_vector(base, *straight, inside));
+    EXPECT_FALSE(copy_half_vector(base, *straight, vertex({Diffuse{Rgb(0.5f)}}, {0, 0, 1})));
+    // A reflection whose copy would dive below the surface.
+    const glm::vec3 half = glm::normalize(glm::vec3(0.6f, 0, 1));
+    EXPECT_FALSE(copy_half_vector(vertex(glass(1.5f), half), half, vertex(glass(1.5f), {-1, 0, 0.3f})));
+}
+
+} // namespace
+
+} // namespace tessera::test
