@@ -35,6 +35,8 @@ std::string snake_case(std::string_view name) {
 Properties::Properties(const XmlElement& plugin, std::vector<LoadNote>& notes)
     : element_(plugin), type_(plugin.required("type")), notes_(&notes) {
     for (const XmlElement& child : plugin.children()) {
+        if (child.tag() == "default" || child.tag() == "alias") // replaced in the text, among the ids
+            continue;
         Parameter parameter{child, snake_case(child.attribute("name"))};
         const auto same = [&](const Parameter& p) { return !p.name.empty() && p.name == parameter.name; };
         const auto earlier = std::find_if(parameters_.begin(), parameters_.end(), same);
@@ -115,6 +117,14 @@ glm::mat4 Properties::transform(std::string_view parameter) {
         return glm::mat4(1.0f);
     expect_tag(*element, {"transform"});
     return read_transform(*element);
+}
+
+glm::vec3 Properties::point(std::string_view parameter, glm::vec3 fallback) {
+    const auto element = take(parameter);
+    if (!element)
+        return fallback;
+    expect_tag(*element, {"point", "vector"});
+    return read_point(*element);
 }
 
 std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {

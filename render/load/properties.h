@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -36,6 +37,7 @@ public:
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
     glm::mat4 transform(std::string_view parameter);
+    glm::vec3 point(std::string_view parameter, glm::vec3 fallback);
 
     /// The children not asked for so far that answer `wanted`.
     std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& wanted);

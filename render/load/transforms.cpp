@@ -124,4 +124,8 @@ glm::mat3 read_uv_transform(const XmlElement& transform) {
     return {m[0][0], m[0][1], 0, m[1][0], m[1][1], 0, m[3][0], m[3][1], 1};
 }
 
+glm::vec3 read_point(const XmlElement& point) {
+    return components(point, 0, false);
+}
+
 } // namespace tessera
