@@ -14,11 +14,32 @@ package_names() {
     done
 }
 
-# Those of the packages given that are not installed.
+# The names in an entry "a|b|c".
+names_in() {
+    printf '%s' "$1" | tr '|' ' '
+}
+
+# Those of the packages given that are not installed; of "a|b" one is enough.
 missing_packages() {
-    installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p')
-    for package in "$@"; do
-        printf '%s\n' "$installed" | grep -qxF -e "$package" || printf '%s ' "$package"
+    names=$(for entry in "$@"; do names_in "$entry"; echo; done)
+    installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $names 2>/dev/null | sed -n 's/^installed //p')
+    for entry in "$@"; do
+        found=
+        for name in $(names_in "$entry"); do
+            ! printf '%s\n' "$installed" | grep -qxF -e "$name" || found=yes
+        done
+        [ -n "$found" ] || printf '%s ' "$entry"
+    done
+}
+
+# The packages given, with one name in the place of each "a|b": the first that apt knows, or the first.
+choose_known() {
+    for entry in "$@"; do
+        chosen=
+        for name in $(names_in "$entry"); do
+            [ -n "$chosen" ] || ! apt-cache policy "$name" | grep -q '^  Candidate: [^(]' || chosen=$name
+        done
+        printf '%s ' "${chosen:-${entry%%|*}}"
     done
 }
 
@@ -36,13 +57,13 @@ install_packages() {
     as_root=
     if [ "$(id -u)" -ne 0 ]; then
         command -v sudo >/dev/null || die "This takes root, and there is no sudo. As root, please run:
-    apt-get install --no-install-recommends $missing"
+    apt-get install --no-install-recommends $(choose_known $missing)"
         as_root=sudo
     fi
     # Slim systems leave documentation out, and Dear ImGui's OpenGL backend lies there.
     $as_root apt-get -q update >&2 && $as_root env DEBIAN_FRONTEND=noninteractive \
         apt-get -q install -y --no-install-recommends \
-        -o 'Dpkg::Options::=--path-include=/usr/share/doc/libimgui-dev/*' $missing >&2 ||
+        -o 'Dpkg::Options::=--path-include=/usr/share/doc/libimgui-dev/*' $(choose_known $missing) >&2 ||
         die "The packages could not be installed. Debian 12 and 13 have them all."
 }
 

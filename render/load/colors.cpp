@@ -1,24 +1,23 @@
 #include "render/load/colors.h"
 
 #include "render/load/numbers.h"
+#include "render/load/properties.h"
+#include "render/load/spectra.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 
 namespace {
 
-float srgb_to_linear(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
 Rgb srgb_to_linear(Rgb c) {
-    return {srgb_to_linear(c.r), srgb_to_linear(c.g), srgb_to_linear(c.b)};
+    return {tessera::srgb_to_linear(c.r), tessera::srgb_to_linear(c.g), tessera::srgb_to_linear(c.b)};
 }
 
-/// "#rrggbb", the bytes over 255.
+/// "#rrggbb", the bytes over 255, as in Mitsuba 0.6; Mitsuba 3 has no such colours.
 Rgb hexadecimal(const XmlElement& element, const std::string& text) {
     unsigned value = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
@@ -42,28 +41,99 @@ Rgb triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
-/// "400:0.2, 500:0.3": the mean over the range of wavelengths, by trapezoids.
-float mean_of_samples(const XmlElement& element, std::string text) {
+Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& samples) {
+    for (std::size_t i = 1; i < samples.size(); ++i)
+        if (!(samples[i].x > samples[i - 1].x))
+            element.fail("the wavelengths of a spectrum must increase", "value");
+    const Rgb color = rgb_of_spectrum(samples);
+    if (!(color.r + color.g + color.b <= std::numeric_limits<float>::max()))
+        element.fail("the spectrum's numbers are too large", "value");
+    return color;
+}
+
+/// "400:0.2, 500:0.3"
+Rgb color_of_list(const XmlElement& element, std::string text) {
     std::replace(text.begin(), text.end(), ':', ' ');
     const auto values = parse_numbers(text);
     if (!values || values->empty() || values->size() % 2 != 0)
         element.fail("'" + element.attribute("value") + "' is not a list of wavelengths and values", "value");
-    float area = 0;
-    float range = 0;
-    for (std::size_t i = 2; i < values->size(); i += 2) {
-        const float step = (*values)[i] - (*values)[i - 2];
-        if (step <= 0)
-            element.fail("the wavelengths of a spectrum must increase", "value");
-        area += step * 0.5f * ((*values)[i + 1] + (*values)[i - 1]);
-        range += step;
+    std::vector<glm::vec2> samples;
+    for (std::size_t i = 0; i < values->size(); i += 2)
+        samples.emplace_back((*values)[i], (*values)[i + 1]);
+    return color_of_samples(element, samples);
+}
+
+Rgb color_of_black_body(const XmlElement& element, float kelvin, float scale) {
+    if (!(kelvin > 0))
+        element.fail("the temperature of a black body must be above 0");
+    const Rgb color = scale * rgb_of_black_body(static_cast<double>(kelvin));
+    if (!std::isfinite(color.r + color.g + color.b))
+        element.fail("the black body is too bright");
+    return color;
+}
+
+/// <blackbody temperature="5000K" scale="0.1"/> of 0.6.
+Rgb black_body(const XmlElement& element) {
+    std::string text = element.required("temperature");
+    if (text.ends_with('K') || text.ends_with('k'))
+        text.pop_back();
+    const auto kelvin = parse_number(text);
+    if (!kelvin)
+        element.fail("'" + element.attribute("temperature") + "' is not a temperature", "temperature");
+    return color_of_black_body(element, static_cast<float>(*kelvin),
+                               element.has("scale") ? element.number("scale") : 1);
+}
+
+/// wavelengths="400, 500" (or lambda_min and lambda_max) and values="0.2, 0.3" of Mitsuba 3.
+Rgb color_of_arrays(Properties& p) {
+    const auto values = parse_numbers(p.text("values", ""));
+    auto wavelengths = parse_numbers(p.text("wavelengths", ""));
+    if (p.type() == "regular" && values && wavelengths) {
+        const float first = p.number("wavelength_min", p.number("lambda_min", 360));
+        const float last = p.number("wavelength_max", p.number("lambda_max", 830));
+        for (std::size_t i = 0; i < values->size(); ++i)
+            wavelengths->push_back(first + (last - first) * static_cast<float>(i) /
+                                               static_cast<float>(std::max<std::size_t>(values->size(), 2) - 1));
     }
-    return range > 0 ? area / range : (*values)[1];
+    if (!values || !wavelengths || values->empty() || values->size() != wavelengths->size())
+        p.element().fail("'" + p.type() + "' needs as many 'wavelengths' as 'values', lists of numbers");
+    std::vector<glm::vec2> samples;
+    for (std::size_t i = 0; i < values->size(); ++i)
+        samples.emplace_back((*wavelengths)[i], (*values)[i]);
+    return color_of_samples(p.element(), samples);
+}
+
+/// <spectrum type="..."> of Mitsuba 3.
+Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes) {
+    Properties p(element, notes);
+    Rgb color = fallback;
+    if (p.type() == "uniform") {
+        color = Rgb(p.number("value", 1));
+    } else if (p.type() == "rgb" || p.type() == "srgb" || p.type() == "d65") {
+        color = p.color("color", Rgb(1)) * p.number("scale", 1); // d65: the white of sRGB
+    } else if (p.type() == "blackbody") {
+        color = color_of_black_body(element, p.number("temperature", 5000), p.number("scale", 1));
+        p.note("the spectrum is replaced by its linear sRGB colour");
+    } else if (p.type() == "irregular" || p.type() == "regular") {
+        color = color_of_arrays(p);
+        p.note("the spectrum is replaced by its linear sRGB colour");
+    } else {
+        p.note("the spectrum '" + p.type() + "' is not known; a default is used instead");
+        p.ignore_all();
+    }
+    p.report_unused();
+    return color;
 }
 
 } // namespace
 
+float srgb_to_linear(float code) {
+    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
 bool is_color(const XmlElement& element) {
-    static constexpr std::string_view tags[] = {"rgb", "srgb", "spectrum", "color", "float", "integer"};
+    static constexpr std::string_view tags[] = {"rgb",       "srgb",  "spectrum", "color",
+                                                "blackbody", "float", "integer"};
     return std::find(std::begin(tags), std::end(tags), element.tag()) != std::end(tags);
 }
 
@@ -71,14 +141,20 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
     if (!is_color(element))
         element.fail("'" + element.attribute("name") + "' must be a colour, not <" + std::string(element.tag()) +
                      ">");
+    if (element.tag() == "spectrum" && element.has("type"))
+        return spectrum_plugin(element, fallback, notes);
     if (element.tag() == "spectrum" && !element.has("value") && element.has("filename")) {
         notes.push_back({element.position(), "spectra in files are not read; a default is used instead"});
         return fallback;
     }
+    if (element.tag() == "blackbody") {
+        notes.push_back({element.position(), "the spectrum is replaced by its linear sRGB colour"});
+        return black_body(element);
+    }
     const std::string text = element.required("value");
     if (element.tag() == "spectrum" && text.find(':') != std::string::npos) {
-        notes.push_back({element.position(), "the spectrum is replaced by the grey of its mean"});
-        return Rgb(mean_of_samples(element, text));
+        notes.push_back({element.position(), "the spectrum is replaced by its linear sRGB colour"});
+        return color_of_list(element, text);
     }
     const Rgb value = triple(element);
     return element.tag() == "srgb" ? srgb_to_linear(value) : value;

@@ -42,7 +42,7 @@ glm::vec3 unit_parameter(Properties& p, std::string_view name, glm::vec3 v) {
 void read_point(LoadContext& context, Properties& p) {
     PointLight light;
     light.intensity = light_parameter(p, "intensity");
-    light.position = p.has("position") ? *p.vector("position") : glm::vec3(p.transform("to_world")[3]);
+    light.position = p.has("position") ? p.point("position", {}) : glm::vec3(p.transform("to_world")[3]);
     context.scene.point_lights.push_back(light);
 }
 
@@ -66,7 +66,7 @@ void read_spot(LoadContext& context, Properties& p) {
 void read_directional(LoadContext& context, Properties& p) {
     DirectionalLight light;
     light.irradiance = light_parameter(p, "irradiance");
-    const glm::vec3 away = p.has("direction") ? *p.vector("direction") : glm::vec3(p.transform("to_world")[2]);
+    const glm::vec3 away = p.has("direction") ? p.point("direction", {}) : glm::vec3(p.transform("to_world")[2]);
     light.to_light = -unit_parameter(p, "direction", away);
     context.scene.directional_lights.push_back(light);
 }

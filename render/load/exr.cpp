@@ -1,5 +1,6 @@
 #include "render/load/exr.h"
 
+#include "render/load/image_files.h"
 #include "render/load/temporary_file.h"
 
 #include <cstdint>
@@ -85,12 +86,10 @@ struct Size {
     int width, height;
 };
 
-Size size_of(const Imath::Box2i& window) {
+Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
     const auto width = std::int64_t{window.max.x} - window.min.x + 1;
     const auto height = std::int64_t{window.max.y} - window.min.y + 1;
-    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    if (width < 1 || height < 1 || width > most_pixels || height > most_pixels || width * height > most_pixels)
-        throw std::runtime_error("its size makes no sense");
+    check_image_size(width, height, file_bytes);
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 
@@ -99,7 +98,7 @@ ExrFile read_layers(const std::filesystem::path& path) {
     Imf::InputPart part(input, 0);
     const Imf::Header& header = part.header();
     const Imath::Box2i window = header.dataWindow();
-    const Size size = size_of(window);
+    const Size size = size_of(window, std::filesystem::file_size(path));
     ExrFile file;
     for (const std::string& name : layer_names(header.channels()))
         file.layers.push_back({name, RgbImage(size.width, size.height)});

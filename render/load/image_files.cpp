@@ -15,7 +15,9 @@ namespace tessera {
 
 namespace {
 
-constexpr std::size_t most_pixels = std::size_t{1} << 28;
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+// No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
+constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
 
 std::string extension_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
@@ -67,10 +69,8 @@ Bitmap read_stb_bitmap(const std::filesystem::path& file, bool srgb) {
     int channels = 0;
     if (!stbi_info_from_memory(data, size, &bitmap.width, &bitmap.height, &channels))
         throw std::runtime_error(std::string("not a readable image: ") + stbi_failure_reason());
+    check_image_size(bitmap.width, bitmap.height, encoded.size());
     const std::size_t pixels = static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height);
-    if (pixels == 0 || pixels > most_pixels)
-        throw std::runtime_error("an image of " + std::to_string(bitmap.width) + " by " +
-                                 std::to_string(bitmap.height) + " pixels is too large");
     if (stbi_is_hdr_from_memory(data, size)) {
         const auto floats =
             checked(stbi_loadf_from_memory(data, size, &bitmap.width, &bitmap.height, &channels, 3));
@@ -87,6 +87,16 @@ Bitmap read_stb_bitmap(const std::filesystem::path& file, bool srgb) {
 }
 
 } // namespace
+
+void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
+    const std::string size = std::to_string(width) + " by " + std::to_string(height) + " pixels";
+    if (width < 1 || height < 1)
+        throw std::runtime_error("an image of " + size + " has none");
+    if (width > most_pixels / height)
+        throw std::runtime_error("an image of " + size + " is too large");
+    if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
+        throw std::runtime_error("the file is too short for " + size);
+}
 
 Bitmap read_bitmap(const std::filesystem::path& file, bool srgb) {
     return extension_of(file) == ".exr" ? read_exr_bitmap(file) : read_stb_bitmap(file, srgb);

@@ -1,7 +1,5 @@
 #include "render/load/load_context.h"
 
-#include <system_error>
-
 namespace tessera {
 
 namespace {
@@ -32,16 +30,7 @@ LoadContext::File LoadContext::take_file(Properties& properties) const {
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
-    const std::string name = parameter->required("value");
-    if (!folder)
-        parameter->fail("a scene in memory has no files beside it, such as '" + name + "'", "value");
-    const std::filesystem::path path = *folder / std::filesystem::path(name);
-    std::error_code error;
-    if (!std::filesystem::exists(path, error))
-        parameter->fail("there is no file '" + path.string() + "'", "value");
-    if (!std::filesystem::is_regular_file(path, error))
-        parameter->fail("'" + path.string() + "' is not a file", "value");
-    return {*parameter, path};
+    return {*parameter, files.find(*parameter, "value")};
 }
 
 NestingGuard::NestingGuard(LoadContext& context, const XmlElement& element) : context_(context) {

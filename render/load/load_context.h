@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/load/file_jobs.h"
+#include "render/load/file_search.h"
 #include "render/load/properties.h"
 #include "render/load/xml_document.h"
 #include "render/scene/scene.h"
@@ -9,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,7 @@ struct LoadContext {
     FileJobs jobs;
 
     bool old_syntax = false; ///< Mitsuba 0.x: some defaults differ
-    /// Where the scene's files are; nothing for a scene in memory, which has none.
-    std::optional<std::filesystem::path> folder;
+    FileSearch files;
 
     std::map<std::string, XmlElement> ids;
     std::map<const void*, int> materials; ///< by XmlElement::key(), index into scene.materials

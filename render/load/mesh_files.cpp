@@ -1,14 +1,19 @@
 #include "render/load/mesh_files.h"
 
-#include <fstream>
 #include <stdexcept>
 
 namespace tessera {
 
-std::string read_bytes(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+std::ifstream open_file(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw std::runtime_error("the file cannot be opened");
+    return stream;
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+    std::ifstream stream = open_file(file);
+    stream.seekg(0, std::ios::end);
     const std::streamoff size = stream.tellg();
     if (size < 0)
         throw std::runtime_error("the file cannot be read");
@@ -17,14 +22,6 @@ std::string read_bytes(const std::filesystem::path& file) {
     if (!stream.read(bytes.data(), size))
         throw std::runtime_error("the file cannot be read");
     return bytes;
-}
-
-Mesh read_obj(const std::filesystem::path& file) {
-    return parse_obj(read_bytes(file));
-}
-
-Mesh read_ply(const std::filesystem::path& file) {
-    return parse_ply(read_bytes(file));
 }
 
 } // namespace tessera

@@ -5,16 +5,13 @@
 #include "render/load/load_context.h"
 #include "render/load/numbers.h"
 #include "render/load/plugin_table.h"
-#include "render/load/scene_variables.h"
+#include "render/load/scene_expansion.h"
 #include "render/load/shape_plugins.h"
+#include "render/load/text_file.h"
 #include "render/load/view_plugins.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <tuple>
 
 namespace tessera {
@@ -30,19 +27,6 @@ public:
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-std::string read_text(const std::filesystem::path& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        throw LoadError({file.string(), 0, 0}, "this is a folder, not a scene file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw LoadError({file.string(), 0, 0}, std::string("cannot open the file: ") + std::strerror(errno));
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad())
-        throw LoadError({file.string(), 0, 0}, "cannot read the file");
-    return text;
-}
 
 void collect_ids(LoadContext& context, const XmlDocument& document) {
     const std::vector<XmlElement> elements = document.elements();
@@ -73,6 +57,7 @@ constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> scene_elements[] = {
     {"emitter", add_scene_emitter},  {"default", read_nothing}, // replaced in the text by now
     {"alias", read_nothing},                                    // among the ids by now
     {"texture", read_nothing},                                  // read where it is referred to
+    {"path", read_nothing},                                     // among the folders by now
 };
 
 void read_scene(LoadContext& context, const XmlElement& root) {
@@ -103,14 +88,23 @@ bool has_old_syntax(const XmlElement& root, std::vector<LoadNote>& notes) {
     }
     const std::string version = root.attribute("version");
     const auto major = parse_number(version.substr(0, version.find('.')));
-    if (!major)
+    if (!major || *major < 0)
         root.fail("'" + version + "' is not a version", "version");
+    if (*major >= 4)
+        notes.push_back(
+            {root.position("version"), "the version " + version + " is newer than those known (0.x to 3.x)"});
     return *major < 2;
 }
 
-/// By place, each once: what is referred to twice is read twice.
-void order_notes(std::vector<LoadNote>& notes) {
-    const auto key = [](const LoadNote& n) { return std::tie(n.where.line, n.where.column, n.text); };
+/// By place, each once: what is referred to twice is read twice. Included files come after what includes them.
+void order_notes(std::vector<LoadNote>& notes, const std::vector<const XmlDocument*>& documents) {
+    const auto number_of = [&](const std::string& file) {
+        const auto is_it = [&](const XmlDocument* document) { return document->name() == file; };
+        return std::find_if(documents.begin(), documents.end(), is_it) - documents.begin();
+    };
+    const auto key = [&](const LoadNote& n) {
+        return std::tuple(number_of(n.where.file), n.where.line, n.where.column, std::string_view(n.text));
+    };
     std::stable_sort(notes.begin(), notes.end(),
                      [&](const LoadNote& a, const LoadNote& b) { return key(a) < key(b); });
     notes.erase(std::unique(notes.begin(), notes.end(),
@@ -118,13 +112,20 @@ void order_notes(std::vector<LoadNote>& notes) {
                 notes.end());
 }
 
+void note_encodings(const std::vector<const XmlDocument*>& documents, std::vector<LoadNote>& notes) {
+    for (const XmlDocument* document : documents)
+        if (document->was_latin1())
+            notes.push_back({{document->name(), 0, 0}, "the file is not in UTF-8 and taken for Latin-1"});
+}
+
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
                  const SceneVariables& variables, const ParallelFor& parallel_for) {
     const Stopwatch parsing;
     LoadContext context;
-    context.folder = std::move(folder);
-    XmlDocument document(std::move(text), name);
-    substitute_variables(document, variables, context.notes);
+    XmlDocument document(std::move(text), name, std::move(folder));
+    context.files = FileSearch(&document);
+    expand_scene(document, variables, context.files, context.notes);
+    note_encodings(document.documents(), context.notes);
     const XmlElement root = document.root();
     if (root.tag() != "scene")
         root.fail("a scene file begins with <scene>, not with <" + std::string(root.tag()) + ">");
@@ -137,7 +138,7 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     const Stopwatch reading;
     context.jobs.run(parallel_for, context.notes);
     result.file_seconds = reading.seconds();
-    order_notes(context.notes);
+    order_notes(context.notes, document.documents());
     result.description = std::move(context.scene);
     result.notes = std::move(context.notes);
     return result;

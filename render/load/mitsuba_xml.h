@@ -22,8 +22,8 @@ struct LoadedScene {
 /// `-D name=value` of the command line: replaces the <default> of that name.
 using SceneVariables = std::map<std::string, std::string>;
 
-/// Reads a Mitsuba scene (0.6 or 3.x syntax). Paths in the file are relative to its folder.
-/// Throws LoadError with file, line and column.
+/// Reads a Mitsuba scene (0.6 or 3.x syntax) with the files that it includes. Paths are relative to the folder of
+/// the file that they stand in; see FileSearch. Throws LoadError with file, line and column.
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
                              const ParallelFor& parallel_for = serial_for);
 

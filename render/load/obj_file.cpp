@@ -1,6 +1,8 @@
 #include "render/load/mesh_files.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,45 +14,88 @@ namespace {
 
 constexpr std::string_view gaps = " \t\r";
 
-/// How many numbers a line lists; 0 when something in it cannot be part of one ("nan", "1,5").
-std::size_t count_numbers(std::string_view list) {
-    list = list.substr(0, list.find('#'));
-    if (list.find_first_not_of("0123456789+-.eE \t\r") != std::string_view::npos)
-        return 0;
+bool is_gap(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// Words of a line, such as the corners of a face.
+std::size_t count_words(std::string_view list) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const bool in_gap = gaps.find(list[i]) != std::string_view::npos;
-        const bool after_gap = i == 0 || gaps.find(list[i - 1]) != std::string_view::npos;
-        count += !in_gap && after_gap;
+    bool after_gap = true;
+    for (const char c : list) {
+        count += after_gap && !is_gap(c);
+        after_gap = is_gap(c);
     }
     return count;
 }
 
-/// tinyobjloader takes what is no number for 0, so the lines of numbers are looked through before it gets them.
-void check_numbers(std::string_view text) {
-    for (std::size_t line = 1, begin = 0; begin < text.size(); ++line) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        std::string_view rest = text.substr(begin, end - begin);
-        begin = end + 1;
+bool may_be_of_number(char c) {
+    return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
+}
+
+/// How many numbers a line lists; 0 when something in it cannot be part of one ("nan", "1,5").
+std::size_t count_numbers(std::string_view list) {
+    list = list.substr(0, list.find('#'));
+    const bool is_plain =
+        std::all_of(list.begin(), list.end(), [](char c) { return may_be_of_number(c) || is_gap(c); });
+    return is_plain ? count_words(list) : 0;
+}
+
+/// How much there is of everything, so that memory is set aside for no more.
+struct ObjCounts {
+    std::size_t positions = 0, normals = 0, uvs = 0, triangles = 0;
+};
+
+void require_numbers(std::string_view list, std::size_t needed, std::size_t line) {
+    if (count_numbers(list) < needed)
+        throw std::runtime_error("line " + std::to_string(line) + ": not a list of " + std::to_string(needed) +
+                                 " numbers or more");
+}
+
+/// Goes through the file once before tinyobjloader does, which takes what is no number for 0.
+ObjCounts scan(std::istream& stream) {
+    ObjCounts counts;
+    std::string text;
+    for (std::size_t line = 1; std::getline(stream, text); ++line) {
+        std::string_view rest = text;
         rest.remove_prefix(std::min(rest.find_first_not_of(gaps), rest.size()));
-        const std::size_t name_end = std::min(rest.find_first_of(gaps), rest.size());
-        const std::string_view name = rest.substr(0, name_end);
-        const std::size_t needed = name == "v" || name == "vn" ? 3 : name == "vt" ? 1 : 0;
-        if (needed > 0 && count_numbers(rest.substr(name_end)) < needed)
-            throw std::runtime_error("line " + std::to_string(line) + ": not a list of " + std::to_string(needed) +
-                                     " numbers or more");
+        const std::string_view name = rest.substr(0, rest.find_first_of(gaps));
+        rest.remove_prefix(name.size());
+        if (name == "v" || name == "vn" || name == "vt")
+            require_numbers(rest, name == "vt" ? 1 : 3, line);
+        counts.positions += name == "v";
+        counts.normals += name == "vn";
+        counts.uvs += name == "vt";
+        if (name == "f")
+            counts.triangles += std::max<std::size_t>(count_words(rest), 2) - 2;
     }
+    stream.clear();
+    stream.seekg(0);
+    return counts;
 }
 
 /// Gathers what tinyobjloader reports, and makes one vertex of each combination of indices in use.
 class ObjBuilder {
 public:
+    explicit ObjBuilder(const ObjCounts& counts) {
+        positions_.reserve(counts.positions);
+        first_of_.reserve(counts.positions);
+        vertices_.reserve(counts.positions); // as many or more, if each is in use
+        normals_.reserve(counts.normals);
+        uvs_.reserve(counts.uvs);
+        mesh_.triangles.reserve(counts.triangles);
+    }
+
     void add_position(glm::vec3 p) {
+        require_finite(p.x + p.y + p.z, "position", positions_.size());
         positions_.push_back(p);
         first_of_.push_back(none);
     }
     void add_normal(glm::vec3 n) { normals_.push_back(n); }
-    void add_uv(glm::vec2 uv) { uvs_.push_back(uv); }
+    void add_uv(glm::vec2 uv) {
+        require_finite(uv.x + uv.y, "texture coordinate", uvs_.size());
+        uvs_.push_back(uv);
+    }
 
     void add_face(const tinyobj::index_t* corners, int count) {
         ++faces_;
@@ -66,14 +111,24 @@ public:
     }
 
     Mesh finish() {
+        // What is no longer needed goes before the next array comes.
+        release(first_of_);
         mesh_.positions.reserve(vertices_.size());
-        for (const Vertex& v : vertices_) {
+        for (const Vertex& v : vertices_)
             mesh_.positions.push_back(positions_[v.position]);
-            if (!normals_.empty())
+        release(positions_);
+        if (!normals_.empty()) {
+            mesh_.normals.reserve(vertices_.size());
+            for (const Vertex& v : vertices_)
                 mesh_.normals.push_back(v.normal == none ? glm::vec3(0) : normals_[v.normal]);
-            if (!uvs_.empty())
+            release(normals_);
+        }
+        if (!uvs_.empty()) {
+            mesh_.uvs.reserve(vertices_.size());
+            for (const Vertex& v : vertices_)
                 mesh_.uvs.push_back(v.uv == none ? glm::vec2(0) : uvs_[v.uv]);
         }
+        mesh_.triangles.shrink_to_fit();
         return std::move(mesh_);
     }
 
@@ -84,6 +139,17 @@ private:
         unsigned position, uv, normal;
         unsigned next; // another vertex at the same position
     };
+
+    template <class T>
+    static void release(std::vector<T>& array) {
+        array = std::vector<T>();
+    }
+
+    /// Numbers such as 1e99 become infinite.
+    static void require_finite(float sum, const char* what, std::size_t before) {
+        if (!std::isfinite(sum))
+            throw std::runtime_error(std::string(what) + " " + std::to_string(before + 1) + " is too large");
+    }
 
     unsigned index(int from_file, std::size_t count, const char* what) const {
         // 1 is the first so far, -1 the last so far.
@@ -134,17 +200,25 @@ tinyobj::callback_t callbacks() {
     return result;
 }
 
-} // namespace
-
-Mesh parse_obj(std::string text) {
-    check_numbers(text);
-    ObjBuilder builder;
-    std::istringstream stream(std::move(text));
+Mesh parse(std::istream& stream) {
+    ObjBuilder builder(scan(stream));
     std::string warning;
     std::string error;
     if (!tinyobj::LoadObjWithCallback(stream, callbacks(), &builder, nullptr, &warning, &error))
         throw std::runtime_error(error.empty() ? "not an OBJ file" : error);
     return builder.finish();
+}
+
+} // namespace
+
+Mesh read_obj(const std::filesystem::path& file) {
+    std::ifstream stream = open_file(file);
+    return parse(stream);
+}
+
+Mesh parse_obj(const std::string& text) {
+    std::istringstream stream(text);
+    return parse(stream);
 }
 
 } // namespace tessera

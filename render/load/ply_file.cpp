@@ -1,85 +1,18 @@
+#include "render/load/colors.h"
 #include "render/load/mesh_files.h"
 #include "render/load/ply_header.h"
+#include "render/load/ply_values.h"
 
 #include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
+#include <fstream>
 #include <limits>
-#include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace tessera {
 
 namespace {
-
-/// The values after the header, one after another.
-class PlyValues {
-public:
-    PlyValues(std::string_view bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
-
-    std::size_t left() const { return bytes_.size(); }
-    bool is_text() const { return format_ == PlyFormat::ascii; }
-
-    double next(PlyType type) {
-        if (is_text())
-            return next_word();
-        switch (type) {
-        case PlyType::int8:
-            return next_binary<std::int8_t>();
-        case PlyType::uint8:
-            return next_binary<std::uint8_t>();
-        case PlyType::int16:
-            return next_binary<std::int16_t>();
-        case PlyType::uint16:
-            return next_binary<std::uint16_t>();
-        case PlyType::int32:
-            return next_binary<std::int32_t>();
-        case PlyType::uint32:
-            return next_binary<std::uint32_t>();
-        case PlyType::float32:
-            return static_cast<double>(next_binary<float>());
-        case PlyType::float64:
-            break;
-        }
-        return next_binary<double>();
-    }
-
-private:
-    template <class T>
-    T next_binary() {
-        if (bytes_.size() < sizeof(T))
-            throw std::runtime_error("the file ends too early");
-        std::array<char, sizeof(T)> raw;
-        std::memcpy(raw.data(), bytes_.data(), sizeof(T));
-        bytes_.remove_prefix(sizeof(T));
-        const bool is_native =
-            (format_ == PlyFormat::little_endian) == (std::endian::native == std::endian::little);
-        if (!is_native)
-            for (std::size_t i = 0; i < sizeof(T) / 2; ++i)
-                std::swap(raw[i], raw[sizeof(T) - 1 - i]);
-        return std::bit_cast<T>(raw);
-    }
-
-    double next_word() {
-        const std::size_t begin = bytes_.find_first_not_of(" \t\r\n");
-        if (begin == std::string_view::npos)
-            throw std::runtime_error("the file ends too early");
-        bytes_.remove_prefix(begin);
-        const std::string_view word = bytes_.substr(0, bytes_.find_first_of(" \t\r\n"));
-        bytes_.remove_prefix(word.size());
-        double value = 0;
-        const char* const end = word.data() + word.size();
-        const auto [read, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
-        if (read != end || error == std::errc::invalid_argument)
-            throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a number");
-        return value;
-    }
-
-    std::string_view bytes_;
-    PlyFormat format_;
-};
 
 /// The fewest bytes that a row of the element can take.
 std::size_t smallest_row(const PlyElement& element, bool is_text) {
@@ -93,7 +26,7 @@ std::size_t smallest_row(const PlyElement& element, bool is_text) {
 
 /// A file must be able to hold what it promises, before any memory is set aside for it.
 void check_count(const PlyElement& element, const PlyValues& values) {
-    const std::size_t available = values.left() + 1; // the last line of a text may have no end
+    const std::uint64_t available = values.left() + 1; // the last line of a text may have no end
     if (element.count > available / smallest_row(element, values.is_text()))
         throw std::runtime_error("the header promises " + std::to_string(element.count) + " rows of '" +
                                  element.name + "', but the file ends too early for them");
@@ -115,25 +48,62 @@ void skip(PlyValues& values, const PlyProperty& property) {
 }
 
 // The places of a vertex's properties in a row of numbers.
-enum Slot { x, y, z, nx, ny, nz, u, v, slots, unused = slots };
+enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, slots, unused = slots };
 
 Slot slot_of(const PlyProperty& property) {
     struct Name {
         std::string_view name;
         Slot slot;
     };
-    static constexpr Name names[] = {{"x", x}, {"y", y}, {"z", z}, {"nx", nx}, {"ny", ny},       {"nz", nz},
-                                     {"u", u}, {"v", v}, {"s", u}, {"t", v},   {"texture_u", u}, {"texture_v", v}};
+    static constexpr Name names[] = {
+        {"x", x},
+        {"y", y},
+        {"z", z},
+        {"nx", nx},
+        {"ny", ny},
+        {"nz", nz},
+        {"u", u},
+        {"v", v},
+        {"s", u},
+        {"t", v},
+        {"texture_u", u},
+        {"texture_v", v},
+        {"red", red},
+        {"green", green},
+        {"blue", blue},
+        {"r", red},
+        {"g", green},
+        {"b", blue},
+        {"diffuse_red", red},
+        {"diffuse_green", green},
+        {"diffuse_blue", blue},
+    };
     for (const Name& known : names)
         if (!property.is_list && known.name == property.name)
             return known.slot;
     return unused;
 }
 
+/// What stands for full intensity: integers are shares of their largest value.
+float largest_color(PlyType type) {
+    if (type == PlyType::float32 || type == PlyType::float64)
+        return 1;
+    const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
+    return std::exp2(8 * static_cast<float>(size_of(type)) - (is_signed ? 1 : 0)) - 1;
+}
+
+/// The header, which must fit into memory; leaves the bytes after it.
+PlyHeader take_header(ByteWindow& bytes) {
+    bytes.fill(ByteWindow::capacity);
+    PlyHeader header = parse_ply_header(bytes.bytes());
+    bytes.take(header.size);
+    return header;
+}
+
 class PlyReader {
 public:
-    explicit PlyReader(std::string_view bytes)
-        : header_(parse_ply_header(bytes)), values_(bytes.substr(header_.size), header_.format) {}
+    PlyReader(std::istream& stream, PlyColors colors)
+        : bytes_(stream), header_(take_header(bytes_)), values_(bytes_, header_.format), colors_(colors) {}
 
     Mesh read() {
         for (const PlyElement& element : header_.elements) {
@@ -143,6 +113,7 @@ public:
             read_element(element);
         }
         check_indices();
+        mesh_.triangles.shrink_to_fit();
         return std::move(mesh_);
     }
 
@@ -164,6 +135,8 @@ private:
     }
 
     void read_vertices(const PlyElement& element, std::uint64_t& row) {
+        if (!mesh_.positions.empty())
+            throw std::runtime_error("a second list of vertices is one too many");
         std::vector<Slot> slot_of_property;
         std::array<bool, slots + 1> has{};
         for (const PlyProperty& property : element.properties) {
@@ -174,21 +147,36 @@ private:
             throw std::runtime_error("there is no x, y and z");
         const bool has_normals = has[nx] && has[ny] && has[nz];
         const bool has_uvs = has[u] && has[v];
+        const bool has_colors = has[red] && has[green] && has[blue];
         mesh_.positions.reserve(element.count);
+        mesh_.normals.reserve(has_normals ? element.count : 0);
+        mesh_.uvs.reserve(has_uvs ? element.count : 0);
+        mesh_.colors.reserve(has_colors ? element.count : 0);
         for (; row < element.count; ++row) {
             std::array<float, slots + 1> values{};
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 if (slot_of_property[i] == unused)
                     skip(values_, element.properties[i]);
                 else
-                    values[slot_of_property[i]] = next_finite(element.properties[i]);
+                    values[slot_of_property[i]] = next_number(element.properties[i], slot_of_property[i]);
             }
             mesh_.positions.push_back({values[x], values[y], values[z]});
             if (has_normals)
                 mesh_.normals.push_back({values[nx], values[ny], values[nz]});
             if (has_uvs)
                 mesh_.uvs.push_back({values[u], values[v]});
+            if (has_colors)
+                mesh_.colors.push_back({values[red], values[green], values[blue]});
         }
+    }
+
+    float next_number(const PlyProperty& property, Slot slot) {
+        const float value = next_finite(property);
+        if (slot != red && slot != green && slot != blue)
+            return value;
+        const float largest = largest_color(property.type);
+        return (largest == 1 ? colors_.srgb_floats : colors_.srgb_bytes) ? srgb_to_linear(value / largest)
+                                                                         : value / largest;
     }
 
     float next_finite(const PlyProperty& property) {
@@ -199,6 +187,7 @@ private:
     }
 
     void read_faces(const PlyElement& element, std::uint64_t& row) {
+        mesh_.triangles.reserve(element.count);
         for (; row < element.count; ++row)
             for (const PlyProperty& property : element.properties) {
                 if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
@@ -238,15 +227,23 @@ private:
                                              ", but there are " + std::to_string(mesh_.positions.size()));
     }
 
+    ByteWindow bytes_;
     PlyHeader header_;
     PlyValues values_;
+    PlyColors colors_;
     Mesh mesh_;
 };
 
 } // namespace
 
-Mesh parse_ply(std::string_view bytes) {
-    return PlyReader(bytes).read();
+Mesh read_ply(const std::filesystem::path& file, PlyColors colors) {
+    std::ifstream stream = open_file(file);
+    return PlyReader(stream, colors).read();
+}
+
+Mesh parse_ply(std::string_view bytes, PlyColors colors) {
+    std::istringstream stream{std::string(bytes)};
+    return PlyReader(stream, colors).read();
 }
 
 } // namespace tessera

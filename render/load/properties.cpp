@@ -37,6 +37,8 @@ std::string snake_case(std::string_view name) {
 Properties::Properties(const XmlElement& plugin, std::vector<LoadNote>& notes)
     : element_(plugin), type_(plugin.required("type")), notes_(&notes) {
     for (const XmlElement& child : plugin.children()) {
+        if (child.tag() == "default" || child.tag() == "alias") // replaced in the text, among the ids
+            continue;
         Parameter parameter{child, snake_case(child.attribute("name"))};
         const auto same = [&](const Parameter& p) { return !p.name.empty() && p.name == parameter.name; };
         const auto earlier = std::find_if(parameters_.begin(), parameters_.end(), same);
@@ -130,12 +132,12 @@ glm::mat3 Properties::rotation(std::string_view parameter) {
     return *rotation;
 }
 
-std::optional<glm::vec3> Properties::vector(std::string_view parameter) {
+glm::vec3 Properties::point(std::string_view parameter, glm::vec3 fallback) {
     const auto element = take(parameter);
     if (!element)
-        return {};
+        return fallback;
     expect_tag(*element, {"point", "vector"});
-    return read_vector(*element);
+    return read_point(*element);
 }
 
 std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -38,8 +39,7 @@ public:
     glm::mat4 transform(std::string_view parameter);
     /// The rotation in a transform; says so where there is more to it. Throws LoadError for a flat one.
     glm::mat3 rotation(std::string_view parameter);
-    /// A <point> or <vector>; empty: absent.
-    std::optional<glm::vec3> vector(std::string_view parameter);
+    glm::vec3 point(std::string_view parameter, glm::vec3 fallback);
 
     /// The children not asked for so far that answer `wanted`.
     std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& wanted);

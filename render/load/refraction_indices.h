@@ -16,7 +16,7 @@ struct ComplexIndex {
     Rgb k;
 };
 
-/// By chemical symbol ("Au", "Cu", ...); "none" is a mirror that reflects all.
+/// By chemical symbol ("Au", "Cu", ...) as in Mitsuba; "none" is a mirror that reflects all.
 std::optional<ComplexIndex> metal_index(std::string_view name);
 
 } // namespace tessera

@@ -6,6 +6,16 @@
 #include "render/load/mesh_files.h"
 #include "render/load/mesh_tools.h"
 #include "render/load/plugin_table.h"
+#include "render/load/round_shapes.h"
+#include "render/load/serialized_file.h"
+#include "render/sampling.h"
+
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace tessera {
 
@@ -18,9 +28,19 @@ MeshPlacement placement_parameters(Properties& p) {
     return placement;
 }
 
-void read_flat_shape(Properties& p, Shape& shape, Mesh mesh) {
-    place_flat_mesh(mesh, placement_parameters(p));
+/// Moves a mesh that no file holds; errors are the shape's own.
+template <class Place>
+void place_builtin(const Properties& p, Shape& shape, Mesh mesh, const MeshPlacement& placement, Place place) {
+    try {
+        place(mesh, placement);
+    } catch (const std::runtime_error& e) {
+        p.element().fail(e.what());
+    }
     shape.mesh = std::move(mesh);
+}
+
+void read_flat_shape(Properties& p, Shape& shape, Mesh mesh) {
+    place_builtin(p, shape, std::move(mesh), placement_parameters(p), place_flat_mesh);
 }
 
 void read_rectangle(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
@@ -32,41 +52,103 @@ void read_cube(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::siz
     read_flat_shape(p, shapes[index], make_cube());
 }
 
-/// A mesh in a file. `flip_v` is the format's default: images begin with the top row.
+void note_tessellation(const Properties& p, const Mesh& mesh) {
+    p.note("the " + p.type() + " is approximated by " + std::to_string(mesh.triangles.size()) + " triangles");
+}
+
+float radius_parameter(Properties& p) {
+    const float radius = p.number("radius", 1);
+    if (!(radius > 0))
+        p.take("radius")->fail("the radius must be above 0", "value");
+    return radius;
+}
+
+/// `to_shape` maps the unit shape to what the parameters say, before to_world.
+void read_round_shape(Properties& p, Shape& shape, Mesh mesh, const glm::mat4& to_shape) {
+    MeshPlacement placement = placement_parameters(p);
+    placement.to_world = placement.to_world * to_shape;
+    place_builtin(p, shape, std::move(mesh), placement, place_mesh);
+    note_tessellation(p, shape.mesh);
+}
+
+void read_sphere(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
+    const glm::mat4 to_center = glm::translate(glm::mat4(1.0f), p.point("center", glm::vec3(0)));
+    read_round_shape(p, shapes[index], make_sphere(), glm::scale(to_center, glm::vec3(radius_parameter(p))));
+}
+
+void read_disk(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
+    read_flat_shape(p, shapes[index], make_disk());
+    note_tessellation(p, shapes[index].mesh);
+}
+
+void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
+    const glm::vec3 p0 = p.point("p0", {0, 0, 0});
+    const glm::vec3 axis = p.point("p1", {0, 0, 1}) - p0;
+    const float radius = radius_parameter(p);
+    const float length = glm::length(axis);
+    if (!(length > 0))
+        p.element().fail("p0 and p1 of a cylinder are the same point");
+    const Frame frame(axis / length);
+    const glm::mat4 to_shape(glm::vec4(radius * frame.tangent, 0), glm::vec4(radius * frame.bitangent, 0),
+                             glm::vec4(axis, 0), glm::vec4(p0, 1));
+    read_round_shape(p, shapes[index], make_cylinder(), to_shape);
+}
+
+/// A mesh in a file. `flip_v` is the format's default: images begin with the top row. `read` may ask for the
+/// normals of faces in the placement.
 void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index,
-                    Mesh (*read)(const std::filesystem::path&), bool flip_v) {
+                    bool flip_v, std::function<Mesh(const std::filesystem::path&, MeshPlacement&)> read) {
     const LoadContext::File file = context.take_file(p);
     MeshPlacement placement = placement_parameters(p);
     placement.face_normals = p.boolean("face_normals", false);
     flip_v = p.boolean("flip_tex_coords", flip_v);
     // The vector may still grow, but not move: it belongs to the context.
-    context.jobs.add(file.parameter, [&shapes, index, path = file.path, read, placement, flip_v] {
-        Mesh mesh = read(path);
-        if (flip_v)
-            for (glm::vec2& uv : mesh.uvs)
-                uv.y = 1 - uv.y;
-        const std::string note = place_mesh(mesh, placement);
-        shapes[index].mesh = std::move(mesh);
-        return note;
-    });
+    context.jobs.add(file.parameter,
+                     [&shapes, index, path = file.path, read = std::move(read), placement, flip_v] {
+                         MeshPlacement placed = placement;
+                         Mesh mesh = read(path, placed);
+                         if (flip_v)
+                             for (glm::vec2& uv : mesh.uvs)
+                                 uv.y = 1 - uv.y;
+                         const std::string note = place_mesh(mesh, placed);
+                         shapes[index].mesh = std::move(mesh);
+                         return note;
+                     });
 }
 
 void read_obj_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
     p.ignore({"collapse"});
-    read_mesh_file(context, p, shapes, index, read_obj, true);
+    read_mesh_file(context, p, shapes, index, true,
+                   [](const std::filesystem::path& path, MeshPlacement&) { return read_obj(path); });
 }
 
 void read_ply_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    p.ignore({"srgb"});
-    read_mesh_file(context, p, shapes, index, read_ply, false);
+    // Bytes are sRGB; floats are linear in Mitsuba 3, and sRGB in 0.6 unless the parameter says otherwise.
+    PlyColors colors;
+    colors.srgb_floats = p.boolean("srgb", context.old_syntax);
+    colors.srgb_bytes = p.boolean("srgb", true);
+    read_mesh_file(context, p, shapes, index, false,
+                   [colors](const std::filesystem::path& path, MeshPlacement&) { return read_ply(path, colors); });
+}
+
+void read_serialized_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
+    const int number = p.integer("shape_index", 0);
+    if (number < 0)
+        p.take("shape_index")->fail("'shape_index' must not be negative", "value");
+    const auto read = [number](const std::filesystem::path& path, MeshPlacement& placement) {
+        SerializedMesh serialized = read_serialized(path, number);
+        placement.face_normals = placement.face_normals || serialized.face_normals;
+        return std::move(serialized.mesh);
+    };
+    read_mesh_file(context, p, shapes, index, false, read);
 }
 
 // A plugin adds its row here; it fills shapes[index].mesh, now or in a job.
 constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::size_t)> plugins[] = {
-    {"rectangle", read_rectangle},
-    {"cube", read_cube},
-    {"obj", read_obj_shape},
-    {"ply", read_ply_shape},
+    {"rectangle", read_rectangle}, {"cube", read_cube},
+    {"disk", read_disk},           {"sphere", read_sphere},
+    {"cylinder", read_cylinder},   {"obj", read_obj_shape},
+    {"ply", read_ply_shape},       {"serialized", read_serialized_shape},
 };
 
 int material_parameter(LoadContext& context, Properties& p, bool gives_light) {

@@ -59,10 +59,11 @@ Daylight read_daylight(const LoadContext& context, Properties& p) {
     if (!(day.turbidity >= 1 && day.turbidity <= 10))
         p.take("turbidity")->fail("'turbidity' must be from 1 to 10", "value");
     const PlaceAndTime when = place_and_time(p);
-    if (const auto direction = p.vector("sun_direction")) {
-        if (!(glm::length(*direction) > 0))
+    if (p.has("sun_direction")) {
+        const glm::vec3 direction = p.point("sun_direction", {});
+        if (!(glm::length(direction) > 0))
             p.take("sun_direction")->fail("the direction must not be 0");
-        day.sun = glm::inverse(day.to_world) * glm::normalize(*direction);
+        day.sun = glm::inverse(day.to_world) * glm::normalize(direction);
     } else {
         day.sun = sun_direction(when);
         if (!context.old_syntax) // +x is south and +y west

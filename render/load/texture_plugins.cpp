@@ -82,9 +82,50 @@ Texture read_checkerboard(LoadContext& context, Properties& p) {
     return texture;
 }
 
+Texture scaled(Texture texture, float factor) {
+    if (Rgb* constant = std::get_if<Rgb>(&texture.kind))
+        *constant *= factor;
+    else
+        texture.scale *= factor;
+    return texture;
+}
+
+/// 0.6: another texture times a factor.
+Texture read_scale(LoadContext& context, Properties& p) {
+    const Rgb factors = p.color("scale", Rgb(1));
+    if (factors.r != factors.g || factors.g != factors.b)
+        p.note(*p.take("scale"), "the coloured scale is replaced by its mean");
+    const float factor = (factors.r + factors.g + factors.b) / 3;
+    for (const XmlElement& nested : context.take_nested(p, "texture"))
+        return scaled(read_texture(context, nested), factor);
+    return scaled(texture_parameter(context, p, "value", Rgb(1)), factor);
+}
+
+Texture vertex_colors(float scale) {
+    Texture texture;
+    texture.kind = VertexColorTexture{};
+    texture.scale = scale;
+    return texture;
+}
+
+/// 0.6
+Texture read_vertex_colors(LoadContext&, Properties&) {
+    return vertex_colors(1);
+}
+
+/// Mitsuba 3: of a mesh's attributes only its colours are read.
+Texture read_mesh_attribute(LoadContext&, Properties& p) {
+    const std::string name = p.text("name", "");
+    const float scale = p.number("scale", 1);
+    if (name == "vertex_color")
+        return vertex_colors(scale);
+    p.note("the attribute '" + name + "' is not read; magenta stands for it");
+    return marking_color;
+}
+
 constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
-    {"bitmap", read_bitmap_texture},
-    {"checkerboard", read_checkerboard},
+    {"bitmap", read_bitmap_texture},      {"checkerboard", read_checkerboard},     {"scale", read_scale},
+    {"vertexcolors", read_vertex_colors}, {"mesh_attribute", read_mesh_attribute},
 };
 
 } // namespace

@@ -133,13 +133,13 @@ std::optional<glm::mat3> rotation_of(const glm::mat4& transform) {
     return m;
 }
 
-glm::vec3 read_vector(const XmlElement& element) {
-    return components(element, 0, false);
-}
-
 glm::mat3 read_uv_transform(const XmlElement& transform) {
     const glm::mat4 m = product_of_steps(transform, true);
     return {m[0][0], m[0][1], 0, m[1][0], m[1][1], 0, m[3][0], m[3][1], 1};
+}
+
+glm::vec3 read_point(const XmlElement& point) {
+    return components(point, 0, false);
 }
 
 } // namespace tessera

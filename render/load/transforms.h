@@ -6,6 +6,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -19,7 +20,7 @@ std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
 /// The same as read_transform() for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
 glm::mat3 read_uv_transform(const XmlElement& transform);
 
-/// A <point> or <vector>: value="x y z", or attributes x, y and z, of which those absent are 0. Throws LoadError.
-glm::vec3 read_vector(const XmlElement& element);
+/// A <point> or <vector>: value="x y z", or attributes x, y and z, 0 where one is left out. Throws LoadError.
+glm::vec3 read_point(const XmlElement& point);
 
 } // namespace tessera

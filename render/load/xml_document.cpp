@@ -1,9 +1,11 @@
 #include "render/load/xml_document.h"
 
 #include "render/load/numbers.h"
+#include "render/load/text_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tessera {
 
@@ -34,7 +36,9 @@ std::size_t value_offset(const std::string& text, std::size_t element, std::stri
 
 } // namespace
 
-XmlDocument::XmlDocument(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+XmlDocument::XmlDocument(std::string text, std::string name, std::optional<std::filesystem::path> folder)
+    : name_(std::move(name)), folder_(std::move(folder)) {
+    take_text(std::move(text));
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n')
@@ -51,6 +55,16 @@ XmlDocument::XmlDocument(std::string text, std::string name) : text_(std::move(t
     throw LoadError(where, std::string("the XML is broken: ") + result.description(), source_line(where.line));
 }
 
+void XmlDocument::take_text(std::string bytes) {
+    try {
+        Utf8Text utf8 = to_utf8(std::move(bytes));
+        text_ = std::move(utf8.text);
+        was_latin1_ = utf8.was_latin1;
+    } catch (const std::runtime_error& e) {
+        throw LoadError({name_, 0, 0}, e.what());
+    }
+}
+
 XmlElement XmlDocument::root() const {
     return XmlElement(*this, tree_.document_element());
 }
@@ -59,8 +73,12 @@ std::vector<XmlElement> XmlDocument::elements() const {
     struct Walker : pugi::xml_tree_walker {
         explicit Walker(const XmlDocument& d) : document(d) {}
         bool for_each(pugi::xml_node& node) override {
-            if (node.type() == pugi::node_element)
+            if (const XmlDocument* inner = document.included(node)) {
+                const std::vector<XmlElement> elements = inner->elements();
+                found.insert(found.end(), elements.begin(), elements.end());
+            } else if (node.type() == pugi::node_element) {
                 found.emplace_back(document, node);
+            }
             return true;
         }
         const XmlDocument& document;
@@ -70,6 +88,26 @@ std::vector<XmlElement> XmlDocument::elements() const {
     pugi::xml_node top = tree_; // traverse() changes nothing but is not const
     top.traverse(walker);
     return walker.found;
+}
+
+XmlDocument& XmlDocument::include(pugi::xml_node node, std::unique_ptr<XmlDocument> document) {
+    std::unique_ptr<XmlDocument>& place = included_[node.internal_object()];
+    place = std::move(document);
+    include_order_.push_back(place.get());
+    return *place;
+}
+
+const XmlDocument* XmlDocument::included(pugi::xml_node node) const {
+    const auto found = included_.find(node.internal_object());
+    return found == included_.end() ? nullptr : found->second.get();
+}
+
+std::vector<const XmlDocument*> XmlDocument::documents() const {
+    std::vector<const XmlDocument*> result{this};
+    for (const XmlDocument* inner : include_order_)
+        for (const XmlDocument* document : inner->documents())
+            result.push_back(document);
+    return result;
 }
 
 FilePosition XmlDocument::position(pugi::xml_node node, const char* attribute) const {
@@ -102,9 +140,17 @@ std::string XmlElement::required(const char* name) const {
 
 std::vector<XmlElement> XmlElement::children() const {
     std::vector<XmlElement> result;
-    for (pugi::xml_node child : node_.children())
-        if (child.type() == pugi::node_element)
+    for (pugi::xml_node child : node_.children()) {
+        const XmlDocument* const included = document_->included(child);
+        if (included && included->root().tag() == "scene") {
+            const std::vector<XmlElement> inner = included->root().children();
+            result.insert(result.end(), inner.begin(), inner.end());
+        } else if (included) {
+            result.push_back(included->root());
+        } else if (child.type() == pugi::node_element) {
             result.emplace_back(*document_, child);
+        }
+    }
     return result;
 }
 

@@ -1,0 +1,213 @@
+// Files beside a scene that are cut short, lie about their size, or hold what is no geometry.
+
+#include "render/load/exr.h"
+#include "render/load/mesh_files.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/load/png.h"
+#include "tests/load/serialized_bytes.h"
+#include "tests/load/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr const char* formats[] = {"obj", "ply", "serialized"};
+
+class BrokenFile : public testing::Test {
+protected:
+    /// Of a scene with a shape of that type and file, or "no error".
+    std::string error_of_shape(const std::string& type, const std::string& file) const {
+        return error_of("<shape type='" + type + "'><string name='filename' value='" + file + "'/></shape>");
+    }
+
+    std::string error_of_texture(const std::string& file) const {
+        return error_of("<bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
+                        "<string name='filename' value='" +
+                        file + "'/></texture></bsdf>");
+    }
+
+    std::string error_of(const std::string& body) const {
+        try {
+            load_mitsuba_xml(folder.write("s.xml", "<scene version='3.0.0'>" + body + "</scene>"));
+        } catch (const LoadError& e) {
+            return e.what();
+        }
+        return "no error";
+    }
+
+    /// Writes the first `length` bytes.
+    void write_part(const std::string& name, const std::string& bytes, std::size_t length) const {
+        folder.write(name, std::string_view(bytes).substr(0, length));
+    }
+
+    Mesh mesh_of(const std::string& type, const std::string& file) const {
+        return load_mitsuba_xml(folder.write("s.xml", "<scene version='3.0.0'><shape type='" + type +
+                                                          "'><string name='filename' value='" + file +
+                                                          "'/></shape></scene>"))
+            .description.shapes.at(0)
+            .mesh;
+    }
+
+    TemporaryFolder folder;
+};
+
+std::string ply(const std::string& vertices, int vertex_count, const std::string& faces, int face_count) {
+    return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
+           "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
+}
+
+/// The header of a PNG of that size, without any data.
+std::string png_header(std::uint32_t width, std::uint32_t height) {
+    std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+    for (const std::uint32_t number : {width, height})
+        for (int shift = 24; shift >= 0; shift -= 8)
+            header += static_cast<char>(number >> shift & 0xff);
+    return header + std::string("\x08\x02\0\0\0\0\0\0\0", 9) + std::string("\0\0\0\0IDAT\0\0\0\0", 12);
+}
+
+/// The header of an OpenEXR file with that data window.
+std::string exr_header(std::int32_t width, std::int32_t height) {
+    std::string bytes("\x76\x2f\x31\x01\x02\0\0\0", 8);
+    const auto attribute = [&](const std::string& name, const std::string& type, const std::string& value) {
+        bytes += name + '\0' + type + '\0';
+        SerializedBytes::append(bytes, static_cast<std::int32_t>(value.size()));
+        bytes += value;
+    };
+    std::string channels;
+    for (const char* name : {"B", "G", "R"}) {
+        channels += std::string(name) + '\0';
+        for (const std::int32_t number : {2, 0, 1, 1}) // float, not linear, every pixel
+            SerializedBytes::append(channels, number);
+    }
+    std::string window;
+    for (const std::int32_t number : {0, 0, width - 1, height - 1})
+        SerializedBytes::append(window, number);
+    std::string unit;
+    SerializedBytes::append(unit, 1.0f);
+    attribute("channels", "chlist", channels + '\0');
+    attribute("compression", "compression", std::string(1, '\0'));
+    attribute("dataWindow", "box2i", window);
+    attribute("displayWindow", "box2i", window);
+    attribute("lineOrder", "lineOrder", std::string(1, '\0'));
+    attribute("pixelAspectRatio", "float", unit);
+    attribute("screenWindowCenter", "v2f", std::string(8, '\0'));
+    attribute("screenWindowWidth", "float", unit);
+    return bytes + '\0';
+}
+
+} // namespace
+
+TEST_F(BrokenFile, EmptyAndForeign) {
+    folder.write("empty", "");
+    folder.write("foreign", "GIF87 or another\nformat\n");
+    EXPECT_NE(error_of_shape("ply", "empty").find("cannot load 'empty': line 1"), std::string::npos);
+    EXPECT_NE(error_of_shape("serialized", "empty").find("the file ends too early"), std::string::npos);
+    EXPECT_NE(error_of_shape("ply", "foreign").find("does not begin with 'ply'"), std::string::npos);
+    EXPECT_NE(error_of_shape("serialized", "foreign").find("not a file of serialized"), std::string::npos);
+    EXPECT_NE(error_of_texture("empty").find("not a readable image"), std::string::npos);
+    EXPECT_NE(error_of_texture("foreign").find("not a readable image"), std::string::npos);
+    // OBJ has no mark at its beginning, and any line may be a word of some dialect.
+    EXPECT_EQ(error_of_shape("obj", "empty"), "no error");
+}
+
+TEST_F(BrokenFile, TruncatedImages) {
+    RgbImage image(16, 16, Rgb(0.25f));
+    image(3, 3) = Rgb(1, 0, 0.5f);
+    write_png(folder.path() / "whole.png", image);
+    write_exr(folder.path() / "whole.exr", {{{"", image}}, {}});
+    for (const std::string extension : {".png", ".exr"}) {
+        const std::string whole = read_bytes(folder.path() / ("whole" + extension));
+        EXPECT_EQ(error_of_texture("whole" + extension), "no error");
+        for (const std::size_t length : {std::size_t{0}, std::size_t{4}, std::size_t{20}, whole.size() / 4,
+                                         whole.size() / 2, whole.size() - 20}) {
+            write_part("part" + extension, whole, length);
+            EXPECT_NE(error_of_texture("part" + extension).find("cannot load 'part" + extension),
+                      std::string::npos)
+                << extension << " " << length;
+        }
+    }
+}
+
+TEST_F(BrokenFile, AbsurdImages) {
+    const auto expect = [&](const char* file, const std::string& bytes, const std::string& message) {
+        folder.write(file, bytes);
+        EXPECT_NE(error_of_texture(file).find(message), std::string::npos) << error_of_texture(file);
+    };
+    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': not a readable image");
+    expect("b.png", png_header(17000, 17000), "an image of 17000 by 17000 pixels is too large");
+    expect("c.png", png_header(16000, 16000), "the file is too short for 16000 by 16000 pixels");
+    expect("a.exr", exr_header(1000000, 1000000), "cannot load 'a.exr'");
+    const std::string offsets(std::size_t{8} * 20000, '\0'); // of the rows
+    expect("b.exr", exr_header(20000, 20000) + offsets, "an image of 20000 by 20000 pixels is too large");
+    expect("c.exr", exr_header(100000000, 2) + std::string(16, '\0'), "the file is too short for 100000000 by 2");
+    expect("d.exr", exr_header(0, 5), "cannot load 'd.exr'");
+}
+
+TEST_F(BrokenFile, ABillionFaces) {
+    const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+    folder.write("faces.ply", ply(three, 3, "3 0 1 2\n", 1000000000));
+    EXPECT_NE(error_of_shape("ply", "faces.ply").find("the header promises 1000000000 rows of 'face'"),
+              std::string::npos);
+    folder.write("vertices.ply", ply(three, 1000000000, "3 0 1 2\n", 1));
+    EXPECT_NE(error_of_shape("ply", "vertices.ply").find("the header promises 1000000000 rows of 'vertex'"),
+              std::string::npos);
+    std::string list = ply(three, 3, "", 1);
+    list.replace(list.find("list uchar"), 10, "list uint");
+    folder.write("list.ply", list + "1000000000 0 1 2\n");
+    EXPECT_NE(error_of_shape("ply", "list.ply").find("face 0: the file ends too early"), std::string::npos);
+}
+
+TEST_F(BrokenFile, IndicesOutOfRange) {
+    folder.write("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    folder.write("ply", ply("0 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 3\n", 1));
+    std::string body = SerializedBytes(4).square<float>(0, 1);
+    body[body.size() - 4] = 4;
+    folder.write("serialized", SerializedBytes(4).mesh(body).file());
+    for (const char* format : formats)
+        EXPECT_NE(error_of_shape(format, format).find(" refers to "), std::string::npos) << format;
+}
+
+TEST_F(BrokenFile, VerticesThatAreNoNumbers) {
+    const auto expect = [&](const char* format, const std::string& message) {
+        EXPECT_NE(error_of_shape(format, format).find(message), std::string::npos)
+            << error_of_shape(format, format);
+    };
+    folder.write("obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect("obj", "line 2: not a list of 3 numbers or more");
+    folder.write("obj", "v 0 0 0\nv 1e99 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect("obj", "position 2 is too large");
+    folder.write("ply", ply("0 0 0\n1 nan 0\n0 1 0\n", 3, "3 0 1 2\n", 1));
+    expect("ply", "vertex 1: its y is not a finite number");
+    folder.write("ply", ply("0 0 0\n1 0 -inf\n0 1 0\n", 3, "3 0 1 2\n", 1));
+    expect("ply", "vertex 1: its z is not a finite number");
+    folder.write("serialized", SerializedBytes(4).mesh(SerializedBytes(4).square<double>(0, 1e300)).file());
+    expect("serialized", "position 1 is not finite");
+}
+
+TEST_F(BrokenFile, TrianglesWithoutAreaAndInsideOutLoad) {
+    // One point, one line, one triangle, and the same seen from behind.
+    const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n2 0 0\n";
+    const std::string faces = "3 0 0 0\n3 0 1 3\n3 0 1 2\n3 0 2 1\n";
+    folder.write("m.ply", ply(vertices, 4, faces, 4));
+    const Mesh mesh = mesh_of("ply", "m.ply");
+    EXPECT_EQ(mesh.triangles.size(), 4u);
+    for (const glm::vec3 n : mesh.normals)
+        EXPECT_NEAR(glm::length(n), 1, 1e-5);
+    EXPECT_EQ(front_normal(mesh, mesh.triangles[0]), glm::vec3(0));
+    EXPECT_EQ(front_normal(mesh, mesh.triangles[1]), glm::vec3(0));
+}
+
+TEST_F(BrokenFile, TwoListsOfVertices) {
+    folder.write("m.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                 "property float z\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                 "end_header\n0 0 0\n1 1 1\n");
+    EXPECT_NE(error_of_shape("ply", "m.ply").find("vertex 0: a second list of vertices is one too many"),
+              std::string::npos);
+}
+
+} // namespace tessera

@@ -1,0 +1,105 @@
+// Scenes whose text is broken below the level of XML, or made to blow up.
+
+#include "render/load/mitsuba_xml.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+const std::string plain =
+    "<scene version='3.0.0'><sensor type='perspective'/><bsdf type='diffuse' id='Holz'/></scene>";
+
+std::string error_of(const std::string& xml) {
+    try {
+        parse_mitsuba_xml(xml, "b.xml");
+    } catch (const LoadError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+std::string utf16(const std::string& text, bool big_endian) {
+    std::string result = big_endian ? "\xfe\xff" : "\xff\xfe";
+    for (const char c : text) {
+        result += big_endian ? '\0' : c;
+        result += big_endian ? c : '\0';
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(BrokenText, AByteOrderMarkIsNoPartOfTheText) {
+    EXPECT_EQ(parse_mitsuba_xml("\xef\xbb\xbf" + plain, "b.xml").notes.size(), 0u);
+    EXPECT_EQ(error_of("\xef\xbb\xbf<scene version='x'/>").substr(0, 11), "b.xml:1:17:");
+}
+
+TEST(BrokenText, Utf16IsRefused) {
+    for (const bool big_endian : {false, true}) {
+        EXPECT_EQ(error_of(utf16(plain, big_endian)), "b.xml: the file is in UTF-16; scenes are read in UTF-8");
+        EXPECT_EQ(error_of(utf16(plain, big_endian).substr(2)), // without its mark
+                  "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
+    }
+}
+
+TEST(BrokenText, NulBytesAreRefused) {
+    std::string text = plain;
+    text[30] = '\0';
+    EXPECT_EQ(error_of(text), "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
+}
+
+TEST(BrokenText, Latin1IsConverted) {
+    std::string text = plain;
+    text.replace(text.find("Holz"), 4, "Gr\xfcn");
+    const LoadedScene loaded = parse_mitsuba_xml(text, "b.xml");
+    EXPECT_EQ(loaded.description.materials.at(0).name, "Gr\xc3\xbcn");
+    ASSERT_EQ(loaded.notes.size(), 1u);
+    EXPECT_EQ(loaded.notes[0].text, "the file is not in UTF-8 and taken for Latin-1");
+    text.replace(text.find("Gr\xfcn"), 4, "Gr\xc3\xbcn");
+    EXPECT_EQ(parse_mitsuba_xml(text, "b.xml").notes.size(), 0u);
+}
+
+TEST(BrokenText, EntitiesAreNotExpanded) {
+    // "A billion laughs": each entity is ten of the one before.
+    std::string text = "<?xml version='1.0'?>\n<!DOCTYPE scene [\n<!ENTITY e0 'laugh'>\n";
+    for (int i = 1; i < 10; ++i) {
+        text += "<!ENTITY e" + std::to_string(i) + " '";
+        for (int j = 0; j < 10; ++j)
+            text += "&e" + std::to_string(i - 1) + ";";
+        text += "'>\n";
+    }
+    text += "<!ENTITY file SYSTEM 'file:///etc/passwd'>\n]>\n";
+    const LoadedScene loaded =
+        parse_mitsuba_xml(text + "<scene version='3.0.0'><bsdf type='diffuse' id='&e9;'/><bsdf type='diffuse' "
+                                 "id='&file;&lt;'/></scene>",
+                          "b.xml");
+    EXPECT_EQ(loaded.description.materials.at(0).name, "&e9;");
+    EXPECT_EQ(loaded.description.materials.at(1).name, "&file;<");
+}
+
+TEST(BrokenText, VariablesOfVariablesAreLimited) {
+    std::string body = "<default name='v0' value='laugh'/>";
+    for (int i = 1; i < 12; ++i) {
+        body += "<default name='v" + std::to_string(i) + "' value='";
+        for (int j = 0; j < 10; ++j)
+            body += "$v" + std::to_string(i - 1) + " ";
+        body += "'/>";
+    }
+    EXPECT_NE(error_of("<scene version='3.0.0'>" + body + "</scene>")
+                  .find("the variables make a value of more than a million characters"),
+              std::string::npos);
+}
+
+TEST(BrokenText, Versions) {
+    EXPECT_EQ(error_of("<scene version='-1'/>").substr(0, 36), "b.xml:1:17: '-1' is not a version\n  ");
+    EXPECT_EQ(error_of("<scene version=''/>").substr(0, 34), "b.xml:1:17: '' is not a version\n  ");
+    const LoadedScene newer =
+        parse_mitsuba_xml("<scene version='12.1'><sensor type='perspective'/></scene>", "b.xml");
+    ASSERT_EQ(newer.notes.size(), 1u);
+    EXPECT_EQ(newer.notes[0].text, "the version 12.1 is newer than those known (0.x to 3.x)");
+    EXPECT_EQ(newer.notes[0].where.column, 17);
+}
+
+} // namespace tessera
