@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/parallel.h"
+#include "render/load/load_progress.h"
 #include "render/load/messages.h"
 #include "render/scene/scene.h"
 
@@ -22,13 +23,14 @@ struct LoadedScene {
 /// `-D name=value` of the command line: replaces the <default> of that name.
 using SceneVariables = std::map<std::string, std::string>;
 
-/// Reads a Mitsuba scene (0.6 or 3.x syntax). Paths in the file are relative to its folder.
-/// Throws LoadError with file, line and column.
+/// Reads a Mitsuba scene (0.6 or 3.x syntax). Paths in the file are relative to its folder. Tells `progress`, if
+/// it is not null, how far it is. Throws LoadError with file, line and column; std::runtime_error if the scene is
+/// given up on the way.
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
-                             const ParallelFor& parallel_for = serial_for);
+                             const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
 /// The same for a scene in memory, which has no files beside it; `name` stands in messages.
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables = {},
-                              const ParallelFor& parallel_for = serial_for);
+                              const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
 } // namespace tessera

@@ -1,6 +1,7 @@
 #include "render/trace/intersector.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -28,6 +29,12 @@ bool is_sound(glm::vec3 v) {
 
 void on_error(void*, RTCError code, const char* text) {
     throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " + (text ? text : ""));
+}
+
+/// Embree tells what it is about to allocate, and what it has freed.
+bool count_bytes(void* sum, ssize_t bytes, bool) {
+    *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
+    return true;
 }
 
 RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
@@ -124,6 +131,7 @@ float extent(const std::vector<Shape>& shapes) {
 } // namespace
 
 struct Intersector::Impl {
+    std::atomic<std::ptrdiff_t> bytes = 0; // written by the threads that build
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
@@ -146,6 +154,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes) : impl_(std::make_uni
     if (!impl_->device)
         throw std::runtime_error("Embree did not start");
     rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
+    rtcSetDeviceMemoryMonitorFunction(impl_->device, count_bytes, &impl_->bytes);
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < shapes.size(); ++i)
@@ -178,6 +187,10 @@ bool Intersector::occluded(const Segment& segment) const {
     RTCRay ray = make_ray(segment.from, segment.to - segment.from, 1);
     test_occluded(impl_->scene, ray);
     return ray.tfar < 0;
+}
+
+std::size_t Intersector::bytes() const {
+    return impl_ ? static_cast<std::size_t>(std::max<std::ptrdiff_t>(impl_->bytes, 0)) : 0;
 }
 
 void Intersector::occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
