@@ -4,8 +4,8 @@
 
 namespace tessera {
 
-/// `tessera info`: prints what was loaded, and what was ignored or replaced, with its place in the file. Returns
-/// an ExitCode.
+/// `tessera info`: prints what was loaded, what it takes in time and memory, what the renderer must reckon with,
+/// and what was ignored or replaced, with its place in the file. Returns an ExitCode.
 int run_info(const SceneSource& source);
 
 } // namespace tessera

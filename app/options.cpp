@@ -4,6 +4,7 @@
 #include "app/contact_sheet.h"
 #include "app/exit_codes.h"
 #include "app/info.h"
+#include "app/load_notes.h"
 #include "app/render.h"
 #include "app/view.h"
 #include "render/session/thread_pool.h"
@@ -41,7 +42,7 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
 
 /// The words of the command line, before they are given a meaning.
 struct Words {
-    std::string scene, size, window, method = "gpr", norms, clock = "wall";
+    std::string scene, camera, size, window, method = "gpr", norms, clock = "wall";
     std::vector<std::string> definitions;
     int max_depth = 0;
     int spp = 0;
@@ -51,12 +52,13 @@ struct Words {
     int threads = 0;
     RenderSettings settings;
 
-    SceneSource source() const { return {scene, parse_variables(definitions)}; }
+    SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
 };
 
 void add_scene(CLI::App& command, Words& words, bool required) {
     command.add_option("scene", words.scene, "Mitsuba scene, XML")->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
+    command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
 }
 
 void add_settings(CLI::App& command, Words& words) {
@@ -158,16 +160,25 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }
 
+/// Makes the scene of `source`, with `threads` threads, whenever it is called.
+SceneLoader loader_of(const SceneSource& source, int threads) {
+    return [source, threads](std::vector<std::string>& notes, LoadProgress& progress) {
+        ThreadPool pool(threads);
+        const OpenedScene opened = open_scene(source, pool, &progress);
+        notes = group_notes(opened.notes);
+        return opened.scene;
+    };
+}
+
 int view(const CLI::App& command, const Words& words, ViewOptions options) {
     const SceneSource source = words.source();
     const int threads = words.threads;
-    options.scene_name = to_string(source);
-    options.loader = [source, threads](std::vector<std::string>& notes) {
-        ThreadPool pool(threads);
-        const OpenedScene opened = open_scene(source, pool);
-        for (const LoadNote& note : opened.notes)
-            notes.push_back(note.where.to_string() + ": " + note.text);
-        return opened.scene;
+    options.scene = {to_string(source), source.file, loader_of(source, threads)};
+    options.open = [source, threads](const std::filesystem::path& file) {
+        // Camera and variables were given for one scene, however it is named.
+        std::error_code ignored;
+        const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
+        return loader_of(same ? source : SceneSource{file, {}, {}}, threads);
     };
     for (PaneSettings& pane : options.panes) {
         const Method method = pane.render.method;

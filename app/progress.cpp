@@ -1,7 +1,10 @@
 #include "app/progress.h"
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -35,6 +38,30 @@ void Progress::update(double done, double seconds, const std::string& detail) {
     std::fflush(stderr);
     drawn_ = true;
     drawn_at_ = seconds;
+}
+
+LoadBar::LoadBar() {
+    if (isatty(STDERR_FILENO))
+        thread_ = std::jthread([this](std::stop_token stop) { draw(std::move(stop)); });
+}
+
+LoadBar::~LoadBar() = default;
+
+void LoadBar::draw(std::stop_token stop) const {
+    std::mutex mutex;
+    std::condition_variable_any ended;
+    std::unique_lock lock(mutex);
+    const auto pause = [&](int ms) {
+        ended.wait_for(lock, stop, std::chrono::milliseconds(ms), [] { return false; });
+        return !stop.stop_requested();
+    };
+    if (!pause(300))
+        return;
+    do {
+        fmt::print(stderr, "\rloading: {} ...\033[K", to_string(progress_.state()));
+        std::fflush(stderr);
+    } while (pause(100));
+    fmt::print(stderr, "\r\033[K");
 }
 
 } // namespace tessera

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "render/load/load_progress.h"
+
+#include <stop_token>
 #include <string>
+#include <thread>
 
 namespace tessera {
 
@@ -24,6 +28,25 @@ private:
     bool drawn_ = false;
     int tenths_ = 0;
     double drawn_at_ = -1;
+};
+
+/// Tells on standard error, where that is a terminal, how far a scene is loaded, once that has taken a moment.
+/// Leaves no trace when it ends.
+class LoadBar {
+public:
+    LoadBar();
+    ~LoadBar();
+    LoadBar(const LoadBar&) = delete;
+    LoadBar& operator=(const LoadBar&) = delete;
+
+    /// For the loader to write to.
+    LoadProgress& progress() { return progress_; }
+
+private:
+    void draw(std::stop_token stop) const;
+
+    LoadProgress progress_;
+    std::jthread thread_; // not where there is no terminal
 };
 
 } // namespace tessera

@@ -1,6 +1,7 @@
 #include "app/render.h"
 
 #include "app/exit_codes.h"
+#include "app/load_notes.h"
 #include "app/output_file.h"
 #include "app/process_usage.h"
 #include "app/progress.h"
@@ -105,8 +106,8 @@ int run_render(const RenderOptions& options) {
         check_writable(options.stats);
     ThreadPool pool(options.threads);
     const OpenedScene opened = open_scene(options.scene, pool);
-    for (const LoadNote& note : opened.notes)
-        fmt::print(stderr, "note: {}: {}\n", note.where.to_string(), note.text);
+    for (const std::string& note : group_notes(opened.notes))
+        fmt::print(stderr, "note: {}\n", note);
 
     const Plan plan = make_plan(options, *opened.scene);
     Render render(opened.scene, opened.scene->camera(), plan.size, plan.settings);

@@ -1,8 +1,11 @@
 #include "app/scene_source.h"
 
 #include "app/process_usage.h"
+#include "app/progress.h"
 #include "embedded/cornell_box_xml.h"
+#include "render/load/camera_file.h"
 
+#include <optional>
 #include <string_view>
 
 namespace tessera {
@@ -11,24 +14,36 @@ std::string to_string(const SceneSource& source) {
     return source.file.empty() ? "the built-in Cornell box" : source.file.string();
 }
 
-OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
+OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
         pool.parallel_for(count, [&body](int i, int) { body(i); });
     };
     const double cpu_at_start = process_cpu_seconds();
+    std::optional<Camera> camera;
+    if (!source.camera.empty())
+        camera = read_camera(source.camera); // first: it is read in no time, and may be broken
     LoadedScene loaded =
-        source.file.empty() ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for)
-                            : load_mitsuba_xml(source.file, source.variables, parallel_for);
+        source.file.empty()
+            ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for, progress)
+            : load_mitsuba_xml(source.file, source.variables, parallel_for, progress);
+    loaded.description.camera = camera.value_or(loaded.description.camera);
     OpenedScene opened;
     opened.notes = std::move(loaded.notes);
     opened.parse_seconds = loaded.parse_seconds;
     opened.file_seconds = loaded.file_seconds;
     const double cpu_after_load = process_cpu_seconds();
     opened.load_cpu_seconds = cpu_after_load - cpu_at_start;
+    if (progress)
+        progress->begin(LoadProgress::Stage::bvh);
     opened.scene = std::make_shared<const Scene>(std::move(loaded.description));
     opened.bvh_seconds = opened.scene->bvh_seconds();
     opened.bvh_cpu_seconds = process_cpu_seconds() - cpu_after_load;
     return opened;
+}
+
+OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
+    LoadBar bar;
+    return open_scene(source, pool, &bar.progress());
 }
 
 } // namespace tessera

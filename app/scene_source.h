@@ -11,8 +11,9 @@ namespace tessera {
 
 /// Where a command takes its scene from.
 struct SceneSource {
-    std::filesystem::path file; ///< empty: the Cornell box inside the program
-    SceneVariables variables;   ///< -D name=value
+    std::filesystem::path file;        ///< empty: the Cornell box inside the program
+    SceneVariables variables;          ///< -D name=value
+    std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
 };
 
 /// A scene ready to render and how it came to be so.
@@ -26,7 +27,9 @@ struct OpenedScene {
     double bvh_cpu_seconds = 0;
 };
 
-/// Throws LoadError or another std::exception whose what() is fit for the user.
+/// Throws LoadError or another std::exception whose what() is fit for the user. `progress` may be null.
+OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress);
+/// The same, telling on a terminal how far it is.
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool);
 
 /// The name to show for it.

@@ -12,6 +12,7 @@ json settings_json(const SceneSource& scene, const RenderSettings& s, glm::ivec2
     return {{"version", TESSERA_VERSION},
             {"scene", to_string(scene)},
             {"variables", scene.variables},
+            {"camera", scene.camera.string()},
             {"method", short_name(s.method)},
             {"width", size.x},
             {"height", size.y},

@@ -25,6 +25,10 @@ void print_line(const std::string& line) {
     std::fflush(stdout);
 }
 
+std::string title(const std::string& scene) {
+    return "Tessera - " + scene;
+}
+
 /// A picture file in the current folder that is named after the time.
 std::filesystem::path dated_picture() {
     const std::time_t now = std::time(nullptr);
@@ -42,6 +46,7 @@ public:
     /// False: the work is done.
     bool after_frame() {
         log_times();
+        set_title();
         save_if_wished();
         return options_.screenshot.empty() || take_screenshot();
     }
@@ -61,6 +66,13 @@ private:
                                             [](const PaneState& pane) { return pane.snapshot != nullptr; });
         for (; pictures_seen_ < pictures; ++pictures_seen_)
             print_line("time picture " + std::to_string(seconds));
+    }
+
+    void set_title() {
+        if (viewer_.state().scene_name == titled_)
+            return;
+        titled_ = viewer_.state().scene_name;
+        surface_.set_title(title(titled_));
     }
 
     // Waits for the menu that the wish came from to close.
@@ -109,12 +121,13 @@ private:
     Clock::time_point start_;
     bool window_seen_ = false;
     std::ptrdiff_t pictures_seen_ = 0;
+    std::string titled_; // the scene that the window is named after
     int wish_age_ = 0;
     int exit_code_ = 0;
 };
 
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
-    const SurfaceOptions wanted{"Tessera - " + options.scene_name, options.window_size, options.ui_scale,
+    const SurfaceOptions wanted{title(options.scene.name), options.window_size, options.ui_scale,
                                 !options.screenshot.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
@@ -133,6 +146,7 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     if (options.log_actions)
         result.log = print_line;
     result.log_controls = options.log_actions;
+    result.open = options.open;
     result.wake = [&surface] { surface.wake(); };
     return result;
 }
@@ -153,7 +167,7 @@ int run_view(const ViewOptions& options) {
         return view_needs_display;
     Session session(static_cast<int>(options.panes.size()), options.threads, [&] { surface->wake(); });
     Viewer viewer(session, viewer_options(options, *surface));
-    viewer.load(options.scene_name, options.loader);
+    viewer.load(options.scene.name, options.scene.loader, options.scene.file);
     FrameWatch watch(options, *surface, viewer, start);
     surface->run(viewer, [&] { return watch.after_frame(); });
     return watch.exit_code();

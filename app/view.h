@@ -19,8 +19,8 @@ inline constexpr int view_needs_display = -1;
 
 /// `tessera view`.
 struct ViewOptions {
-    std::string scene_name; ///< for title and messages
-    SceneLoader loader;     ///< makes the scene, in the background
+    SceneOrigin scene; ///< loaded in the background
+    SceneOpener open;  ///< for scenes dropped on the window
     std::vector<PaneSettings> panes = default_panes();
     std::optional<int> max_depth; ///< otherwise the scene decides
     SizeChoice render_size;

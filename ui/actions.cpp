@@ -64,6 +64,8 @@ constexpr Shortcut no_shortcut{};
 using State = ViewerState;
 
 constexpr Action table[] = {
+    {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
+     key(Key::f5), no_shortcut, [](State& s) { s.reload = true; }, nullptr},
     {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
      key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
     {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
@@ -105,6 +107,12 @@ constexpr Action table[] = {
 
     {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
      [](State& s) { s.camera.go_home(); }, nullptr},
+    {"Camera", "Save camera",
+     "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
+     "--camera.",
+     key(Key::k), no_shortcut, [](State& s) { s.save_camera = true; }, nullptr},
+    {"Camera", "Copy camera as XML", "Puts fov and to_world for a Mitsuba <sensor> on the clipboard.",
+     shift(Key::k), no_shortcut, [](State& s) { s.copy_camera = true; }, nullptr},
 
     {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),
      [](State& s) { s.show_help = !s.show_help; }, [](const State& s) { return s.show_help; }},

@@ -50,6 +50,9 @@ Values describe(const ViewerState& state) {
     values["paused"] = text(state.paused);
     values["help"] = text(state.show_help);
     values["panel"] = text(state.show_panel);
+    values["scene"] = state.scene_name;
+    values["scenes shown"] = std::to_string(state.scenes_shown);
+    values["loading"] = state.loading;
     values["messages"] = std::to_string(state.messages.size());
     return values;
 }

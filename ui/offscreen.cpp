@@ -95,6 +95,7 @@ public:
         wake_.notify_one();
     }
 
+    void set_title(const std::string&) override {}
     glm::ivec2 pixels() const override { return size_; }
 
 private:

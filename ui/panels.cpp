@@ -4,7 +4,9 @@
 #include "ui/theme.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <imgui.h>
 
@@ -34,6 +36,17 @@ void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
     ImGui::EndMenu();
 }
 
+/// The end of a name that fits into a width; the beginning gives way to dots.
+std::string shortened(const std::string& name, float width) {
+    const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; };
+    if (fits(name))
+        return name;
+    std::size_t cut = 1;
+    while (cut < name.size() && (!fits("..." + name.substr(cut)) || (name[cut] & 0xc0) == 0x80))
+        ++cut; // never within a character of UTF-8
+    return "..." + name.substr(cut);
+}
+
 // At the right end of the menu bar: the scene, and whether there is something to read.
 void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     const std::size_t count = state.messages.size();
@@ -44,11 +57,12 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
         std::string(icon) + (*icon ? " " : "") + std::to_string(count) + (count == 1 ? " message" : " messages");
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float button_width = count > 0 ? ImGui::CalcTextSize(button.c_str()).x + 3 * spacing : 0;
-    const float name_width = ImGui::CalcTextSize(state.scene_name.c_str()).x;
-    const float x = ImGui::GetWindowWidth() - name_width - button_width - 2 * spacing;
+    const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - button_width - 2 * spacing;
+    const std::string name = shortened(state.scene_name, room);
+    const float x = ImGui::GetCursorPosX() + room - ImGui::CalcTextSize(name.c_str()).x;
     if (x > ImGui::GetCursorPosX())
         ImGui::SetCursorPosX(x);
-    ImGui::TextDisabled("%s", state.scene_name.c_str());
+    ImGui::TextDisabled("%s", name.c_str());
     if (count == 0)
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
@@ -134,7 +148,7 @@ float draw_menu_bar(Controls& controls, ViewerState& state) {
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
-    if (ImGui::Begin("Messages", nullptr, overlay_flags ^ ImGuiWindowFlags_NoScrollbar)) {
+    if (ImGui::Begin("Messages", nullptr, overlay_flags)) {
         if (controls.button("clear_messages", "Clear", "Forgets all messages.")) {
             state.messages.clear();
             state.show_messages = false;
@@ -142,8 +156,13 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
         ImGui::SameLine();
         if (controls.button("hide_messages", "Hide", "Hides the list; F2 shows it again."))
             state.show_messages = false;
+        // The buttons stay where they are while the list is scrolled.
+        ImGui::BeginChild("list");
         for (const Message& message : state.messages)
             draw_message(message);
+        if (std::exchange(state.scroll_to_newest, false))
+            ImGui::SetScrollHereY(1.0f);
+        ImGui::EndChild();
     }
     ImGui::End();
 }
@@ -170,18 +189,26 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
     ImGui::PopStyleColor();
 }
 
-void draw_loading(const ScreenRect& where, const std::string& what, double seconds) {
-    char text[512];
-    std::snprintf(text, sizeof text, "Loading %s ...  %.1f s", what.c_str(), seconds);
-    const ImVec2 text_size = ImGui::CalcTextSize(text);
-    const float pad = ImGui::GetFontSize();
+void draw_loading(const ScreenRect& where, const std::string& what, const LoadProgress::State& progress,
+                  double seconds) {
+    char time[32];
+    std::snprintf(time, sizeof time, " ...  %.1f s", seconds);
+    const std::string text = "Loading " + what + time + "\n" + to_string(progress);
+    const ImVec2 text_size = ImGui::CalcTextSize(text.c_str());
+    const float pad = ImGui::GetFontSize(), bar_height = std::floor(pad * 0.3f);
+    const glm::vec2 half(text_size.x * 0.5f + pad, text_size.y * 0.5f + pad + bar_height);
     const glm::vec2 center = (where.min + where.max) * 0.5f;
-    const ImVec2 min(center.x - text_size.x * 0.5f - pad, center.y - text_size.y * 0.5f - pad);
-    const ImVec2 max(center.x + text_size.x * 0.5f + pad, center.y + text_size.y * 0.5f + pad);
+    const ImVec2 min(center.x - half.x, center.y - half.y), max(center.x + half.x, center.y + half.y);
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     list.AddRectFilled(min, max, IM_COL32(20, 22, 26, 230), pad * 0.5f);
     list.AddRect(min, max, colours::line, pad * 0.5f);
-    list.AddText({min.x + pad, min.y + pad}, colours::text, text);
+    list.AddText({min.x + pad, min.y + pad}, colours::text, text.c_str());
+    if (progress.total == 0)
+        return;
+    const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
+    const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
+    list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::line);
+    list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom}, colours::accent);
 }
 
 } // namespace tessera

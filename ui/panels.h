@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/load/load_progress.h"
 #include "ui/controls.h"
 #include "ui/viewer_state.h"
 
@@ -25,7 +26,8 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
 /// All actions and gestures, over everything.
 void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 
-/// "Loading ...", over the pictures.
-void draw_loading(const ScreenRect& where, const std::string& what, double seconds);
+/// What is being loaded and how far that is, over the pictures.
+void draw_loading(const ScreenRect& where, const std::string& what, const LoadProgress::State& progress,
+                  double seconds);
 
 } // namespace tessera

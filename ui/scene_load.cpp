@@ -5,42 +5,75 @@
 
 namespace tessera {
 
-namespace {
+using Clock = std::chrono::steady_clock;
 
-SceneLoadResult load(const std::string& name, const SceneLoader& loader) {
-    SceneLoadResult result;
-    result.name = name;
-    const auto start = std::chrono::steady_clock::now();
+struct SceneLoad::Job {
+    SceneOrigin origin;
+    Clock::time_point start = Clock::now();
+    LoadProgress progress;
+    std::future<SceneLoadResult> result;
+    std::jthread thread; // last: it uses the others until it ends
+
+    bool ended() const { return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+    SceneLoadResult load();
+};
+
+SceneLoadResult SceneLoad::Job::load() {
+    SceneLoadResult loaded;
+    loaded.origin = origin;
     try {
-        result.scene = loader(result.notes);
-        if (!result.scene)
-            result.error = name + ": no scene";
+        loaded.scene = origin.loader(loaded.notes, progress);
+        if (!loaded.scene)
+            loaded.error = origin.name + ": no scene";
     } catch (const std::exception& e) {
-        result.error = e.what();
+        loaded.error = e.what();
     }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return result;
+    loaded.seconds = seconds();
+    return loaded;
 }
 
-} // namespace
+SceneLoad::SceneLoad() = default;
 
-void SceneLoad::start(std::string name, SceneLoader loader, std::function<void()> on_done) {
-    name_ = std::move(name);
+SceneLoad::~SceneLoad() {
+    if (job_)
+        job_->progress.give_up();
+}
+
+void SceneLoad::start(SceneOrigin origin, std::function<void()> on_done) {
+    if (job_) {
+        job_->progress.give_up();
+        given_up_.push_back(std::move(job_));
+    }
+    job_ = std::make_unique<Job>();
+    job_->origin = std::move(origin);
     std::promise<SceneLoadResult> promise;
-    result_ = promise.get_future();
-    const auto run = [](std::promise<SceneLoadResult> result, const std::string& scene_name,
-                        const SceneLoader& scene_loader, const std::function<void()>& done) {
-        result.set_value(load(scene_name, scene_loader));
+    job_->result = promise.get_future();
+    const auto run = [job = job_.get()](std::promise<SceneLoadResult> result, const std::function<void()>& done) {
+        result.set_value(job->load());
         if (done)
             done();
     };
-    thread_ = std::jthread(run, std::move(promise), name_, std::move(loader), std::move(on_done));
+    job_->thread = std::jthread(run, std::move(promise), std::move(on_done));
+}
+
+const SceneOrigin& SceneLoad::origin() const {
+    return job_->origin;
+}
+LoadProgress::State SceneLoad::progress() const {
+    return job_->progress.state();
+}
+double SceneLoad::seconds() const {
+    return job_->seconds();
 }
 
 std::optional<SceneLoadResult> SceneLoad::poll() {
-    if (!running() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    std::erase_if(given_up_, [](const auto& job) { return job->ended(); });
+    if (!job_ || !job_->ended())
         return std::nullopt;
-    return result_.get();
+    SceneLoadResult result = job_->result.get();
+    job_.reset();
+    return result;
 }
 
 } // namespace tessera

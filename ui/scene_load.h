@@ -1,7 +1,9 @@
 #pragma once
 
+#include "render/load/load_progress.h"
 #include "render/scene/scene.h"
 
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <memory>
@@ -12,35 +14,55 @@
 
 namespace tessera {
 
-/// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it. Throws
-/// std::exception, whose what() is shown.
-using SceneLoader = std::function<std::shared_ptr<const Scene>(std::vector<std::string>& notes)>;
+/// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
+/// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose
+/// what() is shown.
+using SceneLoader =
+    std::function<std::shared_ptr<const Scene>(std::vector<std::string>& notes, LoadProgress& progress)>;
+
+/// The loader for a scene file.
+using SceneOpener = std::function<SceneLoader(const std::filesystem::path&)>;
+
+/// A scene to load, and to load again.
+struct SceneOrigin {
+    std::string name;           ///< to show
+    std::filesystem::path file; ///< empty: it is in no file
+    SceneLoader loader;
+
+    bool operator==(const SceneOrigin& other) const { return name == other.name && file == other.file; }
+};
 
 /// How a load ended.
 struct SceneLoadResult {
     std::shared_ptr<const Scene> scene; ///< null: it failed
-    std::string name;
+    SceneOrigin origin;
     std::vector<std::string> notes;
     std::string error;
     double seconds = 0; ///< wall time
 };
 
-/// One scene on its way, loaded in the background. Its end waits for the loader.
+/// One scene on its way, loaded in the background. Its end gives the scene up and waits for the loader.
 class SceneLoad {
 public:
-    /// Not while one is running. `on_done` is called from the loading thread, once poll() has a result.
-    void start(std::string name, SceneLoader loader, std::function<void()> on_done);
+    SceneLoad();
+    ~SceneLoad();
 
-    bool running() const { return result_.valid(); }
-    const std::string& name() const { return name_; }
+    /// A load under way is given up: nothing more is heard of it. `on_done` is called from the loading thread,
+    /// once poll() has a result.
+    void start(SceneOrigin origin, std::function<void()> on_done);
+
+    bool running() const { return job_ != nullptr; }
+    const SceneOrigin& origin() const; ///< only while running, as the next two
+    LoadProgress::State progress() const;
+    double seconds() const; ///< since its start
 
     /// The result, once; never waits.
     std::optional<SceneLoadResult> poll();
 
 private:
-    std::string name_;
-    std::future<SceneLoadResult> result_;
-    std::jthread thread_;
+    struct Job;
+    std::unique_ptr<Job> job_;
+    std::vector<std::unique_ptr<Job>> given_up_; // until they have ended by themselves
 };
 
 } // namespace tessera

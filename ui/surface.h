@@ -29,6 +29,8 @@ public:
     virtual void run(Viewer& viewer, const AfterFrame& after_frame) = 0;
     /// Makes run() draw a frame soon. From any thread.
     virtual void wake() = 0;
+    /// What the window is called. To be called from the thread of run().
+    virtual void set_title(const std::string& title) = 0;
     /// Of the framebuffer, pixels.
     virtual glm::ivec2 pixels() const = 0;
 };

@@ -1,10 +1,15 @@
 #include "ui/viewer.h"
 
+#include "render/load/camera_file.h"
 #include "ui/actions.h"
+#include "ui/camera_store.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <utility>
 
 #include <imgui.h>
 
@@ -24,6 +29,19 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
     return {glm::floor(min), glm::floor(min + cell)};
 }
 
+bool is_scene_file(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".xml";
+}
+
+/// Whatever way it is named.
+bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
+    std::error_code ignored;
+    return a == b || (!a.file.empty() && !b.file.empty() && std::filesystem::equivalent(a.file, b.file, ignored));
+}
+
 } // namespace
 
 Viewer::Viewer(Session& session, ViewerOptions options)
@@ -37,31 +55,70 @@ Viewer::Viewer(Session& session, ViewerOptions options)
     state_.show_panel = options_.show_panel;
 }
 
-void Viewer::load(std::string name, SceneLoader loader) {
-    load_start_ = Clock::now();
-    load_.start(std::move(name), std::move(loader), options_.wake);
+// --- loading ---
+
+void Viewer::load(std::string name, SceneLoader loader, std::filesystem::path file) {
+    asked_ = {std::move(name), std::move(file), std::move(loader)};
+    load_.start(asked_, options_.wake);
 }
 
-// --- taking in ---
+void Viewer::reload() {
+    const SceneOrigin origin = load_.running() || !state_.scene ? asked_ : shown_;
+    if (origin.loader)
+        load(origin.name, origin.loader, origin.file);
+}
+
+void Viewer::drop(const std::vector<std::filesystem::path>& files) {
+    if (files.empty() || !options_.open)
+        return;
+    const auto scene = std::find_if(files.begin(), files.end(), is_scene_file);
+    if (scene == files.end())
+        state_.add_message(Message::Kind::error, files.front().string() +
+                                                     ": this is no scene; what can be dropped here is a Mitsuba "
+                                                     "scene, an .xml file");
+    else
+        load(scene->string(), options_.open(*scene), *scene);
+}
 
 void Viewer::take_scene() {
     std::optional<SceneLoadResult> result = load_.poll();
+    state_.loading = load_.running() ? to_string(load_.progress()) : "";
     if (!result)
         return;
+    using Origin = Message::Origin;
+    state_.drop_messages(Origin::failed_load);
+    if (result->scene)
+        state_.drop_messages(Origin::scene);
     for (std::string& note : result->notes)
-        state_.add_message(Message::Kind::note, std::move(note));
-    if (!result->scene) {
-        state_.add_message(Message::Kind::error, std::move(result->error));
-        return;
-    }
-    state_.scene = std::move(result->scene);
-    state_.scene_name = std::move(result->name);
-    state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
-    state_.view.fit();
-    const int depth = std::clamp(options_.max_depth.value_or(state_.scene->max_depth()), 1, 64);
-    for (PaneState& pane : state_.panes)
-        pane.settings.render.max_depth = depth;
+        state_.add_message(Message::Kind::note, std::move(note),
+                           result->scene ? Origin::scene : Origin::failed_load);
+    if (result->scene)
+        show_scene(std::move(result->scene), result->origin);
+    else
+        state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
 }
+
+void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin) {
+    const std::shared_ptr<const Scene> before = std::exchange(state_.scene, std::move(scene));
+    const bool again = before && is_same_scene(shown_, origin);
+    shown_ = origin;
+    state_.scene_name = origin.name;
+    ++state_.scenes_shown;
+    if (!again || !(before->camera() == state_.scene->camera())) {
+        state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
+        state_.view.fit();
+    }
+    const auto depth_of = [&](const Scene& s) {
+        return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, 64);
+    };
+    for (PaneState& pane : state_.panes) {
+        int& depth = pane.settings.render.max_depth;
+        if (!again || depth == depth_of(*before)) // not one that the user has set
+            depth = depth_of(*state_.scene);
+    }
+}
+
+// --- taking in ---
 
 void Viewer::take_snapshots() {
     for (std::size_t i = 0; i < state_.panes.size(); ++i) {
@@ -76,6 +133,27 @@ void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     run_shortcuts(keyboard_.take(), io.WantTextInput, state_);
     flying_ = !io.WantTextInput && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
+}
+
+void Viewer::fulfil_wishes() {
+    if (std::exchange(state_.reload, false))
+        reload();
+    if (std::exchange(state_.save_camera, false) && state_.scene)
+        save_camera();
+    if (std::exchange(state_.copy_camera, false) && state_.scene) {
+        ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
+        state_.add_message(Message::Kind::note,
+                           "The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
+    }
+}
+
+void Viewer::save_camera() {
+    try {
+        const std::filesystem::path file = store_camera(shown_.file, state_.camera.camera());
+        state_.add_message(Message::Kind::note, "Saved the camera to " + file.string());
+    } catch (const std::exception& e) {
+        state_.add_message(Message::Kind::error, e.what());
+    }
 }
 
 // --- drawing ---
@@ -96,6 +174,7 @@ void Viewer::draw_frame() {
     }
     draw_panes(pictures);
     draw_overlays(pictures);
+    fulfil_wishes();
     send_changes();
     log_changes();
 }
@@ -115,10 +194,8 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         draw_help({display.x, display.y}, controls_, state_);
     }
-    if (load_.running()) {
-        const double seconds = std::chrono::duration<double>(Clock::now() - load_start_).count();
-        draw_loading(pictures, load_.name(), seconds);
-    }
+    if (load_.running())
+        draw_loading(pictures, load_.origin().name, load_.progress(), load_.seconds());
 }
 
 double Viewer::next_frame_in() const {

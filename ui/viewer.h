@@ -6,7 +6,7 @@
 #include "ui/pane_view.h"
 #include "ui/scene_load.h"
 
-#include <chrono>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,6 +22,7 @@ struct ViewerOptions {
     bool show_panel = true;
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
     bool log_controls = false;                   ///< also where each control lies
+    SceneOpener open;                            ///< for files dropped on the window; may be empty
     std::function<void()> wake;                  ///< called from other threads when there is something new to draw
 };
 
@@ -31,8 +32,16 @@ class Viewer {
 public:
     Viewer(Session& session, ViewerOptions options);
 
-    /// Loads a scene in the background; the old one stays until it is there. Not while one is loading.
-    void load(std::string name, SceneLoader loader);
+    /// Loads a scene in the background; the old one stays until it is there. One that is still being loaded is
+    /// given up. `file` is where it comes from, empty: from no file.
+    void load(std::string name, SceneLoader loader, std::filesystem::path file = {});
+
+    /// Loads the scene on show again: the camera stays unless the file's has changed, and so do all settings.
+    /// Where there is none yet, the one that was to be loaded last.
+    void reload();
+
+    /// Loads the first scene file among those dropped on the window.
+    void drop(const std::vector<std::filesystem::path>& files);
 
     /// Draws one frame, between Gui's begin and end. Takes in what is new, then sends what changed to the session.
     void draw_frame();
@@ -51,9 +60,11 @@ public:
 
 private:
     struct Sent; // what the session was last asked for
-    using Clock = std::chrono::steady_clock;
 
     void take_scene();
+    void show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin);
+    void fulfil_wishes();
+    void save_camera();
     void take_snapshots();
     void read_keyboard();
     void draw_panes(const ScreenRect& where);
@@ -70,7 +81,8 @@ private:
     CanvasShader shader_;
     std::vector<PaneView> pane_views_;
     SceneLoad load_;
-    Clock::time_point load_start_;
+    SceneOrigin shown_; // where the scene on show is from
+    SceneOrigin asked_; // the last that was to be loaded
     bool flying_ = false;
     ChangeLog change_log_;
 

@@ -5,7 +5,13 @@
 namespace tessera {
 
 namespace {
-constexpr std::size_t most_messages = 500;
+constexpr std::size_t most_messages = 2000;
+
+bool has_error(const std::vector<Message>& messages) {
+    return std::any_of(messages.begin(), messages.end(),
+                       [](const Message& m) { return m.kind == Message::Kind::error; });
+}
+
 } // namespace
 
 glm::ivec2 ViewerState::request_size() const {
@@ -16,11 +22,19 @@ glm::ivec2 ViewerState::request_size() const {
     return render_size(size, film, smallest);
 }
 
-void ViewerState::add_message(Message::Kind kind, std::string text) {
+void ViewerState::add_message(Message::Kind kind, std::string text, Message::Origin origin) {
     if (messages.size() >= most_messages)
         messages.erase(messages.begin());
-    messages.push_back({kind, std::move(text)});
-    show_messages = show_messages || kind == Message::Kind::error;
+    messages.push_back({kind, std::move(text), origin});
+    if (kind == Message::Kind::error)
+        show_messages = scroll_to_newest = true;
+}
+
+void ViewerState::drop_messages(Message::Origin origin) {
+    const bool errors_before = has_error(messages);
+    std::erase_if(messages, [&](const Message& m) { return m.origin == origin; });
+    if (errors_before && !has_error(messages))
+        show_messages = false;
 }
 
 void ViewerState::share_settings() {

@@ -31,8 +31,11 @@ struct PaneState {
 
 struct Message {
     enum class Kind { note, error };
+    /// What it is about: a scene's messages go when another takes its place, a failed load's at the next load.
+    enum class Origin { viewer, scene, failed_load };
     Kind kind;
     std::string text;
+    Origin origin = Origin::viewer;
 };
 
 /// Everything that panels, actions and the mouse may change. They do no more than that: the viewer compares the
@@ -40,6 +43,8 @@ struct Message {
 struct ViewerState {
     std::shared_ptr<const Scene> scene; ///< null while the first is loading
     std::string scene_name;
+    int scenes_shown = 0; ///< so far, reloaded ones counted again
+    std::string loading;  ///< what of the next scene is being loaded; empty: none is
 
     std::vector<PaneState> panes;
     int active_pane = 0;
@@ -56,9 +61,13 @@ struct ViewerState {
     bool show_help = false;
     bool show_messages = false;
     std::vector<Message> messages;
+    bool scroll_to_newest = false; ///< the list is to show its end
 
     // Wishes, cleared by who fulfils them.
     bool restart = false;
+    bool reload = false;
+    bool save_camera = false;
+    bool copy_camera = false;
     bool save_picture = false;
     bool quit = false;
 
@@ -68,8 +77,11 @@ struct ViewerState {
     /// The size that all panes are to render, pixels.
     glm::ivec2 request_size() const;
 
-    /// Adds a message; an error opens the list.
-    void add_message(Message::Kind kind, std::string text);
+    /// Adds a message; an error opens the list at its end.
+    void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
+
+    /// Takes away the messages of that origin. Closes the list if that leaves no error of some.
+    void drop_messages(Message::Origin origin);
 
     /// Gives the active pane's settings to all panes, if they are linked. Each keeps its method and buffer.
     void share_settings();

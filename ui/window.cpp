@@ -79,6 +79,7 @@ public:
 
     void run(Viewer& viewer, const AfterFrame& after_frame) override;
     void wake() override;
+    void set_title(const std::string& title) override;
     glm::ivec2 pixels() const override;
 
 private:
@@ -88,6 +89,7 @@ private:
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_character(GLFWwindow* window, unsigned character);
     static void on_focus(GLFWwindow* window, int focused);
+    static void on_drop(GLFWwindow* window, int count, const char** paths);
     void input_came() { frames_due_ = frames_after_input; }
 
     GLFWwindow* window_ = nullptr;
@@ -95,7 +97,7 @@ private:
     bool backend_ready_ = false;
     float fixed_scale_ = 0;
     float wanted_scale_ = 1;
-    Keyboard* keyboard_ = nullptr; // of the viewer that runs
+    Viewer* viewer_ = nullptr; // while it runs
     int frames_due_ = frames_after_input;
     double last_frame_ = 0;
     std::atomic<bool> woken_{false};
@@ -144,6 +146,7 @@ void Window::install_callbacks() {
     glfwSetKeyCallback(window_, on_key);
     glfwSetCharCallback(window_, on_character);
     glfwSetWindowFocusCallback(window_, on_focus);
+    glfwSetDropCallback(window_, on_drop);
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { of(w).input_came(); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { of(w).input_came(); });
@@ -160,13 +163,14 @@ void Window::install_callbacks() {
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
     Window& self = of(window);
     self.input_came();
-    if (self.keyboard_ == nullptr)
+    if (self.viewer_ == nullptr)
         return;
+    Keyboard& keyboard = self.viewer_->keyboard();
     if (action == GLFW_RELEASE)
-        self.keyboard_->release(key_of_glfw(key));
+        keyboard.release(key_of_glfw(key));
     else if (action == GLFW_PRESS)
-        self.keyboard_->press(key_of_glfw(key), named_key(key, scancode), (mods & GLFW_MOD_CONTROL) != 0,
-                              (mods & GLFW_MOD_SHIFT) != 0);
+        keyboard.press(key_of_glfw(key), named_key(key, scancode), (mods & GLFW_MOD_CONTROL) != 0,
+                       (mods & GLFW_MOD_SHIFT) != 0);
 }
 
 void Window::on_character(GLFWwindow* window, unsigned character) {
@@ -174,15 +178,26 @@ void Window::on_character(GLFWwindow* window, unsigned character) {
     self.input_came();
     const bool punctuation =
         character > ' ' && character < 127 && key_of_character(static_cast<char>(character)) == Key::none;
-    if (self.keyboard_ != nullptr && punctuation)
-        self.keyboard_->type(static_cast<char>(character));
+    if (self.viewer_ != nullptr && punctuation)
+        self.viewer_->keyboard().type(static_cast<char>(character));
 }
 
 void Window::on_focus(GLFWwindow* window, int focused) {
     Window& self = of(window);
     self.input_came();
-    if (self.keyboard_ != nullptr && focused == GLFW_FALSE)
-        self.keyboard_->release_all();
+    if (self.viewer_ != nullptr && focused == GLFW_FALSE)
+        self.viewer_->keyboard().release_all();
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
+    Window& self = of(window);
+    self.input_came();
+    if (self.viewer_ != nullptr)
+        self.viewer_->drop({paths, paths + count});
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
 }
 
 void Window::wake() {
@@ -212,7 +227,7 @@ void Window::wait_until_due(double next_frame_in) {
 }
 
 void Window::run(Viewer& viewer, const AfterFrame& after_frame) {
-    keyboard_ = &viewer.keyboard();
+    viewer_ = &viewer;
     last_frame_ = glfwGetTime() - frame_seconds;
     while (!glfwWindowShouldClose(window_) && !viewer.state().quit) {
         const double before = last_frame_;
@@ -237,7 +252,7 @@ void Window::run(Viewer& viewer, const AfterFrame& after_frame) {
             break;
         glfwSwapBuffers(window_);
     }
-    keyboard_ = nullptr;
+    viewer_ = nullptr;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/parallel.h"
+#include "render/load/load_progress.h"
 #include "render/load/xml_document.h"
 
 #include <functional>
@@ -16,8 +17,9 @@ public:
     /// the file: messages point at its value.
     void add(const XmlElement& where, std::function<std::string()> read);
 
-    /// Runs all jobs. Throws LoadError for the first in order of the file that failed.
-    void run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes) const;
+    /// Runs all jobs. Throws LoadError for the first in order of the file that failed, std::runtime_error if the
+    /// scene is given up on the way.
+    void run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes, LoadProgress& progress) const;
 
 private:
     struct Job {

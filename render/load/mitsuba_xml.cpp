@@ -119,8 +119,11 @@ void note_encodings(const std::vector<const XmlDocument*>& documents, std::vecto
 }
 
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
-                 const SceneVariables& variables, const ParallelFor& parallel_for) {
+                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* watched) {
     const Stopwatch parsing;
+    LoadProgress unwatched;
+    LoadProgress& progress = watched ? *watched : unwatched;
+    progress.begin(LoadProgress::Stage::xml);
     LoadContext context;
     XmlDocument document(std::move(text), name, std::move(folder));
     context.files = FileSearch(&document);
@@ -136,7 +139,7 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     LoadedScene result;
     result.parse_seconds = parsing.seconds();
     const Stopwatch reading;
-    context.jobs.run(parallel_for, context.notes);
+    context.jobs.run(parallel_for, context.notes, progress);
     result.file_seconds = reading.seconds();
     order_notes(context.notes, document.documents());
     result.description = std::move(context.scene);
@@ -147,13 +150,13 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
 } // namespace
 
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables,
-                             const ParallelFor& parallel_for) {
-    return load(read_text(file), file.string(), file.parent_path(), variables, parallel_for);
+                             const ParallelFor& parallel_for, LoadProgress* progress) {
+    return load(read_text(file), file.string(), file.parent_path(), variables, parallel_for, progress);
 }
 
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables,
-                              const ParallelFor& parallel_for) {
-    return load(std::string(xml), name, {}, variables, parallel_for);
+                              const ParallelFor& parallel_for, LoadProgress* progress) {
+    return load(std::string(xml), name, {}, variables, parallel_for, progress);
 }
 
 } // namespace tessera

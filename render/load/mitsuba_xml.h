@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/parallel.h"
+#include "render/load/load_progress.h"
 #include "render/load/messages.h"
 #include "render/scene/scene.h"
 
@@ -23,12 +24,13 @@ struct LoadedScene {
 using SceneVariables = std::map<std::string, std::string>;
 
 /// Reads a Mitsuba scene (0.6 or 3.x syntax) with the files that it includes. Paths are relative to the folder of
-/// the file that they stand in; see FileSearch. Throws LoadError with file, line and column.
+/// the file that they stand in; see FileSearch. Tells `progress`, if it is not null, how far it is. Throws LoadError
+/// with file, line and column; std::runtime_error if the scene is given up on the way.
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
-                             const ParallelFor& parallel_for = serial_for);
+                             const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
 /// The same for a scene in memory, which has no files beside it; `name` stands in messages.
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables = {},
-                              const ParallelFor& parallel_for = serial_for);
+                              const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
 } // namespace tessera

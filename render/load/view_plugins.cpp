@@ -1,7 +1,6 @@
 #include "render/load/view_plugins.h"
 
 #include "render/load/numbers.h"
-#include "render/load/plugin_table.h"
 
 #include <cmath>
 
@@ -16,16 +15,11 @@ constexpr int unlimited_depth = 65;
 constexpr int largest_film = 16384; // pixels a side
 
 FovAxis fov_axis_parameter(Properties& p) {
-    static constexpr Plugin<FovAxis> axes[] = {{"x", FovAxis::x},
-                                               {"y", FovAxis::y},
-                                               {"diagonal", FovAxis::diagonal},
-                                               {"smaller", FovAxis::smaller},
-                                               {"larger", FovAxis::larger}};
     const std::string name = p.text("fov_axis", "x");
-    const auto* axis = find_plugin(axes, name);
+    const auto axis = fov_axis_from_name(name);
     if (!axis)
         p.take("fov_axis")->fail("'" + name + "' is no axis: x, y, diagonal, smaller or larger", "value");
-    return axis->read;
+    return *axis;
 }
 
 /// "50mm", on 35 mm film: across the diagonal of 36 by 24 mm.

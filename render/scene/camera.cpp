@@ -1,6 +1,8 @@
 #include "render/scene/camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -27,7 +29,20 @@ float half_width(float fov, FovAxis axis, float aspect) {
     return t;
 }
 
+constexpr std::string_view axis_names[] = {"x", "y", "diagonal", "smaller", "larger"};
+
 } // namespace
+
+std::string_view to_string(FovAxis axis) {
+    return axis_names[static_cast<std::size_t>(axis)];
+}
+
+std::optional<FovAxis> fov_axis_from_name(std::string_view name) {
+    const auto found = std::find(std::begin(axis_names), std::end(axis_names), name);
+    if (found == std::end(axis_names))
+        return {};
+    return static_cast<FovAxis>(found - std::begin(axis_names));
+}
 
 Projection::Projection(const Camera& camera, glm::ivec2 size) : origin_(camera.to_world[3]) {
     const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);

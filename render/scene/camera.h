@@ -2,6 +2,9 @@
 
 #include "render/trace/ray.h"
 
+#include <optional>
+#include <string_view>
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -9,6 +12,11 @@
 namespace tessera {
 
 enum class FovAxis { x, y, diagonal, smaller, larger };
+
+/// As in Mitsuba's "fov_axis".
+std::string_view to_string(FovAxis axis);
+/// Nothing: there is none of that name.
+std::optional<FovAxis> fov_axis_from_name(std::string_view name);
 
 /// A pinhole with Mitsuba's conventions: looks along +z of `to_world`, +y is up, +x is to the left.
 struct Camera {

@@ -4,6 +4,7 @@
 #include "render/scene/texture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -32,6 +33,12 @@ bool is_sound(glm::vec3 v) {
 
 void on_error(void*, RTCError code, const char* text) {
     throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " + (text ? text : ""));
+}
+
+/// Embree tells what it is about to allocate, and what it has freed.
+bool count_bytes(void* sum, ssize_t bytes, bool) {
+    *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
+    return true;
 }
 
 RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
@@ -188,6 +195,7 @@ float extent(const std::vector<Shape>& shapes) {
 } // namespace
 
 struct Intersector::Impl {
+    std::atomic<std::ptrdiff_t> bytes = 0; // written by the threads that build
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<Mask>> masks; // Embree has their addresses
@@ -212,6 +220,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
     if (!impl_->device)
         throw std::runtime_error("Embree did not start");
     rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
+    rtcSetDeviceMemoryMonitorFunction(impl_->device, count_bytes, &impl_->bytes);
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -248,6 +257,10 @@ bool Intersector::occluded(const Segment& segment) const {
     RTCRay ray = make_ray(segment.from, segment.to - segment.from, 1);
     test_occluded(impl_->scene, ray);
     return ray.tfar < 0;
+}
+
+std::size_t Intersector::bytes() const {
+    return impl_ ? static_cast<std::size_t>(std::max<std::ptrdiff_t>(impl_->bytes, 0)) : 0;
 }
 
 void Intersector::occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {

@@ -52,6 +52,9 @@ public:
 
     bool occluded(const Segment& segment) const;
 
+    /// What Embree holds: the BVH and its own copy of the triangles.
+    std::size_t bytes() const;
+
     /// A point moved off its surface by some hundred units in the last place, toward the side of `direction`: the
     /// end of a ray that must not meet the surface itself (after [Waechter and Binder, Ray Tracing Gems, ch. 6],
     /// with steps in proportion to the scene, so that its units do not matter). A hit's position has an error of

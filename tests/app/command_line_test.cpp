@@ -1,6 +1,9 @@
 // The program as a user meets it: bad input gets one clear message and exit code 2, and leaves no file behind.
+#include "render/load/camera_file.h"
 #include "render/load/exr.h"
+#include "render/load/mitsuba_xml.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -187,10 +190,70 @@ TEST_F(CommandLine, WithoutADisplayThereIsAPicture) {
 }
 
 TEST_F(CommandLine, InfoTellsWhatIsThere) {
-    const Outcome o = run(folder_, "info box.xml");
+    write("odd.xml", "<scene version=\"3.0.0\">\n<bsdf type='velvet' id='a'/>\n<bsdf type='velvet' id='b'/>\n"
+                     "<shape type='cube'><bsdf type='dielectric'/></shape></scene>");
+    const Outcome o = run(folder_, "info odd.xml");
     ASSERT_EQ(o.exit_code, 0);
-    for (const char* word : {"shapes", "triangles", "materials", "lights", "film", "seconds"})
-        EXPECT_NE(o.output.find(word), std::string::npos) << word;
+    for (const char* word :
+         {"shapes     1\n", "triangles  12\n", "materials", "textures", "lights", "film", "seconds", "XML",
+          "memory", "MB BVH", "delta lobes      1 material\n", "transmission     1 material\n",
+          "glossy below 0.1 none\n", "relief           none\n", "masks            none\n",
+          "environment      none\n",
+          "odd.xml:2:1: the bsdf 'velvet' is not known; diffuse magenta stands for it (also at 3:1)\n"})
+        EXPECT_NE(o.output.find(word), std::string::npos) << word << "\n" << o.output;
+    EXPECT_EQ(run(folder_, "info box.xml").output.find("\x1b"), std::string::npos) << "a bar where no terminal is";
+}
+
+TEST_F(CommandLine, CameraFileReplacesTheScenesCamera) {
+    Camera own = load_mitsuba_xml(box_).description.camera;
+    write_camera(folder_ / "own.json", own);
+    own.fov *= 0.5f;
+    write_camera(folder_ / "near.json", own);
+    const std::string render = "render box.xml -m pt --size 24x16 --spp 1 ";
+    ASSERT_EQ(run(folder_, render + "-o plain.exr").exit_code, 0);
+    ASSERT_EQ(run(folder_, render + "--camera own.json -o own.exr").exit_code, 0);
+    ASSERT_EQ(run(folder_, render + "--camera near.json -o near.exr").exit_code, 0);
+    const auto same = [&](const char* a, const char* b) {
+        const RgbImage one = read_exr(folder_ / a).layers.at(0).image,
+                       two = read_exr(folder_ / b).layers.at(0).image;
+        return std::equal(one.begin(), one.end(), two.begin());
+    };
+    EXPECT_TRUE(same("plain.exr", "own.exr"));
+    EXPECT_FALSE(same("plain.exr", "near.exr"));
+    const Outcome plain = run(folder_, "info box.xml"), with = run(folder_, "info box.xml --camera near.json");
+    EXPECT_EQ(with.exit_code, 0);
+    EXPECT_EQ(std::count(with.output.begin(), with.output.end(), '\n'),
+              std::count(plain.output.begin(), plain.output.end(), '\n'));
+    EXPECT_EQ(run(folder_, "view box.xml --camera near.json --size 24x16 --seconds 0.1").exit_code, 0);
+}
+
+// What each field may be is tested with the reader; here, that every command ends with its message.
+TEST_F(CommandLine, BadCameraFilesGetAMessageAndExitCode2) {
+    const std::string unit = "\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"", "c.json:1:1: the JSON is broken: unexpected end of input"},
+        {"{\n  \"fov\": 40,\n}", "c.json:3:1: the JSON is broken"},
+        {"{\"fov\": nan}", "c.json:1:10: the JSON is broken: invalid literal\n"},
+        {"[]", "c.json:1:1: a camera file holds one object"},
+        {"{\"fov\": 40}", "c.json:1:1: the camera has no 'to_world'"},
+        {"{" + unit + "}", "c.json:1:1: the camera has no 'fov'"},
+        {"{" + unit + ",\n \"fov\": \"wide\"}", "c.json:2:2: 'fov' must be made of numbers, not of string"},
+        {"{" + unit + ",\n \"fov\": 180}", "c.json:2:2: the field of view must be between 0 and 180 degrees"},
+        {"{" + unit + ",\n \"fov\": 40, \"zoom\": 2}", "c.json:2:13: a camera has no field 'zoom'"},
+        {"{\"fov\": 40, \"to_world\": [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]}", "the camera's transform is flat"},
+    };
+    for (const auto& [json, expected] : cases) {
+        write("c.json", json);
+        for (const char* command :
+             {"render box.xml --spp 1 --size 16x16 -o out.exr", "info box.xml", "view box.xml"}) {
+            const Outcome o = run(folder_, std::string(command) + " --camera c.json");
+            EXPECT_EQ(o.exit_code, 2) << json << "\n" << o.output;
+            EXPECT_NE(o.output.find(expected), std::string::npos) << json << "\n" << o.output;
+        }
+        EXPECT_FALSE(fs::exists(folder_ / "out.exr"));
+    }
+    EXPECT_NE(run(folder_, "info box.xml --camera none.json").output.find("none.json: cannot open"),
+              std::string::npos);
 }
 
 } // namespace

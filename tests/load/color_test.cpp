@@ -29,7 +29,7 @@ Rgb color(const std::string& element) {
 Rgb radiance(const std::string& element) {
     const LoadedScene loaded =
         parse("<shape type='rectangle'><emitter type='area'>" + element + "</emitter></shape>");
-    return loaded.description.area_lights.at(0).radiance;
+    return loaded.description.area_lights.at(0).radiance.mean();
 }
 
 void expect_near(Rgb a, Rgb b, float tolerance) {

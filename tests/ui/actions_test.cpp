@@ -79,6 +79,13 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     EXPECT_TRUE(state.quit);
     type(state, {Key::s, true, false, 0});
     EXPECT_TRUE(state.save_picture);
+    type(state, key(Key::f5));
+    EXPECT_TRUE(state.reload);
+    type(state, key(Key::k));
+    EXPECT_TRUE(state.save_camera);
+    EXPECT_FALSE(state.copy_camera);
+    type(state, {Key::k, false, true, 0});
+    EXPECT_TRUE(state.copy_camera);
     type(state, key(Key::p));
     EXPECT_FALSE(state.show_panel);
     type(state, key(Key::f2));
@@ -185,6 +192,34 @@ TEST(Actions, CameraGoesHomeAndFliesWithKeys) {
     EXPECT_GT(state.camera.forward().x, 0); // the left of a camera without a turn is +x
     type(state, key(Key::home));
     EXPECT_EQ(state.camera.position(), glm::vec3(0));
+}
+
+TEST(Messages, OfAnOriginGoTogetherAndTakeTheListWithThem) {
+    using Kind = Message::Kind;
+    using Origin = Message::Origin;
+    ViewerState state = two_panes();
+    state.add_message(Kind::note, "of the viewer");
+    state.add_message(Kind::note, "of the scene", Origin::scene);
+    EXPECT_FALSE(state.show_messages);
+    state.add_message(Kind::error, "of a load", Origin::failed_load);
+    EXPECT_TRUE(state.show_messages);
+    state.drop_messages(Origin::scene);
+    EXPECT_TRUE(state.show_messages); // there is an error yet
+    state.drop_messages(Origin::failed_load);
+    EXPECT_FALSE(state.show_messages);
+    ASSERT_EQ(state.messages.size(), 1u);
+    EXPECT_EQ(state.messages[0].text, "of the viewer");
+    state.show_messages = true; // by hand, to read notes
+    state.drop_messages(Origin::scene);
+    EXPECT_TRUE(state.show_messages);
+}
+
+TEST(Messages, OldestGoWhenThereAreTooMany) {
+    ViewerState state = two_panes();
+    for (int i = 0; i < 5000; ++i)
+        state.add_message(Message::Kind::note, std::to_string(i));
+    EXPECT_LE(state.messages.size(), 2000u);
+    EXPECT_EQ(state.messages.back().text, "4999");
 }
 
 TEST(Actions, FitUndoesZoom) {

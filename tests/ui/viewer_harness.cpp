@@ -61,7 +61,7 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
 }
 
 void ViewerHarness::load_scene() {
-    viewer.load("a room", [](std::vector<std::string>&) { return viewer_scene(); });
+    viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
     wait_until([&] {
         return pane(0).snapshot && pane(1).snapshot && !pane(0).snapshot->coarse && !pane(1).snapshot->coarse;
     });

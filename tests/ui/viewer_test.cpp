@@ -29,7 +29,7 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
     ViewerHarness h;
     h.frames(3);
     std::atomic<bool> go{false};
-    h.viewer.load("a slow one", [&](std::vector<std::string>&) {
+    h.viewer.load("a slow one", [&](std::vector<std::string>&, LoadProgress&) {
         while (!go)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return viewer_scene();
@@ -41,6 +41,7 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
     EXPECT_LE(h.viewer.next_frame_in(), 0.1);
     EXPECT_EQ(h.pane(0).generation, 0u);
     h.save("loading.png");
+    EXPECT_EQ(h.state().loading, "scene file");
     go = true;
     h.wait_until([&] { return h.state().scene != nullptr; });
     EXPECT_EQ(h.state().scene_name, "a slow one");
@@ -51,10 +52,11 @@ TEST(Viewer, OldSceneStaysWhenTheNextFails) {
     ViewerHarness h;
     h.load_scene();
     const auto scene = h.state().scene;
-    h.viewer.load("broken.xml", [](std::vector<std::string>& notes) -> std::shared_ptr<const Scene> {
-        notes.push_back("line 3: ignored");
-        throw std::runtime_error("broken.xml:7:3: no such thing");
-    });
+    h.viewer.load("broken.xml",
+                  [](std::vector<std::string>& notes, LoadProgress&) -> std::shared_ptr<const Scene> {
+                      notes.push_back("line 3: ignored");
+                      throw std::runtime_error("broken.xml:7:3: no such thing");
+                  });
     h.wait_until([&] { return !h.viewer.loading(); });
     h.frames(3);
     EXPECT_EQ(h.state().scene, scene);

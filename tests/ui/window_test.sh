@@ -4,8 +4,9 @@
 #   window_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
-tessera=$1
+tessera=$(realpath "$1")
 pictures=${2:-}
+assets=$(realpath "$(dirname "$0")/../../assets")
 
 if [ -z "${TESSERA_WINDOW_TEST_INSIDE:-}" ]; then
     for program in xvfb-run xdotool import convert; do
@@ -144,6 +145,41 @@ kill -0 $viewer 2>/dev/null && fail "does not quit"
 wait $viewer
 code=$?
 [ $code -eq 0 ] || fail "exit code $code: $(cat "$work/errors")"
+
+# A scene file: reloaded, broken and mended; the window is named after it, and the camera saved beside it.
+scene=$work/box.xml
+cp "$assets/cornell-box.xml" "$scene"
+"$tessera" view "$scene" --log-actions >"$log" 2>"$work/errors" &
+viewer=$!
+wait_for '^scenes shown 1$'
+wait_for '^time picture '
+xdotool search --name "^Tessera - $scene\$" >/dev/null || fail "the window is not named after the scene"
+xdotool mousemove 300 300
+from=$(next_line)
+xdotool keydown w sleep 0.3 keyup w
+wait_for '^camera ' "$from"
+sleep 0.3
+from=$(next_line)
+xdotool key F5
+wait_for '^scenes shown 2$' "$from"
+wait_for '^pane 1 generation ' "$from"
+tail -n "+$from" "$log" | grep -q '^camera ' && fail "the camera has moved by itself"
+sed -i 's/<scene/<scone/' "$scene"
+from=$(next_line)
+xdotool key F5
+wait_for '^messages 1$' "$from"
+sleep 0.3
+import -window root "$work/broken.png" && keep "$work/broken.png"
+sed -i 's/<scone/<scene/' "$scene"
+from=$(next_line)
+xdotool key F5
+wait_for '^scenes shown 3$' "$from"
+wait_for '^messages 0$' "$from"
+xdotool key k
+wait_for '^messages 1$' "$from"
+grep -q to_world "$work/box-camera.json" || fail "no camera was saved"
+xdotool key ctrl+q
+wait $viewer || fail "exit code $?: $(cat "$work/errors")"
 
 # The program's own picture, in a window and without any display.
 "$tessera" view --screenshot "$work/own.png" --spp 4 || fail "no screenshot"

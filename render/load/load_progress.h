@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+namespace tessera {
+
+/// How far the loading of a scene is, and whether it is still wanted. The threads that load write it, any may read
+/// it.
+class LoadProgress {
+public:
+    enum class Stage { xml, files, bvh };
+    struct State {
+        Stage stage = Stage::xml;
+        int done = 0;
+        int total = 0; ///< of the stage's steps; 0: it has none that can be counted
+        bool operator==(const State&) const = default;
+    };
+
+    void begin(Stage stage, int total = 0);
+    void step(); ///< one of the stage's steps is done
+    State state() const;
+
+    /// Asks the loader to end with an exception at the next file.
+    void give_up() { given_up_ = true; }
+    bool given_up() const { return given_up_; }
+    /// Throws std::runtime_error if the scene is wanted no more.
+    void check_wanted() const;
+
+private:
+    mutable std::mutex mutex_;
+    State state_;
+    std::atomic<bool> given_up_ = false;
+};
+
+/// "scene file", "meshes and textures, 3 of 80", "BVH".
+std::string to_string(const LoadProgress::State& state);
+
+} // namespace tessera

@@ -1,0 +1,128 @@
+#include "render/scene/traits.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tessera {
+
+namespace {
+
+constexpr float glossy_alpha = 0.1f; // microfacet roughness below which a lobe is called glossy
+
+template <class... Ts>
+struct Overloaded : Ts... {
+    using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+float least_red(const Bitmap& bitmap) {
+    float least = std::numeric_limits<float>::max();
+    for (int y = 0; y < bitmap.height; ++y)
+        for (int x = 0; x < bitmap.width; ++x)
+            least = std::min(least, bitmap.texel(x, y).r);
+    return least;
+}
+
+/// The least value of the red channel anywhere on the texture.
+float least_red(const Texture& texture) {
+    const float least =
+        std::visit(Overloaded{[](const Rgb& constant) { return constant.r; },
+                              [](const BitmapTexture& b) { return b.bitmap ? least_red(*b.bitmap) : 0.0f; },
+                              [](const CheckerboardTexture& c) { return std::min(c.color0.r, c.color1.r); },
+                              [](const VertexColorTexture&) { return 0.0f; }},
+                   texture.kind);
+    return texture.is_constant() ? least : least * texture.scale;
+}
+
+/// The lobes of one material.
+struct Lobes {
+    bool delta = false;
+    bool glossy = false;
+    bool transmission = false;
+};
+
+/// Microfacets whose alpha is constant or reaches down to `least`.
+Lobes microfacet_lobes(float least, bool constant) {
+    const bool delta = least <= 0;
+    return {delta, least < glossy_alpha && !(delta && constant), false};
+}
+
+Lobes lobes_of(const Material& m);
+
+Lobes lobes(const DiffuseMaterial&) {
+    return {};
+}
+Lobes lobes(const ConductorMaterial& m) {
+    return microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
+}
+Lobes lobes(const DielectricMaterial& m) {
+    Lobes all = m.thin ? Lobes{true} : microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
+    all.transmission = true;
+    return all;
+}
+Lobes lobes(const PlasticMaterial& m) {
+    return microfacet_lobes(m.facets.alpha, true);
+}
+
+Lobes lobes(const PhongMaterial&) {
+    return {}; // its base is diffuse
+}
+Lobes lobes(const MixtureMaterial& m) {
+    Lobes all;
+    for (const auto& part : m.parts) {
+        const Lobes l = lobes_of(*part);
+        all = {all.delta || l.delta, all.glossy || l.glossy, all.transmission || l.transmission};
+    }
+    return all;
+}
+Lobes lobes(const CoatedMaterial& m) {
+    Lobes all = lobes_of(*m.base);
+    all.delta = true; // the coating's own
+    return all;
+}
+
+Lobes lobes_of(const Material& m) {
+    return std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
+}
+
+bool is_mask(const Material& m) {
+    return m.opacity && !(m.opacity->is_constant() && std::get<Rgb>(m.opacity->kind) == Rgb(1));
+}
+
+bool looks_up_vertex_colors(const Material& m) {
+    const std::vector<const Texture*> all = m.textures();
+    return std::any_of(all.begin(), all.end(),
+                       [](const Texture* t) { return std::holds_alternative<VertexColorTexture>(t->kind); });
+}
+
+void add(const Material& m, SceneTraits& traits) {
+    const Lobes l = lobes_of(m);
+    traits.delta_lobes += l.delta;
+    traits.glossy_lobes += l.glossy;
+    traits.transmission += l.transmission;
+    traits.textures += m.is_textured();
+    traits.vertex_colors += looks_up_vertex_colors(m);
+    traits.relief += m.relief.has_value();
+    traits.masks += is_mask(m);
+}
+
+} // namespace
+
+SceneTraits traits_of(const SceneDescription& scene) {
+    SceneTraits traits;
+    std::vector<bool> used(scene.materials.size());
+    for (const Shape& shape : scene.shapes) {
+        used[static_cast<std::size_t>(shape.material)] = true;
+        traits.shading_normals += !shape.mesh.normals.empty();
+        traits.area_lights += shape.area_light >= 0;
+    }
+    traits.point_lights = static_cast<int>(scene.point_lights.size() + scene.directional_lights.size());
+    traits.environment = !scene.environment.empty();
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i])
+            add(scene.materials[i], traits);
+    return traits;
+}
+
+} // namespace tessera

@@ -1,0 +1,162 @@
+#include "render/load/camera_file.h"
+#include "render/load/messages.h"
+#include "render/load/mitsuba_xml.h"
+#include "tests/load/temporary_folder.h"
+
+#include <bit>
+#include <cstdint>
+#include <random>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+struct Broken {
+    const char* name;
+    const char* json;
+    const char* message; // after "c.json"
+};
+
+constexpr const char* matrix = "1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1";
+
+// M stands for the unit matrix.
+constexpr Broken broken_cameras[] = {
+    {"empty", "", ":1:1: the JSON is broken: unexpected end of input"},
+    {"not closed", "{\n  \"fov\": 40,\n", ":3:1: the JSON is broken: unexpected end of input"},
+    {"no comma", "{\n  \"fov\": 40\n  \"to_world\": [M]}", ":3:12: the JSON is broken: unexpected string literal"},
+    {"NaN", "{\"fov\": NaN}", ":1:9: the JSON is broken: invalid literal"},
+    {"text behind", "{\"fov\": 40, \"to_world\": [M]} x", "the JSON is broken: invalid literal"},
+    {"a list", "[1, 2]", ":1:1: a camera file holds one object {...}, not array"},
+    {"nothing in it", "{}", ":1:1: the camera has no 'to_world'"},
+    {"no fov", "{\"to_world\": [M]}", ":1:1: the camera has no 'fov'"},
+    {"no matrix", "{\"fov\": 40}", ":1:1: the camera has no 'to_world'"},
+    {"unknown field", "{\"fov\": 40,\n \"tow_orld\": [M]}", ":2:2: a camera has no field 'tow_orld'"},
+    {"a number for a matrix", "{\"to_world\": 1, \"fov\": 40}", ":1:2: 'to_world' must be 16 numbers, not number"},
+    {"short matrix", "{\"to_world\": [1, 0, 0], \"fov\": 40}", ":1:2: 'to_world' must be 16 numbers; here are 3"},
+    {"nested matrix", "{\"to_world\": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], \"fov\": 40}",
+     ":1:2: 'to_world' must be 16 numbers; here are 4"},
+    {"words in a matrix", "{\"to_world\": [\"1\",0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: 'to_world' must be made of numbers, not of string"},
+    {"null in a matrix", "{\"to_world\": [null,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: 'to_world' must be made of numbers, not of null"},
+    {"beyond floats", "{\"to_world\": [1e39,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: 'to_world' has a number that is too large"},
+    {"beyond doubles", "{\"to_world\": [M],\n \"fov\": 1e999}", ":2:9: the number 1e999 is too large"},
+    {"column by column", "{\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 3,4,5,1], \"fov\": 40}",
+     ":1:2: the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row"},
+    {"singular", "{\"to_world\": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: the camera's transform is flat"},
+    {"nearly singular", "{\"to_world\": [0.1,0.2,0.3,0, 0.3,0.6,0.9,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: the camera's transform is flat"},
+    {"all zero", "{\"to_world\": [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1], \"fov\": 40}",
+     ":1:2: the camera's transform is flat"},
+    {"no angle", "{\"to_world\": [M],\n \"fov\": 0}", ":2:2: the field of view must be between 0 and 180 degrees"},
+    {"too wide", "{\"to_world\": [M],\n \"fov\": 180}",
+     ":2:2: the field of view must be between 0 and 180 degrees"},
+    {"fov in words", "{\"to_world\": [M], \"fov\": \"40\"}", "'fov' must be made of numbers, not of string"},
+    {"unknown axis", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": \"z\"}",
+     ":2:1: 'fov_axis' must be \"x\", \"y\""},
+    {"axis that is a number", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": 1}", ":2:1: 'fov_axis' must be"},
+};
+
+TEST(CameraFile, BrokenOnesGetAMessageWithTheirPlace) {
+    for (const Broken& b : broken_cameras) {
+        std::string json = b.json;
+        if (const std::size_t m = json.find('M'); m != std::string::npos)
+            json.replace(m, 1, matrix);
+        try {
+            parse_camera(json, "c.json");
+            ADD_FAILURE() << b.name << ": was read";
+        } catch (const LoadError& e) {
+            EXPECT_NE(std::string(e.what()).find(b.message), std::string::npos) << b.name << ": " << e.what();
+            EXPECT_EQ(std::string(e.what()).rfind("c.json:", 0), 0u) << b.name << ": " << e.what();
+        }
+    }
+}
+
+TEST(CameraFile, MessagesShowTheLineWithACaret) {
+    try {
+        parse_camera("{\n  \"fov\": 40,,\n}", "c.json");
+        FAIL();
+    } catch (const LoadError& e) {
+        EXPECT_NE(std::string(e.what()).find("\n      \"fov\": 40,,\n                ^"), std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(CameraFile, AbsentOnesAndFolders) {
+    const TemporaryFolder folder;
+    EXPECT_THROW(read_camera(folder.path()), LoadError);
+    EXPECT_THROW(read_camera(folder.path() / "none.json"), LoadError);
+}
+
+Camera random_camera(std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    Camera camera;
+    camera.to_world = glm::translate(glm::mat4(1), 100.0f * vector());
+    camera.to_world = glm::rotate(camera.to_world, 3 * unit(random), vector());
+    camera.to_world = glm::scale(camera.to_world, {-1, 1, 1}); // as many exporters' cameras
+    camera.fov = 90 + 80 * unit(random);
+    camera.fov_axis = static_cast<FovAxis>(random() % 5);
+    return camera;
+}
+
+bool same_bits(const Camera& a, const Camera& b) {
+    for (int i = 0; i < 16; ++i)
+        if (std::bit_cast<std::uint32_t>(a.to_world[i / 4][i % 4]) !=
+            std::bit_cast<std::uint32_t>(b.to_world[i / 4][i % 4]))
+            return false;
+    return std::bit_cast<std::uint32_t>(a.fov) == std::bit_cast<std::uint32_t>(b.fov) && a.fov_axis == b.fov_axis;
+}
+
+TEST(CameraFile, ComesBackBitByBit) {
+    const TemporaryFolder folder;
+    std::mt19937 random(7);
+    for (int i = 0; i < 1000; ++i) {
+        Camera camera = random_camera(random);
+        camera.to_world[3].x = i == 0 ? -0.0f : camera.to_world[3].x;
+        camera.to_world[3].y = i == 1 ? 1e-42f : camera.to_world[3].y;
+        camera.to_world[3].z = i == 2 ? 16777216.0f : camera.to_world[3].z;
+        EXPECT_TRUE(same_bits(parse_camera(camera_json(camera), "c.json"), camera)) << camera_json(camera);
+    }
+    const Camera camera = random_camera(random);
+    write_camera(folder.path() / "c.json", camera);
+    EXPECT_TRUE(same_bits(read_camera(folder.path() / "c.json"), camera));
+    int files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        ++files;
+    EXPECT_EQ(files, 1) << "a temporary file stays";
+    EXPECT_THROW(write_camera(folder.path() / "no/such/folder/c.json", camera), std::exception);
+}
+
+TEST(CameraFile, AxisIsXIfItIsNotNamed) {
+    std::string json = R"({"fov": 40, "to_world": [M]})";
+    json.replace(json.find('M'), 1, matrix);
+    EXPECT_EQ(parse_camera(json, "c.json").fov_axis, FovAxis::x);
+}
+
+TEST(CameraFile, XmlIsTheSameCameraInASceneFile) {
+    std::mt19937 random(11);
+    for (int i = 0; i < 100; ++i) {
+        const Camera camera = random_camera(random);
+        const std::string xml =
+            "<scene version='3.0.0'><sensor type='perspective'>" + camera_xml(camera) + "</sensor></scene>";
+        const LoadedScene loaded = parse_mitsuba_xml(xml, "s.xml");
+        EXPECT_TRUE(loaded.notes.empty());
+        const Camera& read = loaded.description.camera;
+        EXPECT_EQ(read.fov_axis, camera.fov_axis);
+        EXPECT_NEAR(read.fov, camera.fov, 1e-6f * camera.fov);
+        for (int j = 0; j < 16; ++j) {
+            const float expected = camera.to_world[j / 4][j % 4];
+            EXPECT_NEAR(read.to_world[j / 4][j % 4], expected, 1e-6f * (1 + std::abs(expected)));
+        }
+    }
+}
+
+} // namespace
+
+} // namespace tessera

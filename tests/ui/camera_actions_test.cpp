@@ -1,0 +1,92 @@
+// Saving and copying the camera.
+
+#include "render/load/camera_file.h"
+#include "render/load/mitsuba_xml.h"
+#include "tests/load/temporary_folder.h"
+#include "tests/ui/viewer_harness.h"
+#include "ui/camera_store.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A viewer of a scene that lies in a folder, with the camera moved.
+struct CameraActions : testing::Test, ViewerHarness {
+    CameraActions() {
+        show(folder.path() / "room.xml");
+        state().camera.orbit({37, 11}, 100);
+        fs::current_path(elsewhere.path());
+    }
+    ~CameraActions() override { fs::current_path(before); }
+    void show(const fs::path& file) {
+        viewer.load(
+            "a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); }, file);
+        wait_until([&] { return !viewer.loading(); });
+        frames(2);
+    }
+    std::string newest() { return state().messages.empty() ? "" : state().messages.back().text; }
+
+    fs::path before = fs::current_path();
+    TemporaryFolder folder, elsewhere;
+};
+
+TEST_F(CameraActions, SavesBesideTheScene) {
+    type(Key::k);
+    const fs::path file = folder.path() / "room-camera.json";
+    EXPECT_TRUE(read_camera(file) == state().camera.camera());
+    EXPECT_NE(newest().find(file.string()), std::string::npos) << newest();
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
+    state().camera.dolly(0.5f);
+    type(Key::k);
+    EXPECT_TRUE(read_camera(file) == state().camera.camera());
+    EXPECT_FALSE(state().save_camera);
+}
+
+TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {
+    show({});
+    type(Key::k);
+    EXPECT_TRUE(read_camera(elsewhere.path() / "tessera-camera.json") == state().camera.camera());
+}
+
+TEST_F(CameraActions, SavesInTheCurrentFolderIfThatOfTheSceneIsNoMore) {
+    const fs::path gone = folder.path() / "gone/room.xml";
+    EXPECT_EQ(store_camera(gone, {}).string(), (fs::current_path() / "room-camera.json").string());
+}
+
+TEST_F(CameraActions, SayWhyNothingCouldBeSaved) {
+    // A folder of that name can be replaced nowhere.
+    fs::create_directories(folder.path() / "room-camera.json/x");
+    fs::create_directories(elsewhere.path() / "room-camera.json/x");
+    type(Key::k);
+    ASSERT_FALSE(state().messages.empty());
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
+    EXPECT_NE(newest().find("room-camera.json"), std::string::npos) << newest();
+}
+
+TEST_F(CameraActions, CopiesXmlForASensor) {
+    click("menu Camera");
+    click("menu Camera/Copy camera as XML");
+    const std::string xml = ImGui::GetClipboardText();
+    const LoadedScene loaded = parse_mitsuba_xml(
+        "<scene version='3.0.0'><sensor type='perspective'>" + xml + "</sensor></scene>", "pasted.xml");
+    EXPECT_TRUE(loaded.notes.empty());
+    EXPECT_TRUE(loaded.description.camera == state().camera.camera());
+    EXPECT_NE(newest().find("clipboard"), std::string::npos) << newest();
+}
+
+TEST(CameraActionsWithoutAScene, DoNothing) {
+    ViewerHarness h;
+    h.frames(2);
+    h.type(Key::k);
+    h.type(Key::k, false, true);
+    h.type(Key::f5);
+    EXPECT_TRUE(h.state().messages.empty());
+    EXPECT_FALSE(h.viewer.loading());
+}
+
+} // namespace
+} // namespace tessera::test
