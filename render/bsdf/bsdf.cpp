@@ -1,13 +1,20 @@
 #include "render/bsdf/bsdf.h"
 
+#include <cmath>
+
 namespace tessera {
 
+float Bsdf::shadowing(glm::vec3 to_next) const {
+    const float cosine = glm::dot(unbent_normal, to_next);
+    const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
+    return 2 / (1 + std::sqrt(1 + terminator * tan2)); // [Estevez 2019, 12.3]
+}
+
 std::optional<BsdfSample> Bsdf::sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-    if (is_cut(to_previous))
-        return {};
     auto s = std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
-    if (s && is_cut(s->to_next))
-        s.reset();
+    if (!s || is_cut(to_previous, s->to_next))
+        return {};
+    s->f_cos *= shadowing(s->to_next);
     return s;
 }
 

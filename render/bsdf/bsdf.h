@@ -32,22 +32,29 @@ struct Bsdf {
     /// Where relief has bent the frame: the normal before that, in the frame. What is above the one surface and
     /// below the other is cut off, or light would leak through.
     glm::vec3 unbent_normal{0, 0, 1};
-    bool is_bent = false;
+    /// How much light is lost as it gets steep to the unbent normal, where else its shadow would have a sharp edge
+    /// [Estevez 2019]: the square of the roughness in that formula. 0: none is. Negative: the frame is not bent.
+    float terminator = -1;
+    bool is_bent() const { return terminator >= 0; }
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-        if (is_bent && (is_cut(to_previous) || is_cut(to_next))) [[unlikely]]
-            return {};
-        return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
+        BsdfValue v = std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
+        if (is_bent()) [[unlikely]]
+            v = is_cut(to_previous, to_next) ? BsdfValue{} : BsdfValue{v.f_cos * shadowing(to_next), v.pdf_w};
+        return v;
     }
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-        if (is_bent) [[unlikely]]
+        if (is_bent()) [[unlikely]]
             return sample_bent(to_previous, lobe, u);
         return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
     }
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
-        const DeltaValue v =
-            std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-        return is_bent && (is_cut(to_previous) || is_cut(v.to_next)) ? DeltaValue{} : v;
+        DeltaValue v = std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+        if (is_bent())
+            v = is_cut(to_previous, v.to_next)
+                    ? DeltaValue{}
+                    : DeltaValue{v.to_next, v.value * shadowing(v.to_next), v.probability};
+        return v;
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
@@ -67,7 +74,11 @@ struct Bsdf {
     }
 
 private:
-    bool is_cut(glm::vec3 direction) const { return direction.z * glm::dot(unbent_normal, direction) <= 0; }
+    bool is_cut(glm::vec3 to_previous, glm::vec3 to_next) const {
+        return to_previous.z * glm::dot(unbent_normal, to_previous) <= 0 ||
+               to_next.z * glm::dot(unbent_normal, to_next) <= 0;
+    }
+    float shadowing(glm::vec3 to_next) const;
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
 

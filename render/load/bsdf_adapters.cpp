@@ -60,7 +60,9 @@ Texture nested_texture(LoadContext& context, Properties& p) {
     return read_texture(context, nested[0]);
 }
 
-void set_relief(const Properties& p, Material& material, const Relief& relief) {
+void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {
+    relief.softens_terminator = p.boolean("use_shadowing_function", !context.old_syntax);
+    p.ignore({"flip_invalid_normals"}); // what is above one surface and below the other is black here
     if (material.relief)
         p.note("the relief inside this one is left out");
     material.relief = relief;
@@ -81,13 +83,13 @@ Material read_mask(LoadContext& context, Properties& p) {
 Material read_bump_map(LoadContext& context, Properties& p) {
     Material material = nested_bsdf(context, p);
     Relief relief{Relief::Kind::bump, nested_texture(context, p), p.number("scale", 1)};
-    set_relief(p, material, relief);
+    set_relief(context, p, material, relief);
     return material;
 }
 
 Material read_normal_map(LoadContext& context, Properties& p) {
     Material material = nested_bsdf(context, p);
-    set_relief(p, material, {Relief::Kind::normal_map, nested_texture(context, p)});
+    set_relief(context, p, material, {Relief::Kind::normal_map, nested_texture(context, p)});
     return material;
 }
 

@@ -84,9 +84,9 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
     settings.extend = p.boolean("extend", false);
     settings.scale = Rgb(hosek_level * scale);
     const int resolution = p.integer("resolution", usual_resolution);
-    if (resolution < 2 || resolution > highest_resolution)
+    if (resolution < 4 || resolution > highest_resolution)
         p.take("resolution")
-            ->fail("'resolution' must be from 2 to " + std::to_string(highest_resolution), "value");
+            ->fail("'resolution' must be from 4 to " + std::to_string(highest_resolution), "value");
     p.note("the sky is Preetham's, scaled by " + std::to_string(hosek_level).substr(0, 3) +
            ": it stands for that of Hosek and Wilkie, which is not in this program");
     if (p.has("albedo"))

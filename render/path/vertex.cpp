@@ -2,6 +2,9 @@
 
 #include "render/scene/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tessera {
 
 namespace {
@@ -55,6 +58,12 @@ glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, g
     return bent * std::copysign(1 / length, glm::dot(bent, normal));
 }
 
+/// Bsdf::terminator for normals bent by an angle with this cosine [Estevez 2019, 12.3].
+float terminator_of(const Relief& relief, float cosine) {
+    const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
+    return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
+}
+
 } // namespace
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
@@ -92,18 +101,18 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         at.vertex_color = interpolate(shape.colors[t.x], shape.colors[t.y], shape.colors[t.z], hit.barycentric);
     }
     v.bsdf = shape.material->resolve(at);
-    v.bsdf.is_bent = false;
+    v.bsdf.terminator = -1;
     glm::vec3 bent = normal;
     if (shape.material->relief) {
         glm::vec3 by_u, by_v;
         if (position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v)) {
             bent = bend(*shape.material->relief, at, normal, by_u, by_v);
-            v.bsdf.is_bent = true;
+            v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
         }
     }
     const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
     v.frame = Frame(side * bent);
-    if (v.bsdf.is_bent)
+    if (v.bsdf.is_bent())
         v.bsdf.unbent_normal = v.to_local(side * normal);
     v.to_previous = v.to_local(-ray.direction);
     v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;

@@ -28,7 +28,7 @@ Rgb pixel(const Bitmap& bitmap, int x, int y) {
 
 Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
     const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
-    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
+    const float y = uv.y * static_cast<float>(bitmap.height - 1);
     const float left = std::floor(x), top = std::floor(y);
     const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
     const Rgb upper = glm::mix(pixel(bitmap, x0, y0), pixel(bitmap, x0 + 1, y0), x - left);
@@ -36,24 +36,41 @@ Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
     return glm::mix(upper, lower, y - top);
 }
 
-/// The mean of the bilinear interpolation over a pixel's own square: positive wherever that is positive in it.
+/// The mean of the bilinear interpolation over what is nearest to a pixel: positive wherever that is positive
+/// there. Of the rows at the poles that is half as much as of others.
 double mean_luminance(const Bitmap& bitmap, int x, int y) {
     constexpr double weights[3] = {0.125, 0.75, 0.125};
     double sum = 0;
-    for (int j = 0; j < 3; ++j)
+    double total = 0;
+    for (int j = 0; j < 3; ++j) {
+        if (y + j - 1 < 0 || y + j - 1 >= bitmap.height)
+            continue;
+        const bool at_pole = y == 0 || y == bitmap.height - 1;
+        const double weight = at_pole && j != 1 ? 0.25 : weights[j];
+        total += weight;
         for (int i = 0; i < 3; ++i)
-            sum += weights[i] * weights[j] * luminance(pixel(bitmap, x + i - 1, y + j - 1));
-    return sum;
+            sum += weights[i] * weight * luminance(pixel(bitmap, x + i - 1, y + j - 1));
+    }
+    return sum / total;
 }
 
-/// cos(theta) at the upper edge of a row.
-double edge_cosine(int row, int rows) {
-    return std::cos(3.14159265358979323846 * row / rows);
+/// Share of the sphere above v.
+double share_above(double v) {
+    return 0.5 - 0.5 * std::cos(3.14159265358979323846 * std::clamp(v, 0.0, 1.0));
 }
 
 /// Of one cell of a row, where the sphere is cut into `count` cells.
 double cell_solid_angle(int row, glm::ivec2 count) {
-    return 2 * 3.14159265358979323846 / count.x * (edge_cosine(row, count.y) - edge_cosine(row + 1, count.y));
+    return 4 * 3.14159265358979323846 / count.x *
+           (share_above((row + 1.0) / count.y) - share_above(double(row) / count.y));
+}
+
+/// Of what is nearest to a pixel of a row.
+double pixel_solid_angle(const Bitmap& bitmap, int row) {
+    const double steps = std::max(bitmap.height - 1, 1);
+    const double below = bitmap.height == 1 ? 1 : share_above((row + 0.5) / steps);
+    const double above = bitmap.height == 1 ? 0 : share_above((row - 0.5) / steps);
+    return 4 * 3.14159265358979323846 / bitmap.width * (below - above);
 }
 
 glm::vec3 direction_at(float cosine, float phi) {
@@ -96,8 +113,8 @@ void Environment::build_cells() {
                    std::bit_floor(static_cast<unsigned>(std::min(most_cells.y, bitmap.height)))};
     std::vector<double> weights(static_cast<std::size_t>(cell_count_.x) * static_cast<std::size_t>(cell_count_.y));
     for (int y = 0; y < bitmap.height; ++y) {
-        const double solid_angle = cell_solid_angle(y, {bitmap.width, bitmap.height});
-        const int row = static_cast<int>((y + 0.5) / bitmap.height * cell_count_.y);
+        const double solid_angle = pixel_solid_angle(bitmap, y);
+        const int row = std::min(y * cell_count_.y / std::max(bitmap.height - 1, 1), cell_count_.y - 1);
         for (int x = 0; x < bitmap.width; ++x) {
             const int column = static_cast<int>((x + 0.5) / bitmap.width * cell_count_.x);
             const double flux = mean_luminance(bitmap, x, y) * solid_angle * description_.map->scale;
@@ -163,8 +180,8 @@ glm::vec3 Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
     u_position.x = (u_position.x - sun_share_) / (1 - sun_share_);
     const auto cell = static_cast<int>(cells_.choose(u_cell));
     const int row = cell / cell_count_.x, column = cell % cell_count_.x;
-    const auto top = static_cast<float>(edge_cosine(row, cell_count_.y));
-    const auto bottom = static_cast<float>(edge_cosine(row + 1, cell_count_.y));
+    const auto top = static_cast<float>(1 - 2 * share_above(double(row) / cell_count_.y));
+    const auto bottom = static_cast<float>(1 - 2 * share_above((row + 1.0) / cell_count_.y));
     const float phi = 2 * pi * (static_cast<float>(column) + u_position.x) / static_cast<float>(cell_count_.x);
     return glm::normalize(description_.map->to_world * direction_at(top + u_position.y * (bottom - top), phi));
 }

@@ -20,8 +20,9 @@ struct Bitmap;
 glm::vec2 map_of_direction(glm::vec3 direction);
 glm::vec3 direction_of_map(glm::vec2 uv);
 
-/// Radiance from all directions, mapped as above. Pixels count at their centres, with bilinear interpolation; one
-/// pixel makes a constant environment.
+/// Radiance from all directions, mapped as above. Pixels are interpolated bilinearly; as in Mitsuba 3 a column
+/// counts at its centre, while rows run from pole to pole: the first is at v = 0, the last at v = 1. One pixel
+/// makes a constant environment.
 struct EnvironmentMap {
     std::shared_ptr<const Bitmap> bitmap;
     float scale = 1;

@@ -85,7 +85,8 @@ struct Relief {
     };
     Kind kind = Kind::bump;
     Texture map;
-    float scale = 1; ///< factor on the height
+    float scale = 1;                 ///< factor on the height
+    bool softens_terminator = false; ///< light that is steep to the unbent normal is dimmed [Estevez 2019]
 };
 
 /// What a surface is made of, before textures are looked up.

@@ -108,9 +108,9 @@ Bitmap sky_bitmap(const Sky& sky, int width) {
     bitmap.floats.reserve(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
     for (int y = 0; y < bitmap.height; ++y)
         for (int x = 0; x < bitmap.width; ++x) {
-            const glm::vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            bitmap.floats.push_back(
-                sky_radiance(sky, direction_of_map(centre / glm::vec2(bitmap.width, bitmap.height))));
+            const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(bitmap.width),
+                               static_cast<float>(y) / static_cast<float>(bitmap.height - 1));
+            bitmap.floats.push_back(sky_radiance(sky, direction_of_map(uv)));
         }
     return bitmap;
 }

@@ -43,8 +43,8 @@ Sky make_sky(const SkySettings& settings);
 /// Radiance of the sky in a unit direction, where +y is up. Never negative: what lies outside sRGB is clamped.
 Rgb sky_radiance(const Sky& sky, glm::vec3 direction);
 
-/// The sky as an environment map of `width` times `width / 2` pixels, rows from +y down, in Mitsuba's mapping
-/// uv = (atan2(x, -z) / 2 pi, acos(y) / pi); pixels hold the radiance at their centres. `width` is at least 2.
+/// The sky as an environment map of `width` times `width / 2` pixels, as EnvironmentMap has it: pixels hold the
+/// radiance at their places. `width` is at least 4.
 Bitmap sky_bitmap(const Sky& sky, int width);
 
 } // namespace tessera

@@ -113,7 +113,7 @@ TEST(Environment, MapIsOrientedAsMitsubas) {
     description.map = {std::make_shared<const Bitmap>(bitmap)};
     const Environment environment(description);
     EXPECT_NEAR(environment.radiance({1, 0, 0}).r, 15.5f, 0.01f);
-    EXPECT_NEAR(environment.radiance({1, 0, 0}).g, 15.5f, 0.01f);
+    EXPECT_NEAR(environment.radiance({1, 0, 0}).g, 15.5f, 0.01f); // rows from pole to pole
     EXPECT_NEAR(environment.radiance({0, 0, 1}).r, 31.5f, 0.01f);
     EXPECT_NEAR(environment.radiance({-1, 0, 0}).r, 47.5f, 0.01f);
     EXPECT_NEAR(environment.radiance({0, 1, 0}).g, 0, 0.01f);
