@@ -132,7 +132,8 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
         ->capture_default_str();
     command.add_option("--recon", words.norms,
                        "none, l2, l1, or several: one layer each (default l2 with gradients)");
-    command.add_option("-o,--output", options.output, "EXR file to write")->required();
+    command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
+        ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
     command.add_flag("--buffers", options.buffers, "primal, dx, dy and direct as layers of the EXR file, too");
 }

@@ -7,9 +7,12 @@
 #include "app/progress.h"
 #include "app/stats.h"
 #include "render/load/exr.h"
+#include "render/load/png.h"
 #include "render/session/render.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -99,9 +102,24 @@ ExrFile assemble(const RenderOptions& options, const GradientImages& images,
 
 } // namespace
 
+/// Whether the picture is all that is written.
+bool writes_png(const RenderOptions& options) {
+    std::string extension = options.output.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".png" && extension != ".exr")
+        throw BadInput(fmt::format("{}: the name must end in .exr or .png", options.output.string()));
+    if (extension == ".png" && (options.buffers || options.norms.size() > 1))
+        throw BadInput(
+            fmt::format("{}: a PNG file holds one picture; buffers and several reconstructions take EXR",
+                        options.output.string()));
+    return extension == ".png";
+}
+
 int run_render(const RenderOptions& options) {
     check(options.settings);
     check_writable(options.output);
+    const bool png = writes_png(options);
     if (!options.stats.empty())
         check_writable(options.stats);
     ThreadPool pool(options.threads);
@@ -121,7 +139,10 @@ int run_render(const RenderOptions& options) {
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};
-    write_exr(options.output, file);
+    if (png)
+        write_png(options.output, file.layers.front().image);
+    else
+        write_exr(options.output, file);
     if (!options.stats.empty())
         write_text(options.stats,
                    stats_json(settings, opened, render, pool.size(), recon, interrupted).dump(2) + "\n");

@@ -82,7 +82,10 @@ Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
     plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
     plastic.nonlinear = p.boolean("nonlinear", false);
     plastic.facets = facets;
-    plastic.coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+    auto& coating = context.coatings[{plastic.eta, facets.distribution, facets.alpha}];
+    if (!coating)
+        coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+    plastic.coating = coating;
     plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
     plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
     return {{}, plastic};

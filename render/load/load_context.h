@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tessera {
@@ -27,6 +28,8 @@ struct LoadContext {
     std::map<std::string, XmlElement> ids;
     std::map<const void*, int> materials; ///< by XmlElement::key(), index into scene.materials
     std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>> bitmaps; ///< by path and whether sRGB
+    std::map<std::tuple<float, MicrofacetDistribution, float>, std::shared_ptr<const Coating>>
+        coatings;  ///< by index of refraction, distribution and alpha: they take time to make
     int depth = 0; ///< of nested plugins being read, to find circles of references
 
     /// The element that a <ref> means; any other element itself. Throws LoadError for an unknown id.

@@ -24,8 +24,8 @@ struct LoadedScene {
 using SceneVariables = std::map<std::string, std::string>;
 
 /// Reads a Mitsuba scene (0.6 or 3.x syntax) with the files that it includes. Paths are relative to the folder of
-/// the file that they stand in; see FileSearch. Tells `progress`, if it is not null, how far it is. Throws LoadError
-/// with file, line and column; std::runtime_error if the scene is given up on the way.
+/// the file that they stand in; see FileSearch. Tells `progress`, if it is not null, how far it is. Throws
+/// LoadError with file, line and column; std::runtime_error if the scene is given up on the way.
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
                              const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 

@@ -93,6 +93,8 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {"render box.xml --spp 1 --size 16x16 -o no/such/folder/out.exr", "no/such/folder"},
         {"render box.xml --spp 1 --size 16x16 -o .", "folder"},
         {"render box.xml --spp 1 --size 16x16 -o out.exr --stats no/such/stats.json", "no/such"},
+        {"render box.xml --spp 1 --size 16x16 -o out.tiff", "must end in .exr or .png"},
+        {"render box.xml --spp 1 --size 16x16 -o out.png --buffers", "holds one picture"},
         {"compare missing.exr missing.exr", "missing.exr"},
         {"compare box.xml box.xml", "box.xml"},
         {"info missing.xml", "missing.xml"},
@@ -108,6 +110,15 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
     }
     for (const auto& entry : fs::directory_iterator(folder_))
         EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+TEST_F(CommandLine, WritesAPngWhereTheNameSaysSo) {
+    const Outcome o = run(folder_, "render box.xml --size 24x16 --spp 1 -o out.PNG");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    std::ifstream file(folder_ / "out.PNG", std::ios::binary);
+    char signature[4] = {};
+    file.read(signature, 4);
+    EXPECT_EQ(std::string(signature + 1, 3), "PNG");
 }
 
 TEST_F(CommandLine, RendersLayersSettingsAndStats) {
