@@ -65,5 +65,7 @@ inline void PrintTo(const TestScene& t, std::ostream* out) {
 
 /// Small scenes, each for one thing that an estimator can get wrong.
 std::vector<TestScene> all_test_scenes();
+/// Those of them that are about lights, masks and relief.
+std::vector<TestScene> light_scenes();
 
 } // namespace tessera::test

@@ -1,25 +1,8 @@
-#include "tests/support/scene_builder.h"
+#include "tests/support/rooms.h"
 
 namespace tessera::test {
 
 namespace {
-
-const Rgb white(0.75f);
-const Rgb red(0.63f, 0.065f, 0.05f);
-const Rgb green(0.14f, 0.45f, 0.091f);
-
-/// A diffuse room, lit by half of its ceiling, so that a naive path tracer finds the light often.
-struct Room : SceneBuilder {
-    int w = diffuse(white), r = diffuse(red), g = diffuse(green), black = diffuse(Rgb(0));
-    int lamp = light(Rgb(5, 4, 3));
-
-    explicit Room(int floor = -1, int back = -1) {
-        room({floor < 0 ? w : floor, w, back < 0 ? w : back, r, g});
-        ceiling_light(black);
-        camera({0, 0, 2.6f}, {0, 0, 0}, 50);
-    }
-    void ceiling_light(int material) { quad({-0.7f, 0.98f, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, material, lamp); }
-};
 
 std::shared_ptr<const Scene> diffuse_room() {
     return Room().build();
@@ -124,135 +107,6 @@ std::shared_ptr<const Scene> glossy_second_vertex() {
     return b.build();
 }
 
-/// Without a ceiling: an environment above, uneven, turned, and with a sun.
-struct OpenRoom : SceneBuilder {
-    int w = diffuse(white), r = diffuse(red);
-
-    OpenRoom() {
-        quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, w);
-        quad({-1, -1, -1}, {2, 0, 0}, {0, 1.2f, 0}, w);
-        quad({-1, -1, 1}, {0, 0, -2}, {0, 1.2f, 0}, r);
-        sphere({0.35f, -0.6f, 0}, 0.35f, w);
-        camera({0, 0.2f, 2.6f}, {0, -0.4f, 0}, 50);
-    }
-    void sky() {
-        std::vector<Rgb> pixels;
-        for (int y = 0; y < 6; ++y)
-            for (int x = 0; x < 9; ++x)
-                pixels.push_back(y > 3 ? Rgb(0) : Rgb(0.2f + 0.3f * float(x % 3), 0.5f, 0.4f + 0.3f * float(y)));
-        environment(pixels, 9, glm::mat3(0, 0, -1, 0.6f, 0.8f, 0, 0.8f, -0.6f, 0));
-    }
-};
-
-std::shared_ptr<const Scene> constant_environment() {
-    OpenRoom r;
-    r.environment({Rgb(0.8f, 0.9f, 1)}, 1);
-    return r.build();
-}
-std::shared_ptr<const Scene> environment() {
-    OpenRoom r;
-    r.sky();
-    return r.build();
-}
-std::shared_ptr<const Scene> sun() {
-    OpenRoom r;
-    r.sky();
-    r.sun({glm::normalize(glm::vec3(1, 2, 1)), 0.3f, Rgb(6, 5, 4)});
-    return r.build();
-}
-
-/// An environment seen in mirror, glass and gloss, and a lamp beside it.
-std::shared_ptr<const Scene> environment_patchwork() {
-    OpenRoom r;
-    r.sky();
-    const int materials[] = {r.mirror(), r.conductor(0.05f), r.w, r.glass(), r.conductor(0.3f), r.r};
-    for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 4; ++j)
-            r.quad({-0.9f + 0.3f * float(i), -0.9f + 0.3f * float(j), -0.2f}, {0.28f, 0, 0.02f},
-                   {0, 0.28f, -0.05f}, materials[(i + 2 * j) % 6]);
-    r.quad({-0.9f, 0.9f, 0}, {0.8f, 0, 0}, {0, 0, 0.8f}, r.w, r.light(Rgb(2, 1, 3)));
-    return r.build();
-}
-std::shared_ptr<const Scene> environment_gloss() {
-    OpenRoom r;
-    r.sky();
-    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.08f));
-    return r.build();
-}
-
-/// Lights without extent, one in a cone that falls off, one beside a glossy floor.
-std::shared_ptr<const Scene> point_lights() {
-    OpenRoom r;
-    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
-    r.quad({1, -1, -1}, {0, 0, 2}, {0, 1.2f, 0}, r.w);
-    r.point({{-0.4f, 0.5f, 0.3f}, Rgb(0.5f, 0.8f, 0.6f)});
-    r.point({{0.5f, 1.0f, 0.5f}, Rgb(2, 1, 1), glm::normalize(glm::vec3(-0.3f, -1, -0.5f)), 35, 10});
-    r.directional({glm::normalize(glm::vec3(0.4f, 1, 0.7f)), Rgb(0.3f, 0.4f, 0.9f)});
-    r.quad({-0.3f, -0.2f, 0.3f}, {0.5f, 0, 0}, {0, 0.1f, -0.3f}, r.w);
-    return r.build();
-}
-
-/// A light whose radiance is a pattern, in part black, beside a plain one of another kind.
-std::shared_ptr<const Scene> textured_light() {
-    Room r;
-    Texture pattern;
-    pattern.kind = CheckerboardTexture{Rgb(4, 2, 1), Rgb(0, 0.5f, 3)};
-    pattern.to_uv = glm::mat3(2.5f);
-    r.quad({-0.6f, -0.5f, -0.9f}, {1.2f, 0, 0}, {0, 1, 0}, r.black, r.light(pattern));
-    return r.build();
-}
-
-/// Panes that half of the light passes, one of them with holes, in front of the room and of the light.
-std::shared_ptr<const Scene> masks() {
-    Room r;
-    Material half{"half", DiffuseMaterial{{white}}, true};
-    half.opacity = Texture(Rgb(0.5f));
-    const int m = r.material(half);
-    Texture holes;
-    holes.kind = CheckerboardTexture{Rgb(0.1f), Rgb(0.9f)};
-    holes.to_uv = glm::mat3(3.0f);
-    half.opacity = holes;
-    const int n = r.material(half);
-    r.quad({-0.9f, -0.9f, 0.4f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
-    r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, n);
-    return r.build();
-}
-
-/// Such panes in front of a glossy floor, a sky and a sun.
-std::shared_ptr<const Scene> masks_outside() {
-    OpenRoom r;
-    r.sky();
-    r.sun({glm::normalize(glm::vec3(1, 2, 1)), 0.3f, Rgb(6, 5, 4)});
-    Material half{"half", DiffuseMaterial{{white}}, true};
-    half.opacity = Texture(Rgb(0.4f));
-    const int m = r.material(half);
-    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.12f));
-    r.quad({-0.9f, -0.9f, 0.5f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
-    r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, m);
-    return r.build();
-}
-
-/// Waves on a glossy floor and a wall, by their normals alone.
-std::shared_ptr<const Scene> relief() {
-    Room r;
-    Bitmap waves;
-    waves.width = waves.height = 8;
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x)
-            waves.floats.emplace_back(0.02f * float((x * 3 + y * 5) % 4));
-    Relief bump;
-    bump.map.kind = BitmapTexture{std::make_shared<const Bitmap>(waves)};
-    Material wall{"wall", DiffuseMaterial{{white}}, true};
-    wall.relief = bump;
-    ConductorMaterial metal;
-    metal.alpha = Texture(Rgb(0.2f));
-    Material floor{"floor", metal, true};
-    floor.relief = bump;
-    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.material(floor));
-    r.quad({-0.95f, -0.95f, -0.97f}, {1.9f, 0, 0}, {0, 1.9f, 0}, r.material(wall));
-    return r.build();
-}
-
 /// Two balls of different indices: light goes through one, both, or from one to the other.
 std::shared_ptr<const Scene> rough_glass() {
     Room r;
@@ -295,7 +149,7 @@ std::shared_ptr<const Scene> no_light() {
 } // namespace
 
 std::vector<TestScene> all_test_scenes() {
-    return {
+    std::vector<TestScene> scenes = {
         {"diffuse", diffuse_room(), 5},
         {"depth_1", diffuse_room(), 1},
         {"depth_2", diffuse_room(), 2},
@@ -325,23 +179,10 @@ std::vector<TestScene> all_test_scenes() {
         {"phong_half_vectors", phong(), 5, 0.5f},
         {"shining_wall", shining_wall(), 4},
         {"no_light", no_light(), 4},
-        {"constant_environment", constant_environment(), 5},
-        {"environment", environment(), 5},
-        {"environment_depth_2", environment(), 2},
-        {"sun", sun(), 4},
-        {"environment_patchwork", environment_patchwork(), 5, 0.001f, 3},
-        {"environment_half_vectors", environment_patchwork(), 4, 0.1f, 3},
-        {"environment_gloss", environment_gloss(), 4, 0.1f},
-        {"point_lights", point_lights(), 4},
-        {"point_lights_half_vectors", point_lights(), 4, 0.3f},
-        {"textured_light", textured_light(), 4},
-        {"masks", masks(), 4},
-        {"masks_outside", masks_outside(), 4},
-        {"masks_outside_half_vectors", masks_outside(), 4, 0.15f},
-        {"lamp_and_sky_in_gloss", environment_patchwork(), 2, 0.35f, 3},
-        {"relief", relief(), 4},
-        {"relief_half_vectors", relief(), 4, 0.25f},
     };
+    for (TestScene& scene : light_scenes())
+        scenes.push_back(std::move(scene));
+    return scenes;
 }
 
 } // namespace tessera::test

@@ -1,0 +1,140 @@
+// Scenes for lights of all kinds, masks and relief.
+#include "tests/support/rooms.h"
+
+namespace tessera::test {
+
+namespace {
+
+std::shared_ptr<const Scene> constant_environment() {
+    OpenRoom r;
+    r.environment({Rgb(0.8f, 0.9f, 1)}, 1);
+    return r.build();
+}
+std::shared_ptr<const Scene> environment() {
+    OpenRoom r;
+    r.sky();
+    return r.build();
+}
+std::shared_ptr<const Scene> sun() {
+    OpenRoom r;
+    r.sky();
+    r.sun({glm::normalize(glm::vec3(1, 2, 1)), 0.3f, Rgb(6, 5, 4)});
+    return r.build();
+}
+
+/// An environment seen in mirror, glass and gloss, and a lamp beside it.
+std::shared_ptr<const Scene> environment_patchwork() {
+    OpenRoom r;
+    r.sky();
+    const int materials[] = {r.mirror(), r.conductor(0.05f), r.w, r.glass(), r.conductor(0.3f), r.r};
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 4; ++j)
+            r.quad({-0.9f + 0.3f * float(i), -0.9f + 0.3f * float(j), -0.2f}, {0.28f, 0, 0.02f},
+                   {0, 0.28f, -0.05f}, materials[(i + 2 * j) % 6]);
+    r.quad({-0.9f, 0.9f, 0}, {0.8f, 0, 0}, {0, 0, 0.8f}, r.w, r.light(Rgb(2, 1, 3)));
+    return r.build();
+}
+std::shared_ptr<const Scene> environment_gloss() {
+    OpenRoom r;
+    r.sky();
+    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.08f));
+    return r.build();
+}
+
+/// Lights without extent, one in a cone that falls off, one beside a glossy floor.
+std::shared_ptr<const Scene> point_lights() {
+    OpenRoom r;
+    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
+    r.quad({1, -1, -1}, {0, 0, 2}, {0, 1.2f, 0}, r.w);
+    r.point({{-0.4f, 0.5f, 0.3f}, Rgb(0.5f, 0.8f, 0.6f)});
+    r.point({{0.5f, 1.0f, 0.5f}, Rgb(2, 1, 1), glm::normalize(glm::vec3(-0.3f, -1, -0.5f)), 35, 10});
+    r.directional({glm::normalize(glm::vec3(0.4f, 1, 0.7f)), Rgb(0.3f, 0.4f, 0.9f)});
+    r.quad({-0.3f, -0.2f, 0.3f}, {0.5f, 0, 0}, {0, 0.1f, -0.3f}, r.w);
+    return r.build();
+}
+
+/// A light whose radiance is a pattern, in part black, beside a plain one of another kind.
+std::shared_ptr<const Scene> textured_light() {
+    Room r;
+    Texture pattern;
+    pattern.kind = CheckerboardTexture{Rgb(4, 2, 1), Rgb(0, 0.5f, 3)};
+    pattern.to_uv = glm::mat3(2.5f);
+    r.quad({-0.6f, -0.5f, -0.9f}, {1.2f, 0, 0}, {0, 1, 0}, r.black, r.light(pattern));
+    return r.build();
+}
+
+/// Panes that half of the light passes, one of them with holes, in front of the room and of the light.
+std::shared_ptr<const Scene> masks() {
+    Room r;
+    Material half{"half", DiffuseMaterial{{white}}, true};
+    half.opacity = Texture(Rgb(0.5f));
+    const int m = r.material(half);
+    Texture holes;
+    holes.kind = CheckerboardTexture{Rgb(0.1f), Rgb(0.9f)};
+    holes.to_uv = glm::mat3(3.0f);
+    half.opacity = holes;
+    const int n = r.material(half);
+    r.quad({-0.9f, -0.9f, 0.4f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
+    r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, n);
+    return r.build();
+}
+
+/// Such panes in front of a glossy floor, a sky and a sun.
+std::shared_ptr<const Scene> masks_outside() {
+    OpenRoom r;
+    r.sky();
+    r.sun({glm::normalize(glm::vec3(1, 2, 1)), 0.3f, Rgb(6, 5, 4)});
+    Material half{"half", DiffuseMaterial{{white}}, true};
+    half.opacity = Texture(Rgb(0.4f));
+    const int m = r.material(half);
+    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.12f));
+    r.quad({-0.9f, -0.9f, 0.5f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
+    r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, m);
+    return r.build();
+}
+
+/// Waves on a glossy floor and a wall, by their normals alone.
+std::shared_ptr<const Scene> relief() {
+    Room r;
+    Bitmap waves;
+    waves.width = waves.height = 8;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            waves.floats.emplace_back(0.02f * float((x * 3 + y * 5) % 4));
+    Relief bump;
+    bump.map.kind = BitmapTexture{std::make_shared<const Bitmap>(waves)};
+    Material wall{"wall", DiffuseMaterial{{white}}, true};
+    wall.relief = bump;
+    ConductorMaterial metal;
+    metal.alpha = Texture(Rgb(0.2f));
+    Material floor{"floor", metal, true};
+    floor.relief = bump;
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.material(floor));
+    r.quad({-0.95f, -0.95f, -0.97f}, {1.9f, 0, 0}, {0, 1.9f, 0}, r.material(wall));
+    return r.build();
+}
+
+} // namespace
+
+std::vector<TestScene> light_scenes() {
+    return {
+        {"constant_environment", constant_environment(), 5},
+        {"environment", environment(), 5},
+        {"environment_depth_2", environment(), 2},
+        {"sun", sun(), 4},
+        {"environment_patchwork", environment_patchwork(), 5, 0.001f, 3},
+        {"environment_half_vectors", environment_patchwork(), 4, 0.1f, 3},
+        {"environment_gloss", environment_gloss(), 4, 0.1f},
+        {"point_lights", point_lights(), 4},
+        {"point_lights_half_vectors", point_lights(), 4, 0.3f},
+        {"textured_light", textured_light(), 4},
+        {"masks", masks(), 4},
+        {"masks_outside", masks_outside(), 4},
+        {"masks_outside_half_vectors", masks_outside(), 4, 0.15f},
+        {"lamp_and_sky_in_gloss", environment_patchwork(), 2, 0.35f, 3},
+        {"relief", relief(), 4},
+        {"relief_half_vectors", relief(), 4, 0.25f},
+    };
+}
+
+} // namespace tessera::test

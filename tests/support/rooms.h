@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tests/support/scene_builder.h"
+
+namespace tessera::test {
+
+inline const Rgb white(0.75f);
+inline const Rgb red(0.63f, 0.065f, 0.05f);
+inline const Rgb green(0.14f, 0.45f, 0.091f);
+
+/// A diffuse room, lit by half of its ceiling, so that a naive path tracer finds the light often.
+struct Room : SceneBuilder {
+    int w = diffuse(white), r = diffuse(red), g = diffuse(green), black = diffuse(Rgb(0));
+    int lamp = light(Rgb(5, 4, 3));
+
+    explicit Room(int floor = -1, int back = -1) {
+        room({floor < 0 ? w : floor, w, back < 0 ? w : back, r, g});
+        ceiling_light(black);
+        camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    }
+    void ceiling_light(int material) { quad({-0.7f, 0.98f, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, material, lamp); }
+};
+
+/// Without a ceiling: an environment above, uneven, turned, and with a sun.
+struct OpenRoom : SceneBuilder {
+    int w = diffuse(white), r = diffuse(red);
+
+    OpenRoom() {
+        quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, w);
+        quad({-1, -1, -1}, {2, 0, 0}, {0, 1.2f, 0}, w);
+        quad({-1, -1, 1}, {0, 0, -2}, {0, 1.2f, 0}, r);
+        sphere({0.35f, -0.6f, 0}, 0.35f, w);
+        camera({0, 0.2f, 2.6f}, {0, -0.4f, 0}, 50);
+    }
+    void sky() {
+        std::vector<Rgb> pixels;
+        for (int y = 0; y < 6; ++y)
+            for (int x = 0; x < 9; ++x)
+                pixels.push_back(y > 3 ? Rgb(0) : Rgb(0.2f + 0.3f * float(x % 3), 0.5f, 0.4f + 0.3f * float(y)));
+        environment(pixels, 9, glm::mat3(0, 0, -1, 0.6f, 0.8f, 0, 0.8f, -0.6f, 0));
+    }
+};
+
+} // namespace tessera::test
