@@ -92,7 +92,8 @@ float Microfacets::density(glm::vec3 normal) const {
         const float d = sin2 / a2 + cos2;
         return inv_pi / (a2 * d * d);
     }
-    return std::exp(-sin2 / (a2 * cos2)) * inv_pi / (a2 * cos2 * cos2);
+    const float exponent = sin2 / (a2 * cos2);
+    return exponent < 80 ? std::exp(-exponent) * inv_pi / (a2 * cos2 * cos2) : 0; // or 0 / 0 at grazing normals
 }
 
 float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {

@@ -15,8 +15,10 @@ float largest(Rgb c) {
 
 /// A direction about +z with density (n + 1) / (2 pi) cos^n.
 glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
-    const float z = std::pow(1 - u.x, 1 / (exponent + 1));
-    const float r = std::sqrt(std::max(1 - z * z, 0.0f));
+    // By logarithms, as a float next to 1 has no digits for what a sharp lobe is made of.
+    const float log_z = std::log1p(-u.x) / (exponent + 1);
+    const float z = std::exp(log_z);
+    const float r = std::sqrt(-std::expm1(2 * log_z));
     const float phi = 2 * pi * u.y;
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
@@ -35,8 +37,10 @@ BsdfValue Phong::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z <= 0 || to_next.z <= 0)
         return {};
     // [Lafortune 1994, eq. 8 and 10]
-    const float cosine = glm::dot(reflect(to_previous), to_next);
-    const float lobe = cosine > 0 ? std::pow(cosine, exponent) * 0.5f * inv_pi : 0;
+    // The cosine by the chord: exact for sharp lobes, too.
+    const glm::vec3 chord = to_next - reflect(to_previous);
+    const float less_than_one = 0.5f * glm::dot(chord, chord); // 1 - cos
+    const float lobe = less_than_one < 1 ? std::exp(exponent * std::log1p(-less_than_one)) * 0.5f * inv_pi : 0;
     const float cosine_pdf = to_next.z * inv_pi;
     return {diffuse_reflectance * cosine_pdf + specular_reflectance * ((exponent + 2) * lobe * to_next.z),
             (1 - specular_weight) * cosine_pdf + specular_weight * (exponent + 1) * lobe};
@@ -49,7 +53,7 @@ std::optional<BsdfSample> Phong::sample(glm::vec3 to_previous, float lobe, glm::
                                   ? Frame(reflect(to_previous)).to_world(sample_lobe(exponent, u))
                                   : sample_cosine_hemisphere(u);
     const BsdfValue v = evaluate(to_previous, to_next);
-    if (v.pdf_w <= 0 || is_black(v.f_cos))
+    if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
     return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
 }

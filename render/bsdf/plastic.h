@@ -41,7 +41,8 @@ struct Plastic {
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
-    float roughness() const { return 1; } // the base's: paths can be connected through it
+    /// The base's, through which paths can be connected; without one the coating's.
+    float roughness() const { return is_black(base) ? facets.alpha : 1; }
 
 private:
     bool is_smooth() const { return facets.alpha <= 0; }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/common.hpp>
+
 namespace tessera {
 
 namespace {
@@ -49,7 +51,8 @@ Rgb full(const Angles& a, float sigma2, Rgb reflectance) {
     const float c3 = 0.125f * steep * both * both;
     const float once = c1 + a.cos_phi * c2 * a.tan_beta + (1 - std::abs(a.cos_phi)) * c3 * a.tan_mean;
     const float twice = 0.17f * sigma2 / (sigma2 + 0.13f) * (1 - a.cos_phi * beta * beta);
-    return reflectance * once + reflectance * reflectance * twice;
+    // The fit goes below 0 for dark colours of very rough surfaces at grazing angles.
+    return glm::max(reflectance * once + reflectance * reflectance * twice, 0.0f);
 }
 
 } // namespace

@@ -122,6 +122,8 @@ Material read_coating(LoadContext& context, Properties& p) {
         return base;
     }
     const bool two_sided = std::exchange(base.two_sided, false);
+    if (!two_sided)
+        p.note("the back of the coating is black, as that of its base is");
     coated.base = std::make_shared<const Material>(std::move(base));
     return {{}, coated, two_sided};
 }

@@ -3,6 +3,7 @@
 #include "render/load/texture_plugins.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace tessera {
@@ -26,7 +27,7 @@ float index_parameter(Properties& p, std::string_view name, std::string_view fal
 
 ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
     const bool given = p.has("eta") || p.has("k");
-    const std::string fallback = given || !context.old_syntax ? "none" : "Cu";
+    const std::string fallback = context.old_syntax ? "Cu" : "none"; // for what is not given
     const std::string material = p.text("material", fallback);
     auto index = metal_index(material);
     if (!index) {
@@ -43,8 +44,13 @@ ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
 
 Texture alpha_parameter(LoadContext& context, Properties& p) {
     if (p.has("alpha_u") || p.has("alpha_v")) {
-        const float u = p.number("alpha_u", 0.1f);
-        const float v = p.number("alpha_v", 0.1f);
+        const Texture across = texture_parameter(context, p, "alpha_u", Rgb(0.1f));
+        const Texture along = texture_parameter(context, p, "alpha_v", Rgb(0.1f));
+        if (!across.is_constant() || !along.is_constant()) {
+            p.note("the anisotropic roughness is replaced by 'alpha_u'");
+            return across;
+        }
+        const float u = std::get<Rgb>(across.kind).r, v = std::get<Rgb>(along.kind).r;
         if (u < 0 || v < 0)
             p.element().fail("'alpha_u' and 'alpha_v' must not be negative");
         if (u != v)
@@ -59,7 +65,9 @@ Texture alpha_parameter(LoadContext& context, Properties& p) {
 }
 
 MicrofacetDistribution distribution_parameter(Properties& p) {
-    const std::string name = p.text("distribution", "beckmann");
+    std::string name = p.text("distribution", "beckmann");
+    for (char& c : name) // either case of letters will do
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (name == "ggx")
         return MicrofacetDistribution::ggx;
     if (name != "beckmann")

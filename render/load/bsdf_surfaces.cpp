@@ -8,16 +8,24 @@
 
 namespace tessera {
 
+namespace {
+
+/// 0.6 takes both names.
+const char* diffuse_name(const Properties& p) {
+    return p.has("diffuse_reflectance") && !p.has("reflectance") ? "diffuse_reflectance" : "reflectance";
+}
+
+} // namespace
+
 Material read_diffuse(LoadContext& context, Properties& p) {
     DiffuseMaterial diffuse;
-    diffuse.reflectance = reflectance_parameter(context, p, "reflectance", Rgb(0.5f));
+    diffuse.reflectance = reflectance_parameter(context, p, diffuse_name(p), Rgb(0.5f));
     return {{}, diffuse};
 }
 
 Material read_rough_diffuse(LoadContext& context, Properties& p) {
     DiffuseMaterial diffuse;
-    const char* const name = p.has("reflectance") ? "reflectance" : "diffuse_reflectance"; // 0.6 takes both
-    diffuse.reflectance = reflectance_parameter(context, p, name, Rgb(0.5f));
+    diffuse.reflectance = reflectance_parameter(context, p, diffuse_name(p), Rgb(0.5f));
     diffuse.alpha = texture_parameter(context, p, "alpha", Rgb(0.2f));
     const Rgb* alpha = std::get_if<Rgb>(&diffuse.alpha.kind);
     if (alpha && alpha->r < 0)

@@ -2,6 +2,26 @@
 
 namespace tessera {
 
+namespace {
+
+/// A direction of the base's frame in the offset's, turned along with the normal by the shortest arc: frames
+/// themselves may lie about normals in any way, and half vectors of neighbours would then point anywhere. The same
+/// way back; the angle to the normal is kept.
+glm::vec3 carry(const Frame& base, const Frame& offset, glm::vec3 local) {
+    const float cosine = glm::dot(base.normal, offset.normal);
+    if (cosine < -0.99f)
+        return local; // no arc is the shortest
+    const glm::vec3 world = base.to_world(local);
+    const glm::vec3 axis = glm::cross(base.normal, offset.normal);
+    const glm::vec3 turned =
+        cosine * world + glm::cross(axis, world) + axis * (glm::dot(axis, world) / (1 + cosine)); // [Rodrigues]
+    glm::vec3 result = offset.to_local(turned);
+    result.z = local.z;
+    return glm::normalize(result);
+}
+
+} // namespace
+
 std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base_to_next, const Vertex& offset) {
     const bool transmits = base.to_previous.z * base_to_next.z < 0;
     const float base_index = transmits ? base.bsdf.relative_index(base.to_previous) : 1;
@@ -9,8 +29,9 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
     if (transmits && (base_index == 1 || offset_index == 1))
         return {};
     const glm::vec3 half = half_vector(base.to_previous, base_to_next, base_index);
+    const glm::vec3 copied = carry(base.frame, offset.frame, half);
     const auto to_next =
-        transmits ? refract(offset.to_previous, half, offset_index) : reflect(offset.to_previous, half);
+        transmits ? refract(offset.to_previous, copied, offset_index) : reflect(offset.to_previous, copied);
     // If it does not go to the same side as the base's, the way back would not find this half vector.
     if (!to_next || transmits != (to_next->z * offset.to_previous.z < 0))
         return {};
@@ -18,7 +39,7 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
     const float jacobian = half_vector_jacobian(base.to_previous, base_to_next, half, base_index) /
-                           half_vector_jacobian(offset.to_previous, *to_next, half, offset_index);
+                           half_vector_jacobian(offset.to_previous, *to_next, copied, offset_index);
     if (!(jacobian > 0) || !std::isfinite(jacobian))
         return {};
     return CopiedScatter{*to_next, v.f_cos, v.pdf_w, jacobian};

@@ -3,35 +3,41 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 namespace tessera {
 
 namespace {
 
-/// A texture of which the red channel counts; quick where it is constant.
+/// A texture of which the luminance counts; quick where it is constant, and then grey.
 float scalar(const Texture& texture, const SurfacePoint& at) {
     const Rgb* constant = std::get_if<Rgb>(&texture.kind);
-    return constant ? constant->r : texture.evaluate(at).r;
+    return constant ? constant->r : luminance(texture.evaluate(at));
+}
+
+/// A texture of shares of light: cut to [0, 1], or energy would come from nowhere.
+Rgb share(const Texture& texture, const SurfacePoint& at) {
+    return glm::clamp(texture.evaluate(at), 0.0f, 1.0f);
 }
 
 Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
     const float alpha = scalar(m.alpha, at);
     if (alpha <= 0)
-        return {Diffuse{m.reflectance.evaluate(at)}};
+        return {Diffuse{share(m.reflectance, at)}};
     // RMS slope to the slope's angle, as Mitsuba has it.
-    return {RoughDiffuse{m.reflectance.evaluate(at), alpha / std::sqrt(2.0f), m.fast}};
+    return {RoughDiffuse{share(m.reflectance, at), alpha / std::sqrt(2.0f), m.fast}};
 }
 
 Bsdf resolve(const ConductorMaterial& m, const SurfacePoint& at) {
     const float alpha = scalar(m.alpha, at);
-    const Rgb specular_reflectance = m.specular_reflectance.evaluate(at);
+    const Rgb specular_reflectance = share(m.specular_reflectance, at);
     if (alpha <= 0)
         return {SmoothConductor{m.eta, m.k, specular_reflectance}};
     return {RoughConductor{{m.distribution, std::max(alpha, smallest_alpha)}, m.eta, m.k, specular_reflectance}};
 }
 
 Bsdf resolve(const DielectricMaterial& m, const SurfacePoint& at) {
-    const Rgb reflectance = m.specular_reflectance.evaluate(at),
-              transmittance = m.specular_transmittance.evaluate(at);
+    const Rgb reflectance = share(m.specular_reflectance, at), transmittance = share(m.specular_transmittance, at);
     if (m.thin)
         return {ThinDielectric{m.eta, reflectance, transmittance}};
     const float alpha = scalar(m.alpha, at);
@@ -42,13 +48,13 @@ Bsdf resolve(const DielectricMaterial& m, const SurfacePoint& at) {
 }
 
 Bsdf resolve(const PlasticMaterial& m, const SurfacePoint& at) {
-    return {Plastic(*m.coating, m.eta, m.facets, m.specular_reflectance.evaluate(at),
-                    m.diffuse_reflectance.evaluate(at), m.nonlinear)};
+    return {Plastic(*m.coating, m.eta, m.facets, share(m.specular_reflectance, at),
+                    share(m.diffuse_reflectance, at), m.nonlinear)};
 }
 
 Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
-    return {Phong(std::max(scalar(m.exponent, at), 0.0f), m.diffuse_reflectance.evaluate(at),
-                  m.specular_reflectance.evaluate(at))};
+    return {Phong(std::max(scalar(m.exponent, at), 0.0f), share(m.diffuse_reflectance, at),
+                  share(m.specular_reflectance, at))};
 }
 
 Bsdf resolve(const MixtureMaterial& m, const SurfacePoint& at) {

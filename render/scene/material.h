@@ -19,10 +19,10 @@ struct DiffuseMaterial {
     bool fast = false;     ///< the qualitative model of the grooves
 };
 
-/// A conductor; alpha below the smallest that microfacet theory can hold in floats means a perfect mirror.
+/// A conductor; alpha = 0 means a perfect mirror, any above at least what microfacet theory can hold in floats.
 struct ConductorMaterial {
     MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-    Texture alpha{Rgb(0)}; ///< roughness, the red channel counts; constant 0: perfectly smooth
+    Texture alpha{Rgb(0)}; ///< roughness, by its luminance; constant 0: perfectly smooth
     Rgb eta{0};            ///< index of refraction relative to the outside; eta = 0, k = 1: reflects all
     Rgb k{1};              ///< absorption, likewise
     Texture specular_reflectance{Rgb(1)};
@@ -35,7 +35,7 @@ struct DielectricMaterial {
     Texture specular_reflectance{Rgb(1)};
     Texture specular_transmittance{Rgb(1)};
     MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-    Texture alpha{Rgb(0)}; ///< roughness, the red channel counts; constant 0: perfectly smooth
+    Texture alpha{Rgb(0)}; ///< roughness, by its luminance; constant 0: perfectly smooth
 };
 
 /// A diffuse base under a dielectric coating.
@@ -50,7 +50,7 @@ struct PlasticMaterial {
 
 /// A diffuse part and a lobe about the mirror direction.
 struct PhongMaterial {
-    Texture exponent{Rgb(30)}; ///< the red channel counts
+    Texture exponent{Rgb(30)}; ///< by its luminance
     Texture diffuse_reflectance{Rgb(0.5f)};
     Texture specular_reflectance{Rgb(0.2f)};
 };

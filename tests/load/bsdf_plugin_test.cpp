@@ -208,7 +208,9 @@ TEST(BsdfPlugins, Coating) {
     EXPECT_EQ(coated.sigma_a.evaluate({}), Rgb(0.1f, 2, 3));
     EXPECT_TRUE(r.material.two_sided);
     EXPECT_EQ(r.notes, "");
-    EXPECT_EQ(read(around("roughcoating", "<float name='alpha' value='0.2'/>" + diffuse)).notes,
+    EXPECT_EQ(read(around("roughcoating",
+                          "<float name='alpha' value='0.2'/><bsdf type='twosided'>" + diffuse + "</bsdf>"))
+                  .notes,
               "'roughcoating' is replaced by 'coating', which is smooth\n");
     const Read clear = read(around("coating", glass));
     EXPECT_EQ(clear.notes, "the coating around a transparent material is left out\n");

@@ -10,8 +10,9 @@ namespace tessera::test {
 
 namespace {
 
-Vertex vertex(const Bsdf& bsdf, glm::vec3 to_previous) {
+Vertex vertex(const Bsdf& bsdf, glm::vec3 to_previous, glm::vec3 normal = {0, 0, 1}) {
     Vertex v{};
+    v.frame = Frame(glm::normalize(normal));
     v.bsdf = bsdf;
     v.to_previous = glm::normalize(to_previous);
     return v;
@@ -47,7 +48,8 @@ Tally copy_there_and_back(const Bsdf& a, const Bsdf& b, float side) {
     for (int i = 0; i < 400; ++i) {
         const glm::vec3 view(next() - 0.5f, next() - 0.5f, side * (0.3f + next()));
         const glm::vec3 other = view + 0.2f * glm::vec3(next() - 0.5f, next() - 0.5f, next() - 0.5f);
-        const Vertex base = vertex(a, view), offset = vertex(b, other);
+        const glm::vec3 bend(0.2f * (next() - 0.5f), 0.2f * (next() - 0.5f), 1);
+        const Vertex base = vertex(a, view), offset = vertex(b, other, bend);
         const float lobe = next(), u = next();
         const auto s = a.sample(base.to_previous, lobe, {u, next()});
         if (!s)
@@ -99,6 +101,29 @@ TEST(HalfVector, ATransmissionStaysOne) {
     // A reflection whose copy would dive below the surface.
     const glm::vec3 half = glm::normalize(glm::vec3(0.6f, 0, 1));
     EXPECT_FALSE(copy_half_vector(vertex(glass(1.5f), half), half, vertex(glass(1.5f), {-1, 0, 0.3f})));
+}
+
+/// Frames turn about the normal by any angle between normals that hardly differ: directions must not.
+TEST(HalfVector, TurnsWithTheNormalAndNoMore) {
+    const Bsdf metal{RoughConductor{{MicrofacetDistribution::ggx, 0.4f}}};
+    for (const glm::vec3 normal : {glm::vec3(1, 0, 0.01f), glm::vec3(1, 1, 0.01f), glm::vec3(0, 1, 0.01f),
+                                   glm::vec3(0.3f, 0.2f, -1), glm::vec3(-1, 0, 0.01f)}) {
+        Vertex base = vertex(metal, {0, 0, 1}, normal);
+        Vertex offset = vertex(metal, {0, 0, 1}, normal * glm::vec3(1, 1, -1));
+        if (normal.z < -0.5f)
+            offset.frame = Frame(glm::normalize(normal + glm::vec3(0.02f, 0, 0)));
+        const glm::vec3 view = glm::normalize(glm::normalize(normal) + glm::vec3(0.2f, -0.3f, 0.25f));
+        base.to_previous = base.to_local(view);
+        offset.to_previous = offset.to_local(view);
+        const glm::vec3 next = glm::normalize(glm::normalize(normal) + glm::vec3(-0.3f, 0.2f, -0.1f));
+        const auto there = copy_half_vector(base, base.to_local(next), offset);
+        ASSERT_TRUE(there);
+        EXPECT_LT(glm::distance(offset.to_world(there->to_next), next), 0.09f); // 5 degrees
+        const auto back = copy_half_vector(offset, there->to_next, base);
+        ASSERT_TRUE(back);
+        EXPECT_LT(glm::distance(base.to_world(back->to_next), next), 2e-4f);
+        EXPECT_NEAR(there->jacobian * back->jacobian, 1, 1e-3f);
+    }
 }
 
 } // namespace
