@@ -65,6 +65,8 @@ std::string bare_message(std::string what) {
 }
 
 json parse_json(const CameraText& text) {
+    if (text.text().empty())
+        text.fail_at(0, "the file is empty");
     try {
         return json::parse(text.text());
     } catch (const json::parse_error& e) {

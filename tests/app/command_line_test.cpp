@@ -242,7 +242,7 @@ TEST_F(CommandLine, CameraFileReplacesTheScenesCamera) {
 TEST_F(CommandLine, BadCameraFilesGetAMessageAndExitCode2) {
     const std::string unit = "\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"", "c.json:1:1: the JSON is broken: unexpected end of input"},
+        {"", "c.json:1:1: the file is empty"},
         {"{\n  \"fov\": 40,\n}", "c.json:3:1: the JSON is broken"},
         {"{\"fov\": nan}", "c.json:1:10: the JSON is broken: invalid literal\n"},
         {"[]", "c.json:1:1: a camera file holds one object"},

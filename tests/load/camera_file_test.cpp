@@ -24,7 +24,7 @@ constexpr const char* matrix = "1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1";
 
 // M stands for the unit matrix.
 constexpr Broken broken_cameras[] = {
-    {"empty", "", ":1:1: the JSON is broken: unexpected end of input"},
+    {"empty", "", ":1:1: the file is empty"},
     {"not closed", "{\n  \"fov\": 40,\n", ":3:1: the JSON is broken: unexpected end of input"},
     {"no comma", "{\n  \"fov\": 40\n  \"to_world\": [M]}", ":3:12: the JSON is broken: unexpected string literal"},
     {"NaN", "{\"fov\": NaN}", ":1:9: the JSON is broken: invalid literal"},

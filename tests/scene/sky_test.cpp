@@ -147,7 +147,8 @@ TEST(Sky, BitmapHoldsTheRadianceAtItsPixels) {
     ASSERT_EQ(map.width, 32);
     ASSERT_EQ(map.height, 16);
     ASSERT_EQ(map.floats.size(), 32u * 16u);
-    EXPECT_EQ(map.texel(5, 3), sky_radiance(sky, direction_of_map({5.5f / 32, 3.0f / 15})));
+    const Rgb there = sky_radiance(sky, direction_of_map({5.5f / 32, 3.0f / 15}));
+    EXPECT_LT(glm::length(map.texel(5, 3) - there), 1e-5f * glm::length(there));
     EXPECT_TRUE(is_black(map.texel(5, 8)));
     settings.scale = Rgb(1);
     const Rgb unscaled = sky_radiance(make_sky(settings), direction_of_map({5.5f / 32, 3.0f / 15}));
