@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace tessera {
@@ -104,7 +105,7 @@ Plastic::Plastic(const Coating& coating_, float eta_, Microfacets facets_, Rgb s
                  bool nonlinear)
     : coating(&coating_), eta(eta_), facets(facets_), specular_reflectance(specular) {
     // The geometric series of bounces between base and coating; 1/eta^2 for the solid angle on the way out.
-    const Rgb back = (nonlinear ? diffuse : Rgb(1)) * coating->internal_reflectance;
+    const Rgb back = (nonlinear ? glm::min(diffuse, Rgb(1)) : Rgb(1)) * coating->internal_reflectance;
     base = diffuse / (Rgb(1) - back) / (eta * eta);
     const float s = mean(specular), d = mean(diffuse);
     specular_weight = s + d > 0 ? s / (s + d) : 0;

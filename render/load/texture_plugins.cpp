@@ -168,9 +168,6 @@ Texture texture_parameter(LoadContext& context, Properties& properties, std::str
 
 Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback) {
     Texture texture = texture_parameter(context, properties, name, fallback);
-    if (texture.scale > 1)
-        properties.note(*properties.take(name),
-                        "'" + std::string(name) + "' is cut where the scaled texture is above 1");
     if (Rgb* color = std::get_if<Rgb>(&texture.kind)) {
         if (color->r < 0 || color->g < 0 || color->b < 0)
             properties.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");

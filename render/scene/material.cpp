@@ -15,9 +15,10 @@ float scalar(const Texture& texture, const SurfacePoint& at) {
     return constant ? constant->r : luminance(texture.evaluate(at));
 }
 
-/// A texture of shares of light: cut to [0, 1], or energy would come from nowhere.
+/// A texture of shares of light. Above 1, which only files of floats and scaled textures are, it makes energy, as
+/// in Mitsuba 3.
 Rgb share(const Texture& texture, const SurfacePoint& at) {
-    return glm::clamp(texture.evaluate(at), 0.0f, 1.0f);
+    return glm::max(texture.evaluate(at), 0.0f);
 }
 
 Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
