@@ -38,23 +38,7 @@ std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) con
     return LightRay{direction, intensity, pdf * distance2};
 }
 
-Rgb LightTriangle::radiance_at(glm::vec2 b) const {
-    const float first = 1 - b.x - b.y;
-    return radiance_map->evaluate(
-        {first * at[0].uv + b.x * at[1].uv + b.y * at[2].uv,
-         first * at[0].vertex_color + b.x * at[1].vertex_color + b.y * at[2].vertex_color});
-}
-
 namespace {
-
-SurfacePoint corner_of(const Mesh& mesh, unsigned vertex, glm::vec2 barycentric) {
-    SurfacePoint at{barycentric};
-    if (!mesh.uvs.empty())
-        at.uv = mesh.uvs[vertex];
-    if (!mesh.colors.empty())
-        at.vertex_color = mesh.colors[vertex];
-    return at;
-}
 
 double cone_solid_angle(const PointLight& light) {
     const double half_way = 0.5 * glm::radians(double(light.cutoff) + double(light.full_within));
@@ -113,7 +97,8 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
             continue;
         const Mesh& mesh = shape.mesh;
         const auto light = static_cast<std::size_t>(shape.area_light);
-        for (const glm::uvec3 t : mesh.triangles) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const glm::uvec3 t = mesh.triangles[i];
             LightTriangle triangle;
             triangle.corner = mesh.positions[t.x];
             triangle.edge1 = mesh.positions[t.y] - triangle.corner;
@@ -126,9 +111,8 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
             triangle.light = light;
             if (!description.area_lights[light].radiance.is_constant()) {
                 triangle.radiance_map = &description.area_lights[light].radiance;
-                triangle.at[0] = corner_of(mesh, t.x, {0, 0});
-                triangle.at[1] = corner_of(mesh, t.y, {1, 0});
-                triangle.at[2] = corner_of(mesh, t.z, {0, 1});
+                triangle.mesh = &mesh;
+                triangle.index = i;
             }
             sources_.emplace_back(triangle);
             power.push_back(double(pi) * 0.5 * area2 * luminance(mean[light]));

@@ -5,6 +5,7 @@
 #include "render/sampling.h"
 #include "render/scene/alias_table.h"
 #include "render/scene/environment.h"
+#include "render/scene/mesh.h"
 #include "render/scene/texture.h"
 #include "render/trace/ray.h"
 
@@ -96,9 +97,10 @@ struct LightTriangle {
     float pdf_a;       ///< of choosing this triangle and a point on it, per area
     std::size_t light; ///< index of its area light
 
-    // Where radiance varies: its texture and where the corners are on it.
+    // Where radiance varies: its texture, and which triangle of which mesh this is.
     const Texture* radiance_map = nullptr;
-    SurfacePoint at[3];
+    const Mesh* mesh = nullptr;
+    std::size_t index = 0;
 
     /// Whether it sends light toward a point, from anywhere on it.
     bool faces(glm::vec3 point) const { return glm::dot(point - corner, normal) > 0; }
@@ -107,12 +109,9 @@ struct LightTriangle {
         point.kind = LightPoint::Kind::surface;
         point.position = corner + b.x * edge1 + b.y * edge2;
         point.normal = normal;
-        point.radiance = radiance_map ? radiance_at(b) : radiance;
+        point.radiance = radiance_map ? radiance_map->evaluate(surface_point(*mesh, index, b)) : radiance;
         point.pdf = pdf_a;
     }
-
-private:
-    Rgb radiance_at(glm::vec2 barycentric) const;
 };
 
 /// The lights of a scene, chosen in proportion to their power, by an alias table over all emitting triangles and
@@ -120,8 +119,8 @@ private:
 class LightTable {
 public:
     LightTable() = default;
-    /// Keeps pointers into the description. All of the scene is within `radius` of `center`: what comes from
-    /// infinity has power in proportion to that.
+    /// Keeps pointers into the description. `radius` is that of a sphere around the scene: light from infinity has
+    /// power in proportion to its disk.
     LightTable(const SceneDescription& description, float radius);
 
     bool empty() const { return sources_.empty(); }

@@ -19,4 +19,16 @@ glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 t) {
     return glm::dot(sum, n) < 0 ? -n : n;
 }
 
+SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::vec2 barycentric) {
+    const glm::uvec3 t = mesh.triangles[triangle];
+    const float first = 1 - barycentric.x - barycentric.y;
+    SurfacePoint at{barycentric};
+    if (!mesh.uvs.empty())
+        at.uv = first * mesh.uvs[t.x] + barycentric.x * mesh.uvs[t.y] + barycentric.y * mesh.uvs[t.z];
+    if (!mesh.colors.empty())
+        at.vertex_color =
+            first * mesh.colors[t.x] + barycentric.x * mesh.colors[t.y] + barycentric.y * mesh.colors[t.z];
+    return at;
+}
+
 } // namespace tessera

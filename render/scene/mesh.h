@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/scene/surface_point.h"
+
 #include <string>
 #include <vector>
 
@@ -20,6 +22,9 @@ struct Mesh {
 /// The unit normal of a triangle, on the side to which the corners' normals point where there are any, else the
 /// one from which the corners run counter-clockwise. 0: the triangle has no area.
 glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 triangle);
+
+/// Where textures are looked up, at barycentric coordinates (weights of the second and third corner).
+SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::vec2 barycentric);
 
 /// A mesh with what it is made of and, perhaps, the light it gives off.
 struct Shape {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/scene/texture.h"
 
 #include <glm/vec3.hpp>
 

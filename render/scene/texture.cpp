@@ -51,8 +51,14 @@ Rgb nearest(const Bitmap& bitmap, glm::vec2 uv) {
     return bitmap.texel(glm::min(x, bitmap.width - 1), glm::min(y, bitmap.height - 1));
 }
 
-/// Pixels count at their centres, (i + 1/2) / size.
-Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
+/// The four pixels around uv and how far it is from the upper left one; pixels count at their centres, (i + 1/2) /
+/// size.
+struct Corners {
+    Rgb upper_left, upper_right, lower_left, lower_right;
+    float right, down; // in [0, 1)
+};
+
+Corners corners(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
     const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
     const float left = std::floor(x);
@@ -61,25 +67,23 @@ Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     const int x1 = wrap(static_cast<int>(left) + 1, bitmap.width, mode);
     const int y0 = wrap(static_cast<int>(top), bitmap.height, mode);
     const int y1 = wrap(static_cast<int>(top) + 1, bitmap.height, mode);
-    const Rgb upper = glm::mix(bitmap.texel(x0, y0), bitmap.texel(x1, y0), x - left);
-    const Rgb lower = glm::mix(bitmap.texel(x0, y1), bitmap.texel(x1, y1), x - left);
-    return glm::mix(upper, lower, y - top);
+    return {
+        bitmap.texel(x0, y0), bitmap.texel(x1, y0), bitmap.texel(x0, y1), bitmap.texel(x1, y1), x - left, y - top};
 }
 
-/// Derivative of bilinear() by u and v.
+Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
+    const Corners c = corners(bitmap, uv, mode);
+    return glm::mix(glm::mix(c.upper_left, c.upper_right, c.right), glm::mix(c.lower_left, c.lower_right, c.right),
+                    c.down);
+}
+
+/// Derivative of bilinear()'s luminance by u and v.
 glm::vec2 bilinear_gradient(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
-    const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
-    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
-    const float left = std::floor(x);
-    const float top = std::floor(y);
-    const int x0 = wrap(static_cast<int>(left), bitmap.width, mode);
-    const int x1 = wrap(static_cast<int>(left) + 1, bitmap.width, mode);
-    const int y0 = wrap(static_cast<int>(top), bitmap.height, mode);
-    const int y1 = wrap(static_cast<int>(top) + 1, bitmap.height, mode);
-    const float a = luminance(bitmap.texel(x0, y0)), b = luminance(bitmap.texel(x1, y0));
-    const float c = luminance(bitmap.texel(x0, y1)), d = luminance(bitmap.texel(x1, y1));
-    return {glm::mix(b - a, d - c, y - top) * static_cast<float>(bitmap.width),
-            glm::mix(c - a, d - b, x - left) * static_cast<float>(bitmap.height)};
+    const Corners c = corners(bitmap, uv, mode);
+    const Rgb by_x = glm::mix(c.upper_right - c.upper_left, c.lower_right - c.lower_left, c.down);
+    const Rgb by_y = glm::mix(c.lower_left - c.upper_left, c.lower_right - c.upper_right, c.right);
+    return {luminance(by_x) * static_cast<float>(bitmap.width),
+            luminance(by_y) * static_cast<float>(bitmap.height)};
 }
 
 Rgb look_up(const BitmapTexture& texture, glm::vec2 uv) {

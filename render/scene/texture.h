@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/scene/surface_point.h"
 
 #include <cstdint>
 #include <memory>
@@ -41,12 +42,6 @@ struct CheckerboardTexture {
 
 /// The colours that the mesh has at its vertices.
 struct VertexColorTexture {};
-
-/// Where on a surface a texture is looked up.
-struct SurfacePoint {
-    glm::vec2 uv{0};
-    Rgb vertex_color{1}; ///< of a mesh that has such, interpolated
-};
 
 /// A colour over a surface: constant, or looked up. As in Mitsuba, v = 0 is the top of a bitmap; the v of an
 /// OBJ file, which counts from the bottom, is turned over when the file is read.

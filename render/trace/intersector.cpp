@@ -113,18 +113,6 @@ struct Mask {
     const Texture* opacity;
 };
 
-SurfacePoint surface_point(const Mesh& mesh, unsigned triangle, glm::vec2 barycentric) {
-    const glm::uvec3 t = mesh.triangles[triangle];
-    const float first = 1 - barycentric.x - barycentric.y;
-    SurfacePoint at{barycentric};
-    if (!mesh.uvs.empty())
-        at.uv = first * mesh.uvs[t.x] + barycentric.x * mesh.uvs[t.y] + barycentric.y * mesh.uvs[t.z];
-    if (!mesh.colors.empty())
-        at.vertex_color =
-            first * mesh.colors[t.x] + barycentric.x * mesh.colors[t.y] + barycentric.y * mesh.colors[t.z];
-    return at;
-}
-
 /// A number in [0, 1) that depends on every bit of a ray's direction and of where it meets the surface.
 float chance(glm::vec3 direction, glm::vec2 barycentric, unsigned shape, unsigned triangle) {
     const auto bits = [](float a, float b) {
