@@ -7,9 +7,12 @@
 #include "app/load_notes.h"
 #include "app/render.h"
 #include "app/view.h"
+#include "render/method/settings_table.h"
 #include "render/session/thread_pool.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -44,7 +47,6 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
 struct Words {
     std::string scene, camera, size, window, method = "gpr", norms, clock = "wall";
     std::vector<std::string> definitions;
-    int max_depth = 0;
     int spp = 0;
     double time = 0;
     double seconds = 5;
@@ -61,25 +63,45 @@ void add_scene(CLI::App& command, Words& words, bool required) {
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
 }
 
+/// --rr-delta for "rr_delta".
+std::string option_name(const Setting& setting) {
+    std::string name = "--" + std::string(setting.id);
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
+void add_choice(CLI::App& command, const Setting& setting, const Setting::OneOf& one, RenderSettings& s) {
+    std::map<std::string, int> values;
+    for (std::size_t i = 0; i < one.choices.size(); ++i)
+        values[std::string(one.choices[i].id)] = static_cast<int>(i);
+    command
+        .add_option_function<std::string>(
+            option_name(setting), [&one, &s, values](const std::string& word) { one.set(s, values.at(word)); },
+            std::string(setting.help))
+        ->check(CLI::IsMember(values))
+        ->default_str(setting.text(s));
+}
+
+/// The setting as an option. `s` must outlive the command.
+void add_setting(CLI::App& command, const Setting& setting, RenderSettings& s) {
+    const std::string name = option_name(setting), help(setting.help);
+    CLI::Option* option = nullptr;
+    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
+        option = command.add_option(name, s.*whole->member, help)->check(CLI::Range(whole->least, whole->most));
+    else if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
+        option = command.add_option(name, s.*real->member, help)->check(CLI::Range(real->least, real->most));
+    else if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
+        option = command.add_flag(name + ",!--no-" + name.substr(2), s.*on->member, help);
+    else
+        return add_choice(command, setting, std::get<Setting::OneOf>(setting.kind), s);
+    option->default_str(setting.id == "max_depth" ? "the scene's" : setting.text(s));
+}
+
 void add_settings(CLI::App& command, Words& words) {
     RenderSettings& s = words.settings;
     command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
-    command
-        .add_option("--max-depth", words.max_depth,
-                    "edges of a light path; 1: emission only (default: the scene's)")
-        ->check(CLI::Range(1, 64));
-    command.add_option("--tile", s.tile, "pixels along the edge of a tile")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
-    command.add_option("--rr-delta", s.rr_delta, "radiance below which paths are reused less often; 0: all are")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command.add_option("--q-min", s.q_min, "least probability that a path is reused")
-        ->check(CLI::Range(1e-4, 1.0))
-        ->capture_default_str();
-    command.add_option("--shift-threshold", s.shift_threshold, "roughness above which vertices can be connected")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
+    for (const Setting& setting : all_settings())
+        add_setting(command, setting, s);
     command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
         ->check(CLI::Range(1e-4, 1e3))
         ->capture_default_str();
@@ -103,7 +125,7 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
     options.settings = words.settings;
     options.settings.method = *method_from_name(words.method);
     if (command.count("--max-depth"))
-        options.max_depth = words.max_depth;
+        options.max_depth = words.settings.max_depth;
     if (command.count("--spp"))
         options.spp = words.spp;
     if (command.count("--time"))
@@ -188,7 +210,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         pane.reconstruction.alpha = words.alpha;
     }
     if (command.count("--max-depth"))
-        options.max_depth = words.max_depth;
+        options.max_depth = words.settings.max_depth;
     if (!words.size.empty())
         options.render_size = {SizeChoice::Base::custom, 1, parse_size("--size", words.size)};
     if (!words.window.empty())

@@ -8,6 +8,7 @@
 #include "app/stats.h"
 #include "render/load/exr.h"
 #include "render/load/png.h"
+#include "render/method/settings_table.h"
 #include "render/session/render.h"
 
 #include <algorithm>
@@ -77,7 +78,14 @@ void render_passes(const RenderOptions& options, const Plan& plan, Render& rende
     } while (done < 1 && !interrupted);
 }
 
-ExrFile assemble(const RenderOptions& options, const GradientImages& images,
+/// The means of a map, as a layer.
+RgbImage gray(const Image<float>& map) {
+    RgbImage image(map.width(), map.height());
+    std::transform(map.begin(), map.end(), image.begin(), [](float v) { return Rgb(v); });
+    return image;
+}
+
+ExrFile assemble(const RenderOptions& options, const GradientImages& images, const ReuseMaps& maps,
                  std::vector<ReconstructionStats>& recon, const std::vector<Norm>& norms, ThreadPool& pool) {
     ExrFile file;
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
@@ -97,6 +105,10 @@ ExrFile assemble(const RenderOptions& options, const GradientImages& images,
         file.layers.push_back({"dy", images.dy});
     }
     file.layers.push_back({"direct", images.very_direct});
+    if (!maps.reused.empty()) {
+        file.layers.push_back({"reused", gray(maps.reused)});
+        file.layers.push_back({"failed", gray(maps.failed)});
+    }
     return file;
 }
 
@@ -130,12 +142,11 @@ int run_render(const RenderOptions& options) {
     const Plan plan = make_plan(options, *opened.scene);
     Render render(opened.scene, opened.scene->camera(), plan.size, plan.settings);
     render_passes(options, plan, render, pool);
-    if (render.counters().refused_samples > 0)
-        fmt::print(stderr, "warning: {} samples were not finite and were left out (seed {})\n",
-                   render.counters().refused_samples, plan.settings.seed);
+    if (const std::string warning = refused_text(render.counters(), plan.settings.seed); !warning.empty())
+        fmt::print(stderr, "warning: {}\n", warning);
 
     std::vector<ReconstructionStats> recon;
-    ExrFile file = assemble(options, render.images(), recon, plan.norms, pool);
+    ExrFile file = assemble(options, render.images(), render.reuse_maps(), recon, plan.norms, pool);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};

@@ -1,6 +1,7 @@
 #include "app/stats.h"
 
 #include "app/process_usage.h"
+#include "render/method/settings_table.h"
 
 #include <nlohmann/json.hpp>
 
@@ -8,22 +9,34 @@ namespace tessera {
 
 using nlohmann::json;
 
+namespace {
+
+json value_json(const Setting& setting, const RenderSettings& s) {
+    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
+        return s.*whole->member;
+    if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
+        return s.*real->member;
+    if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
+        return s.*on->member;
+    return setting.text(s);
+}
+
+} // namespace
+
 json settings_json(const SceneSource& scene, const RenderSettings& s, glm::ivec2 size, int spp, float alpha) {
-    return {{"version", TESSERA_VERSION},
-            {"scene", to_string(scene)},
-            {"variables", scene.variables},
-            {"camera", scene.camera.string()},
-            {"method", short_name(s.method)},
-            {"width", size.x},
-            {"height", size.y},
-            {"spp", spp},
-            {"max_depth", s.max_depth},
-            {"tile", s.tile},
-            {"rr_delta", s.rr_delta},
-            {"q_min", s.q_min},
-            {"shift_threshold", s.shift_threshold},
-            {"alpha", alpha},
-            {"seed", s.seed}};
+    json settings{{"version", TESSERA_VERSION},
+                  {"scene", to_string(scene)},
+                  {"variables", scene.variables},
+                  {"camera", scene.camera.string()},
+                  {"method", short_name(s.method)},
+                  {"width", size.x},
+                  {"height", size.y},
+                  {"spp", spp},
+                  {"alpha", alpha},
+                  {"seed", s.seed}};
+    for (const Setting& setting : all_settings())
+        settings[std::string(setting.id)] = value_json(setting, s);
+    return settings;
 }
 
 namespace {
@@ -32,11 +45,21 @@ json counters_json(const Counters& c) {
     json outcomes = json::object();
     for (int i = 0; i < shift_outcome_count; ++i)
         outcomes[std::string(to_string(static_cast<ShiftOutcome>(i)))] = c.shifts[static_cast<std::size_t>(i)];
+    json rays = json::object();
+    for (int i = 0; i < ray_kind_count; ++i)
+        rays[std::string(to_string(static_cast<RayKind>(i)))] = c.rays[static_cast<std::size_t>(i)];
     const double paths = static_cast<double>(std::max<std::uint64_t>(c.camera_paths, 1));
+    const double set_paths = static_cast<double>(std::max<std::uint64_t>(c.set_paths(), 1));
     return {{"camera_paths", c.camera_paths},
             {"mean_path_vertices", static_cast<double>(c.path_vertices) / paths},
-            {"rays", {{"closest_hit", c.closest_hit_rays}, {"occlusion", c.occlusion_rays}}},
-            {"reuse", {{"paths_with_light", c.reusable_paths}, {"skipped_by_roulette", c.skipped_paths}}},
+            {"rays", rays},
+            {"reuse",
+             {{"dark_paths", c.dark_paths},
+              {"skipped_by_roulette", c.skipped_paths},
+              {"reused_paths", c.reused_paths},
+              {"reused_share", static_cast<double>(c.reused_paths) / set_paths},
+              {"skipped_share", static_cast<double>(c.skipped_paths) / set_paths},
+              {"light_paths_skipped_by_weight", c.skipped_light_paths}}},
             {"shifts", {{"attempts", c.shift_attempts()}, {"outcomes", outcomes}}},
             {"refused_samples", c.refused_samples}};
 }

@@ -1,5 +1,7 @@
 #include "render/film.h"
 
+#include <algorithm>
+
 namespace tessera {
 
 namespace {
@@ -14,18 +16,28 @@ RgbImage mean(const Image<glm::dvec3>& sums, int passes) {
 
 } // namespace
 
-Film::Film(int width, int height, bool gradients) : primal_(width, height), very_direct_(width, height) {
-    if (!gradients)
-        return;
-    dx_ = Sums(width, height);
-    dy_ = Sums(width, height);
+Film::Film(int width, int height, Method method) : primal_(width, height), very_direct_(width, height) {
+    if (has_gradients(method)) {
+        dx_ = Sums(width, height);
+        dy_ = Sums(width, height);
+    }
+    if (method != Method::pt)
+        shifts_ = Image<Shifts>(width, height);
+    if (reuses_paths(method))
+        base_luminance_ = Image<float>(width, height);
 }
 
-void Film::add(int x, int y, const PixelSample& sample, Counters& counters) {
+void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
     if (!is_finite(sample.primal) || !is_finite(sample.dx) || !is_finite(sample.dy) ||
         !is_finite(sample.very_direct)) {
-        ++counters.refused_samples;
+        counters.refuse({pass, y, x});
         return;
+    }
+    if (!base_luminance_.empty())
+        base_luminance_(x, y) = sample.base_luminance;
+    if (!shifts_.empty()) {
+        shifts_(x, y).arrived += sample.arrived;
+        shifts_(x, y).failed += sample.failed;
     }
     primal_(x, y) += sample.primal;
     very_direct_(x, y) += sample.very_direct;
@@ -36,6 +48,18 @@ void Film::add(int x, int y, const PixelSample& sample, Counters& counters) {
         dx_(x, y) += sample.dx;
     if (y + 1 < height())
         dy_(x, y) += sample.dy;
+}
+
+ReuseMaps Film::reuse_maps(int passes) const {
+    ReuseMaps maps{Image<float>(shifts_.width(), shifts_.height()),
+                   Image<float>(shifts_.width(), shifts_.height())};
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+        const auto arrived = static_cast<float>(shifts_.data()[i].arrived);
+        const auto failed = static_cast<float>(shifts_.data()[i].failed);
+        maps.reused.data()[i] = arrived / static_cast<float>(std::max(passes, 1));
+        maps.failed.data()[i] = failed / std::max(arrived + failed, 1.0f);
+    }
+    return maps;
 }
 
 GradientImages Film::means(int passes) const {

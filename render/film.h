@@ -1,7 +1,8 @@
 #pragma once
 
 #include "recon/gradient_images.h"
-#include "render/method/counters.h"
+#include "render/method/settings.h"
+#include "render/path/counters.h"
 
 #include <glm/vec3.hpp>
 
@@ -13,27 +14,46 @@ struct PixelSample {
     Rgb dx{0}; ///< to the pixel on the right
     Rgb dy{0}; ///< to the pixel below
     Rgb very_direct{0};
+    std::uint32_t arrived = 0; ///< base paths of other pixels that brought light here
+    std::uint32_t failed = 0;  ///< those that were shifted here and brought none
+    float base_luminance = 0;  ///< of its own base path's radiance
+};
+
+/// How sharing went, per pixel.
+struct ReuseMaps {
+    Image<float> reused; ///< base paths of other pixels that brought light here, a pass
+    Image<float> failed; ///< share of the shifts to here that brought none, in [0, 1]; 0 without any
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
 /// taken when they are asked for, and 10^5 passes neither drift nor overflow. Every pixel is written once a pass,
 /// by one worker, so the sums do not depend on the number of threads.
 class Film {
+    struct Shifts {
+        std::uint32_t arrived, failed;
+    };
+
 public:
-    Film(int width, int height, bool gradients);
+    Film(int width, int height, Method method);
 
     int width() const { return primal_.width(); }
     int height() const { return primal_.height(); }
 
-    /// Adds a pass's sample of one pixel. A sample that is not finite is refused and counted.
-    void add(int x, int y, const PixelSample& sample, Counters& counters);
+    /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted.
+    void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
     /// Means over `passes` complete passes.
     GradientImages means(int passes) const;
+    /// Empty images where pixels share nothing.
+    ReuseMaps reuse_maps(int passes) const;
+    /// Of the last pass; empty where tiles are not shared.
+    const Image<float>& base_luminance() const { return base_luminance_; }
 
 private:
     using Sums = Image<glm::dvec3>;
     Sums primal_, dx_, dy_, very_direct_;
+    Image<Shifts> shifts_;
+    Image<float> base_luminance_;
 };
 
 } // namespace tessera

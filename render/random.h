@@ -8,7 +8,18 @@ namespace tessera {
 
 /// The purposes for which a path draws random numbers at one vertex. Every purpose has its own dimension, so
 /// that a path drawn again takes the same numbers whatever it skips.
-enum class Draw : std::uint32_t { emitter, emitter_position, emitter_cell, lobe, direction, survival, count };
+enum class Draw : std::uint32_t {
+    emitter, ///< for light sample j > 0 of a vertex: of that many times 65 vertices further on
+             ///< (Tracer::sample_light)
+    emitter_position,
+    emitter_cell,
+    lobe,
+    direction,
+    path_survival,   ///< roulette on path length
+    reuse_survival,  ///< roulette on reuse
+    weight_survival, ///< roulette on small weights; a slot in place of a vertex
+    count
+};
 
 /// Random numbers as a function of (seed, pixel, sample, vertex, purpose): no state, so the picture is the same
 /// for any number of threads and any order of work. SplitMix64 [Steele 2014] with the path's key as its start.

@@ -1,5 +1,7 @@
 #include "ui/change_log.h"
 
+#include "render/method/settings_table.h"
+
 #include <cstdio>
 
 namespace tessera {
@@ -22,10 +24,8 @@ void describe(const std::string& prefix, const PaneState& pane, Values& values) 
     const RenderSettings& render = pane.settings.render;
     values[prefix + "method"] = short_name(render.method);
     values[prefix + "buffer"] = short_name(pane.settings.buffer);
-    values[prefix + "tile"] = std::to_string(render.tile);
-    values[prefix + "rr_delta"] = text(static_cast<double>(render.rr_delta));
-    values[prefix + "q_min"] = text(static_cast<double>(render.q_min));
-    values[prefix + "max_depth"] = std::to_string(render.max_depth);
+    for (const Setting& setting : all_settings())
+        values[prefix + std::string(setting.id)] = setting.text(render);
     values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
     values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
     values[prefix + "generation"] = std::to_string(pane.generation);

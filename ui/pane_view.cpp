@@ -167,7 +167,7 @@ std::string status_text(const PaneState& pane, bool paused, int spp_limit) {
         return method + (paused ? "   paused" : "   starting");
     const Snapshot& snapshot = *pane.snapshot;
     const double rate =
-        snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.rays()) / snapshot.seconds : 0;
+        snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
     char text[160];
     std::snprintf(text, sizeof text, "%s   %d spp   %.2f s   %.1f Mrays/s", method.c_str(), snapshot.spp,
                   snapshot.seconds, rate * 1e-6);

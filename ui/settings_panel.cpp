@@ -1,8 +1,11 @@
+#include "render/method/settings_table.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -10,21 +13,45 @@ namespace tessera {
 
 namespace {
 
-bool draw_method_settings(Controls& controls, RenderSettings& settings) {
-    bool changed = controls.slider("tile", "Tile", settings.tile, 1, 16,
-                                   "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. "
-                                   "Used by PR and G-PR.");
-    changed |= controls.log_slider("rr_delta", "RR delta", settings.rr_delta, 0, 10,
-                                   "Reuse roulette: a path whose value (luminance, a radiance) is below delta is "
-                                   "reused with probability value / delta. 0: every path is reused.");
-    ImGui::BeginDisabled(settings.rr_delta == 0);
-    changed |=
-        controls.log_slider("q_min", "q min", settings.q_min, 0.001f, 1,
-                            "Least probability with which the roulette lets a path be reused (no unit). Above "
-                            "0, since a path can carry light for a neighbour where it carries none itself.");
-    ImGui::EndDisabled();
-    changed |= controls.slider("max_depth", "Max depth", settings.max_depth, 1, 64,
-                               "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.");
+bool draw_choice(Controls& controls, const Setting& setting, const Setting::OneOf& one, RenderSettings& settings) {
+    std::vector<ChoiceItem> items;
+    for (const SettingChoice& c : one.choices)
+        items.push_back({std::string(c.id), std::string(c.label), std::string(c.help)});
+    int index = one.get(settings);
+    const bool changed = controls.choice(std::string(setting.id).c_str(), std::string(setting.label).c_str(),
+                                         items, index, std::string(setting.help).c_str());
+    if (changed)
+        one.set(settings, index);
+    return changed;
+}
+
+bool draw_setting(Controls& controls, const Setting& setting, RenderSettings& settings) {
+    const std::string id(setting.id), label(setting.label), help(setting.help);
+    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
+        return controls.slider(id.c_str(), label.c_str(), settings.*whole->member, whole->least, whole->most,
+                               help.c_str());
+    if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
+        return controls.log_slider(id.c_str(), label.c_str(), settings.*real->member, real->low, real->high,
+                                   help.c_str());
+    if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
+        return controls.toggle(id.c_str(), label.c_str(), settings.*on->member, help.c_str());
+    return draw_choice(controls, setting, std::get<Setting::OneOf>(setting.kind), settings);
+}
+
+/// Whether a setting makes a difference in a pane that has the settings at hand.
+bool matters(const Setting& setting, const ViewerState& state) {
+    const auto in = [&](const PaneState& pane) { return setting.matters(pane.settings.render); };
+    return state.linked ? std::any_of(state.panes.begin(), state.panes.end(), in)
+                        : in(state.panes[static_cast<std::size_t>(state.active_pane)]);
+}
+
+/// What makes no difference with the others as they are is not there.
+bool draw_method_settings(Controls& controls, const ViewerState& state, bool rare, RenderSettings& settings) {
+    bool changed = false;
+    for (const Setting& setting : all_settings()) {
+        if (setting.is_rare == rare && matters(setting, state))
+            changed |= draw_setting(controls, setting, settings);
+    }
     return changed;
 }
 
@@ -92,7 +119,11 @@ void draw_contents(Controls& controls, ViewerState& state) {
         state.linked)
         state.share_settings();
     PaneSettings& edited = state.active().settings;
-    bool changed = draw_method_settings(controls, edited.render);
+    bool changed = draw_method_settings(controls, state, false, edited.render);
+    const bool more = ImGui::TreeNodeEx("More", ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    controls.note("more", "What is seldom changed.");
+    if (more)
+        changed |= draw_method_settings(controls, state, true, edited.render);
     heading("Reconstruction");
     changed |= draw_reconstruction_settings(controls, edited.reconstruction);
     if (changed)

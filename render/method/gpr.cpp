@@ -8,16 +8,21 @@ namespace {
 /// them the gradients across tile borders would be biased [Bauszat 2017, 3.2].
 void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) {
     const PixelRect set = PixelRect{inner.x0, inner.y0, inner.x1 + 1, inner.y1 + 1}.clipped(pass.size);
-    share_light(pass, set, Roulette::reuse, worker);
+    worker.set.clear();
+    worker.set.add(set);
+    share_light(pass, true, worker);
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
-            const Rgb* here = worker.shared.data() + (y - set.y0) * set.width() + x - set.x0;
-            PixelSample sample{*here, Rgb(0), Rgb(0), worker.base.at(x, y).very_direct};
+            const int i = (y - set.y0) * set.width() + x - set.x0;
+            const Rgb* here = worker.set.radiance.data() + i;
+            PixelSample sample = worker.set.sample(i);
             if (x + 1 < set.x1)
                 sample.dx = here[1] - here[0];
             if (y + 1 < set.y1)
                 sample.dy = here[set.width()] - here[0];
-            film.add(x, y, sample, worker.counters);
+            if (pass.settings.primal == PrimalSource::base)
+                sample.primal = worker.base.at(x, y).radiance();
+            film.add(x, y, pass.index, sample, worker.counters);
         }
 }
 
@@ -26,16 +31,10 @@ void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) 
 /// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
 /// gradients are the differences of these shares: sum of (c_n - c_m) / R.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    const int tile = pass.settings.tile;
     const PixelRect area = block.clipped(pass.size);
     worker.base.trace(pass, worker.tracer,
                       PixelRect{area.x0, area.y0, area.x1 + 1, area.y1 + 1}.clipped(pass.size));
-    for (int ty = block.y0; ty < block.y1; ty += tile)
-        for (int tx = block.x0; tx < block.x1; tx += tile) {
-            const PixelRect inner = PixelRect{tx, ty, tx + tile, ty + tile}.clipped(pass.size);
-            if (!inner.empty())
-                render_tile(pass, inner, worker, film);
-        }
+    for_each_part(pass, block, [&](PixelRect inner) { render_tile(pass, inner, worker, film); });
 }
 
 } // namespace tessera

@@ -4,10 +4,14 @@ namespace tessera {
 
 namespace {
 
-/// The difference of two neighbours that share the light of their base paths: T = {k, n}.
-Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker) {
-    share_light(pass, pair, Roulette::none, worker);
-    return worker.shared[1] - worker.shared[0];
+/// The difference of two neighbours that share the light of their base paths: T = {k, n}. Counts the shift to k.
+Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker, PixelSample& sample) {
+    worker.set.clear();
+    worker.set.add(pair);
+    share_light(pass, false, worker);
+    sample.arrived += worker.set.arrived[0];
+    sample.failed += worker.set.failed[0];
+    return worker.set.radiance[1] - worker.set.radiance[0];
 }
 
 } // namespace
@@ -22,12 +26,12 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
-            PixelSample sample{path.radiance, Rgb(0), Rgb(0), path.very_direct};
+            PixelSample sample{path.radiance(), Rgb(0), Rgb(0), path.very_direct};
             if (x + 1 < pass.size.x)
-                sample.dx = gradient(pass, {x, y, x + 2, y + 1}, worker);
+                sample.dx = gradient(pass, {x, y, x + 2, y + 1}, worker, sample);
             if (y + 1 < pass.size.y)
-                sample.dy = gradient(pass, {x, y, x + 1, y + 2}, worker);
-            film.add(x, y, sample, worker.counters);
+                sample.dy = gradient(pass, {x, y, x + 1, y + 2}, worker, sample);
+            film.add(x, y, pass.index, sample, worker.counters);
         }
 }
 

@@ -1,5 +1,7 @@
 #include "render/method/pass.h"
 
+#include "render/method/reuse_roulette.h"
+
 #include <cmath>
 
 namespace tessera {
@@ -21,10 +23,17 @@ glm::ivec2 tile_origin_of(const RenderSettings& settings, int index) {
 } // namespace
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
-           int index_)
-    : scene(scene_), settings(settings_), size(size_), index(index_),
+           const ReusePlan& plan_, int index_)
+    : scene(scene_), settings(settings_), plan(plan_), size(size_), index(index_),
       tile_origin(tile_origin_of(settings_, index_)), projection_(camera, size_),
       subpixel_(subpixel_of(settings_.seed, index_)) {}
+
+Random Pass::tile_random(PixelRect tile) const {
+    // Tiles may begin left of and above the image.
+    const int number = (tile.y0 + settings.tile) * (size.x + settings.tile) + tile.x0 + settings.tile;
+    return Random(settings.seed ^ 0x7469'6c65'7300'0000u, static_cast<std::uint32_t>(number),
+                  static_cast<std::uint32_t>(index));
+}
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
     rect_ = rect;
@@ -63,48 +72,33 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 }
 
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
-    trace_base_path(tracer, pass.camera_ray(x, y), pass.settings.max_depth, pass.random(x, y), path);
+    trace_base_path(tracer, pass.camera_ray(x, y), pass.random(x, y), path);
+    if (is_finite(path.radiance() + path.very_direct))
+        return;
+    tracer.counters.refuse({pass.index, y, x});
+    path.reset(path.random, path.light_samples());
 }
 
-namespace {
-
-/// Probability that a base path is reused.
-float reuse_probability(const RenderSettings& settings, const BasePath& path) {
-    if (settings.rr_delta <= 0)
-        return 1;
-    return std::clamp(luminance(path.radiance) / settings.rr_delta, settings.q_min, 1.0f);
-}
-
-} // namespace
-
-void share_light(const Pass& pass, PixelRect set, Roulette roulette, Worker& worker) {
-    worker.set.clear();
-    for (int y = set.y0; y < set.y1; ++y)
-        for (int x = set.x0; x < set.x1; ++x)
-            worker.set.push_back(&worker.base.at(x, y));
-    worker.shared.assign(worker.set.size(), Rgb(0));
-
-    int k = 0;
-    for (int y = set.y0; y < set.y1; ++y)
-        for (int x = set.x0; x < set.x1; ++x, ++k) {
-            const BasePath& path = *worker.set[static_cast<std::size_t>(k)];
-            if (is_black(path.radiance))
-                continue;
-            if (!is_finite(path.radiance)) {
-                ++worker.counters.refused_samples; // or it would spoil all pixels of the set
-                continue;
-            }
-            float q = 1;
-            if (roulette == Roulette::reuse) {
-                q = reuse_probability(pass.settings, path);
-                ++worker.counters.reusable_paths;
-                if (pass.random(x, y).draw(0, Draw::survival) >= q) {
-                    ++worker.counters.skipped_paths;
-                    continue;
-                }
-            }
-            worker.reuse.share(worker.set, k, 1 / q, worker.shared);
+void share_light(const Pass& pass, bool with_roulette, Worker& worker) {
+    SamplingSet& set = worker.set;
+    set.collect(worker.base);
+    const ReuseRoulette roulette =
+        with_roulette ? ReuseRoulette(pass.settings, worker.reuse, set.paths) : ReuseRoulette();
+    for (int k = 0; k < set.size(); ++k) {
+        const BasePath& path = *set.paths[static_cast<std::size_t>(k)];
+        const Rgb light = worker.reuse.shared_light(path);
+        float scale = 0;
+        if (is_black(light)) {
+            ++worker.counters.dark_paths;
+        } else if (const float q = roulette.survival(light); path.random.draw(0, Draw::reuse_survival) < q) {
+            ++worker.counters.reused_paths;
+            scale = 1 / q;
+        } else {
+            ++worker.counters.skipped_paths;
         }
+        worker.reuse.share(set.paths, k, scale, set.radiance);
+        set.count(worker.reuse.outcomes(), k);
+    }
 }
 
 } // namespace tessera

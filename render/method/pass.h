@@ -1,34 +1,25 @@
 #pragma once
 
 #include "render/film.h"
+#include "render/method/reuse_plan.h"
+#include "render/method/sampling_set.h"
 #include "render/method/settings.h"
 #include "render/path/path_reuse.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace tessera {
 
-/// A rectangle of pixels: first column and row, and one past the last.
-struct PixelRect {
-    int x0, y0, x1, y1;
-
-    int width() const { return x1 - x0; }
-    int height() const { return y1 - y0; }
-    bool empty() const { return x0 >= x1 || y0 >= y1; }
-    PixelRect clipped(glm::ivec2 size) const {
-        return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
-    }
-};
-
 /// One sample a pixel of a whole image: what all its blocks have in common.
 class Pass {
 public:
-    /// `index` counts passes from 0. Keeps references to scene and settings.
-    Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings, int index);
+    /// `index` counts passes from 0. Keeps references to scene, settings and plan.
+    Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+         const ReusePlan& plan, int index);
 
     const Scene& scene;
     const RenderSettings& settings;
+    const ReusePlan& plan;
     const glm::ivec2 size;
     const int index;
 
@@ -44,6 +35,9 @@ public:
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
                       static_cast<std::uint32_t>(index));
     }
+
+    /// Numbers for decisions about a tile, not cut off, other ones than those of any path.
+    Random tile_random(PixelRect tile) const;
 
 private:
     Projection projection_;
@@ -68,7 +62,7 @@ private:
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
     Worker(const Scene& scene, const RenderSettings& settings)
-        : tracer{scene, counters}, reuse(tracer, settings.shift_threshold) {}
+        : tracer{scene, counters, settings}, reuse(tracer, settings, settings.weight_threshold) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
@@ -78,8 +72,7 @@ struct Worker {
     PathReuse reuse;
     BaseBlock base;
     BasePath path;
-    std::vector<const BasePath*> set; ///< base paths of the sampling set at hand
-    std::vector<Rgb> shared;          ///< what its pixels got
+    SamplingSet set;
 };
 
 /// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
@@ -89,15 +82,25 @@ std::vector<PixelRect> blocks_of(const Pass& pass);
 /// Renders one block of blocks_of() into the film with the pass's method.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
-/// Traces the path of one sample of this pass.
+/// Calls `render(part)` for the squares, not empty, into which the plan cuts the tiles of a block: rectangles of
+/// pixels of the image.
+template <class Render>
+void for_each_part(const Pass& pass, PixelRect block, Render&& render) {
+    for (PixelRect tile : squares(block, pass.settings.tile))
+        for (PixelRect part : squares(tile, pass.plan.part_edge(tile)))
+            if (const PixelRect inner = part.clipped(pass.size); !inner.empty())
+                render(inner);
+}
+
+/// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
+/// would spoil all pixels that share it.
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
 
-enum class Roulette { none, reuse };
-
-/// Lets the pixels of `set`, a part of worker.base, share the light of their base paths; worker.shared then holds
-/// what each has got, row by row. With Roulette::reuse, a path of luminance L is reused with probability
-/// q = clamp(L / delta, q_min, 1) and weighs 1/q; else it adds nothing anywhere [Bauszat 2017, 3.3].
-void share_light(const Pass& pass, PixelRect set, Roulette roulette, Worker& worker);
+/// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
+/// holds what each has got.
+/// @param roulette  whether a path is reused with the probability q that ReuseRoulette gives it, and weighs 1/q; a
+///                  path that is not adds nothing anywhere [Bauszat 2017, 3.3]
+void share_light(const Pass& pass, bool roulette, Worker& worker);
 
 // The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film);

@@ -1,22 +1,65 @@
 #include "render/method/pass.h"
 
+#include <numeric>
+
 namespace tessera {
 
-/// Path reusing: T is a tile [Bekaert 2002], with the shift that copies half vectors [Bauszat 2017, 3.1].
-void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    const int tile = pass.settings.tile;
-    worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
-    for (int ty = block.y0; ty < block.y1; ty += tile)
-        for (int tx = block.x0; tx < block.x1; tx += tile) {
-            const PixelRect inner = PixelRect{tx, ty, tx + tile, ty + tile}.clipped(pass.size);
-            if (inner.empty())
-                continue;
-            share_light(pass, inner, Roulette::reuse, worker);
-            const Rgb* shared = worker.shared.data();
-            for (int y = inner.y0; y < inner.y1; ++y)
-                for (int x = inner.x0; x < inner.x1; ++x)
-                    film.add(x, y, {*shared++, Rgb(0), Rgb(0), worker.base.at(x, y).very_direct}, worker.counters);
+namespace {
+
+void share_and_add(const Pass& pass, Worker& worker, Film& film) {
+    share_light(pass, true, worker);
+    for (int i = 0; i < worker.set.size(); ++i) {
+        const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
+        film.add(p.x, p.y, pass.index, worker.set.sample(i), worker.counters);
+    }
+}
+
+/// A permutation of the columns of a tile, another one for every tile and pass [Fisher and Yates 1938].
+void shuffle_columns(const Pass& pass, PixelRect tile, std::vector<int>& columns) {
+    columns.resize(static_cast<std::size_t>(tile.width()));
+    std::iota(columns.begin(), columns.end(), 0);
+    const Random random = pass.tile_random(tile);
+    for (int i = tile.width() - 1; i > 0; --i) {
+        const float u = random.draw(i, Draw::direction);
+        std::swap(columns[static_cast<std::size_t>(i)],
+                  columns[static_cast<std::size_t>(u * static_cast<float>(i + 1))]);
+    }
+}
+
+/// N-rooks patterns: N pixels on an N x N square, one in each row and column. Moved along the rows, one
+/// permutation makes N patterns, in which every pixel of the square occurs once [Bekaert 2002].
+void render_rooks(const Pass& pass, PixelRect tile, std::vector<int>& columns, Worker& worker, Film& film) {
+    const int n = tile.width();
+    shuffle_columns(pass, tile, columns);
+    for (int pattern = 0; pattern < n; ++pattern) {
+        worker.set.clear();
+        for (int row = 0; row < n; ++row) {
+            const int x = tile.x0 + (columns[static_cast<std::size_t>(row)] + pattern) % n, y = tile.y0 + row;
+            if (x >= 0 && x < pass.size.x && y >= 0 && y < pass.size.y)
+                worker.set.add(x, y);
         }
+        if (worker.set.size() > 0)
+            share_and_add(pass, worker, film);
+    }
+}
+
+} // namespace
+
+/// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
+/// generalized path reusing [Bauszat 2017, 3.1].
+void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
+    if (pass.settings.pattern == Pattern::rooks) {
+        std::vector<int> columns;
+        for (PixelRect tile : squares(block, pass.settings.tile))
+            render_rooks(pass, tile, columns, worker, film);
+        return;
+    }
+    for_each_part(pass, block, [&](PixelRect part) {
+        worker.set.clear();
+        worker.set.add(part);
+        share_and_add(pass, worker, film);
+    });
 }
 
 } // namespace tessera

@@ -9,7 +9,8 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, worker.path);
-            film.add(x, y, {worker.path.radiance, Rgb(0), Rgb(0), worker.path.very_direct}, worker.counters);
+            const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
+            film.add(x, y, pass.index, sample, worker.counters);
         }
 }
 

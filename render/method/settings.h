@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/path/path_settings.h"
+
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -16,14 +18,38 @@ std::string_view long_name(Method method);
 /// Empty: no such method.
 std::optional<Method> method_from_name(std::string_view short_name);
 
-/// Everything beside the scene, the camera and the size that decides the picture's bits.
-struct RenderSettings {
+/// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
+enum class Pattern : std::uint8_t {
+    tile, ///< a square of `tile` x `tile` pixels
+    rooks ///< `tile` pixels on a square of that edge, one in each row and column [Bekaert 2002]
+};
+
+/// What decides on the probability with which a base path is reused.
+enum class RouletteKind : std::uint8_t {
+    relative, ///< its luminance against the noise of its sampling set (reuse_roulette.h)
+    absolute, ///< its luminance against rr_delta [Bauszat 2017, 3.3]
+    none      ///< every path is reused
+};
+
+/// Where G-PR has its primal image from.
+enum class PrimalSource : std::uint8_t {
+    reuse, ///< what the sampling sets share out
+    base   ///< each pixel's own base path
+};
+
+/// Everything beside the scene, the camera and the size that decides the picture's bits. What each setting is
+/// called, and its limits: settings_table.h.
+struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
-    int max_depth = 8;     ///< edges of a light path; 1: emission only [1, 64]
-    int tile = 6;          ///< pixels along a tile's edge [1, 16]
-    float rr_delta = 0.1f; ///< reuse roulette's delta, a radiance [Bauszat 2017, 3.3]; 0: every path is reused
-    float q_min = 0.1f;    ///< least probability that a path is reused (0, 1]
-    float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]
+    int tile = 6;           ///< pixels along a tile's edge [1, 16]
+    bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_plan.h)
+    Pattern pattern = Pattern::tile;
+    RouletteKind roulette = RouletteKind::relative;
+    float rr_scale = 1;         ///< relative roulette's threshold, in standard deviations of the sampling set
+    float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
+    float q_min = 0.1f;         ///< least probability that a path is reused (0, 1]
+    float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none [0, 1]
+    PrimalSource primal = PrimalSource::reuse;
     std::uint64_t seed = 0;
 
     bool operator==(const RenderSettings&) const = default;
@@ -32,6 +58,11 @@ struct RenderSettings {
 /// Whether the method measures gradients.
 inline bool has_gradients(Method method) {
     return method == Method::gpt || method == Method::gpr;
+}
+
+/// Whether its pixels share the light of base paths by tiles or patterns.
+inline bool reuses_paths(Method method) {
+    return method == Method::pr || method == Method::gpr;
 }
 
 } // namespace tessera

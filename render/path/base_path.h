@@ -1,30 +1,34 @@
 #pragma once
 
 #include "render/path/tracer.h"
-#include "render/random.h"
 
 #include <span>
 #include <vector>
 
 namespace tessera {
 
-/// A vertex x_i of a base path with the two ways in which light is looked for from it: emitter sampling, and BSDF
-/// sampling that goes on to x_{i+1}. Every pdf is per solid angle at x_i, or a probability after a delta scatter.
+/// A point on a light, drawn by emitter sampling at a vertex x_i. Every pdf is per solid angle at x_i, and that of
+/// all light samples of the vertex together.
+struct LightSample {
+    LightPoint light;
+    glm::vec3 to_light; ///< unit, in the vertex's frame
+    float pdf_w = 0;    ///< of emitter sampling
+    float pdf_sum = 0;  ///< of all strategies that could have found this light together
+    /// Radiance toward x_{i-1}, with its MIS weight: f cos Le / pdf_sum; black: nothing was sampled, or the way is
+    /// blocked.
+    Rgb brings{0};
+};
+
+/// A vertex x_i of a base path with what BSDF sampling found from it. Every pdf is per solid angle at x_i, or a
+/// probability after a delta scatter. Valid when the path has a next vertex, or leaves the scene here.
 struct BaseVertex {
     Vertex vertex;
 
-    // Emitter sampling. `light_brings` is black when there was nothing to sample, or the way is blocked.
-    LightPoint light;
-    glm::vec3 to_light;      ///< unit, in the vertex's frame
-    float light_pdf_w = 0;   ///< of emitter sampling
-    float light_pdf_sum = 0; ///< of all strategies that could have found this light together
-    Rgb light_brings{0};     ///< radiance toward x_{i-1}, with its MIS weight: f cos Le / light_pdf_sum
-
-    // BSDF sampling; valid when the path has a next vertex, or leaves the scene here.
     bool escapes = false; ///< it leaves the scene toward an environment: its light counts as a hit
     glm::vec3 to_next;
     Rgb f_cos{0};
     float pdf_w = 0;
+    float survival = 1; ///< probability of the roulette on path length that the path went on; not part of pdf_w
     bool is_delta = false;
     Scatter scatter = Scatter::reflect;
     float next_geometry = 0; ///< |cos| at x_{i+1} over the squared distance: what turns pdf_w into pdf_a
@@ -32,13 +36,21 @@ struct BaseVertex {
     float hit_pdf_w = 0; ///< of emitter sampling at the emitter met: x_{i+1}, or infinity; 0: cannot be sampled
     Rgb hit_brings{0};   ///< radiance from that emitter, with its MIS weight
     Rgb arriving{0};     ///< radiance from x_{i+1} by all longer light paths, with their MIS weights
+
+    /// What light from beyond is multiplied by on its way through x_i.
+    Rgb throughput() const { return f_cos / (pdf_w * survival); }
 };
 
-/// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex one
-/// that ends by emitter sampling and one that ends by hitting an emitter.
+/// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex some
+/// that end by emitter sampling and one that ends by hitting an emitter.
 struct BasePath {
     Rgb very_direct{0}; ///< emission seen by the camera itself
-    Rgb radiance{0};    ///< sum over all its other light paths: an unbiased estimate for the pixel
+    Rgb direct{0};      ///< sum over its light paths of two edges
+    Rgb indirect{0};    ///< sum over all longer ones
+    Random random{0, 0, 0};
+
+    /// Without very direct light: an unbiased estimate for the pixel.
+    Rgb radiance() const { return direct + indirect; }
 
     /// x_1, x_2, ...; none: the camera ray left the scene. Vertex 0 is x_1.
     int size() const { return size_; }
@@ -46,22 +58,41 @@ struct BasePath {
     const BaseVertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
     BaseVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
 
-    void clear() { size_ = 0; }
-    /// Room for one more vertex, which counts only once keep() is called. Old references end here.
-    BaseVertex& spare() {
-        if (vertices_.size() == static_cast<std::size_t>(size_))
-            vertices_.emplace_back();
-        return vertices_[static_cast<std::size_t>(size_)];
+    /// Light samples of vertex i, as many as at every vertex.
+    std::span<const LightSample> lights(int i) const {
+        return {lights_.data() + i * light_samples_, light_count()};
     }
+    std::span<LightSample> lights(int i) { return {lights_.data() + i * light_samples_, light_count()}; }
+    int light_samples() const { return light_samples_; }
+
+    /// Starts anew, without vertices, with random numbers for all that follows.
+    void reset(const Random& numbers, int light_samples);
+    /// Room for one more vertex, which counts only once keep() is called. Old references end here.
+    BaseVertex& spare();
     void keep() { ++size_; }
 
 private:
-    std::vector<BaseVertex> vertices_; // never shrinks: paths are traced into the memory of earlier ones
+    std::size_t light_count() const { return static_cast<std::size_t>(light_samples_); }
+
+    // Never shrink: paths are traced into the memory of earlier ones.
+    std::vector<BaseVertex> vertices_;
+    std::vector<LightSample> lights_;
     int size_ = 0;
+    int light_samples_ = 1;
 };
 
-/// Traces the path of one sample. Light paths have `max_depth` edges at most, as in Mitsuba.
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, int max_depth, const Random& random,
-                     BasePath& path);
+/// Traces the path of one sample, with the numbers of `random`. Light paths have tracer.settings.max_depth edges
+/// at most, as in Mitsuba.
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, const Random& random, BasePath& path);
+
+/// Traces the path that takes the numbers of `random` from a vertex x_1 that the camera sees: random replay.
+/// @param last  light is looked for at x_1 to x_last
+void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path);
+
+/// Emitter sampling: light sample `sample` (from 0) of vertex x_index, weighted against BSDF sampling, as if
+/// nothing were in the way. False: it brings nothing.
+/// @param way  the stretch that must be free
+bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
+                LightSample& drawn, Segment& way);
 
 } // namespace tessera

@@ -2,24 +2,28 @@
 
 namespace tessera {
 
-void LightPaths::reset(const BasePath& path, float threshold) {
+void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
     carried_.clear();
     step_connectable_.clear();
+    light_samples_ = path.light_samples();
     join_ = 0;
     last_alive_ = -1;
+    first_shared_ = settings.shift == ShiftKind::reconnection ? emitter_slot(1, 0) : 0;
+    const bool joins = settings.shift != ShiftKind::replay;
     const int count = path.size();
     Rgb throughput(1);
     for (int i = 0; i < count; ++i) {
         const BaseVertex& v = path[i];
-        carried_.push_back(throughput * v.light_brings);
+        for (const LightSample& s : path.lights(i))
+            carried_.push_back(throughput * s.brings);
         if (i + 1 == count && !v.escapes) {
             carried_.emplace_back(0);
             break;
         }
-        throughput *= v.f_cos / v.pdf_w;
+        throughput *= v.throughput();
         carried_.push_back(throughput * v.hit_brings);
-        step_connectable_.push_back(!v.is_delta && is_connectable(v.vertex, threshold));
-        if (i > 0 && step_is_connectable(i - 1) && step_is_connectable(i)) {
+        step_connectable_.push_back(!v.is_delta && is_connectable(v.vertex, settings.shift_threshold));
+        if (joins && i > 0 && step_is_connectable(i - 1) && step_is_connectable(i)) {
             join_ = i;
             carried_.push_back(throughput * v.arriving);
             break;

@@ -1,44 +1,81 @@
 #include "render/path/path_reuse.h"
 
+#include <algorithm>
+
 namespace tessera {
 
 void PathReuse::share(std::span<const BasePath* const> set, int base, float scale, std::span<Rgb> radiance) {
     const BasePath& path = *set[static_cast<std::size_t>(base)];
+    outcomes_.clear();
     if (path.empty())
         return;
-    light_.reset(path, threshold_);
-    if (light_.last_alive() < 0)
+    radiance[static_cast<std::size_t>(base)] += kept_light(path);
+    if (scale == 0)
+        return;
+    light_.reset(path, settings_);
+    if (light_.last_alive() < light_.first_shared())
         return; // where the base carries nothing, no offset can
     paths_.reset(light_.slot_count(), static_cast<int>(set.size()));
-    shift_to_all(set, base);
+    slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
+    outcomes_.assign(set.size(), ShiftOutcome::ok);
+    settings_.shift == ShiftKind::replay ? replay_to_all(set, base) : shift_to_all(set, base);
     balance(base, scale, radiance);
 }
 
 void PathReuse::shift_to_all(std::span<const BasePath* const> set, int base) {
     const BasePath& path = *set[static_cast<std::size_t>(base)];
     edges_.reset(light_.slot_count());
-    outcomes_.assign(set.size(), ShiftOutcome::ok);
     blocked_.assign(set.size(), 0);
+    for (int m = 0; m < static_cast<int>(set.size()); ++m) {
+        const BasePath& offset = *set[static_cast<std::size_t>(m)];
+        if (m != base)
+            outcomes_[static_cast<std::size_t>(m)] =
+                offset.empty() ? ShiftOutcome::outside
+                               : shift(tracer_, settings_, path, light_, offset[0].vertex, m, paths_, edges_);
+    }
+    if (weight_threshold_ > 0)
+        play_weight_roulette(path.random);
+    edges_.resolve(tracer_, paths_, slot_scale_, blocked_);
+    judge(base, blocked_);
+}
+
+/// Random replay: every pixel takes the base's numbers all the way. In the space of these numbers the shift is the
+/// identity, whatever strategy a light path ends by: its density ratio is 1 and its value that of the offset's own
+/// path, with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has density 0, for base and
+/// offset alike.
+void PathReuse::replay_to_all(std::span<const BasePath* const> set, int base) {
+    const BasePath& path = *set[static_cast<std::size_t>(base)];
     for (int m = 0; m < static_cast<int>(set.size()); ++m) {
         const BasePath& offset = *set[static_cast<std::size_t>(m)];
         if (m == base)
             continue;
-        outcomes_[static_cast<std::size_t>(m)] =
-            offset.empty() ? ShiftOutcome::outside
-                           : shift(tracer_, threshold_, path, light_, offset[0].vertex, m, paths_, edges_);
+        if (offset.empty()) {
+            outcomes_[static_cast<std::size_t>(m)] = ShiftOutcome::outside;
+            continue;
+        }
+        replay_base_path(tracer_, offset[0].vertex, path.random, light_.vertex_of(light_.last_alive()) + 1,
+                         replayed_);
+        replayed_light_.reset(replayed_, settings_);
+        for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
+            if (light_.is_alive(slot))
+                paths_.set(slot, m, 1, replayed_light_.carried(slot));
     }
-    edges_.resolve(tracer_, paths_, blocked_);
+    blocked_.assign(set.size(), 0);
+    judge(base, blocked_);
+}
 
-    for (int m = 0; m < static_cast<int>(set.size()); ++m) {
+/// Settles the outcomes of all shifts and counts them.
+void PathReuse::judge(int base, std::span<const std::uint8_t> blocked) {
+    for (int m = 0; m < paths_.offsets(); ++m) {
         if (m == base)
             continue;
-        ShiftOutcome outcome = outcomes_[static_cast<std::size_t>(m)];
+        ShiftOutcome& outcome = outcomes_[static_cast<std::size_t>(m)];
         bool arrived = false;
-        for (int slot = 0; slot <= light_.last_alive(); ++slot)
-            arrived = arrived || paths_.density(slot, m) > 0;
+        for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot)
+            arrived = arrived || (is_shared(slot) && paths_.density(slot, m) > 0);
         if (arrived)
             outcome = ShiftOutcome::ok;
-        else if (blocked_[static_cast<std::size_t>(m)])
+        else if (blocked[static_cast<std::size_t>(m)])
             outcome = ShiftOutcome::occluded;
         else if (outcome == ShiftOutcome::ok)
             outcome = ShiftOutcome::no_light;
@@ -46,17 +83,39 @@ void PathReuse::shift_to_all(std::span<const BasePath* const> set, int base) {
     }
 }
 
-void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
-    const int offsets = paths_.offsets();
-    for (int slot = 0; slot <= light_.last_alive(); ++slot) {
-        if (!light_.is_alive(slot))
+float PathReuse::density_sum(int slot) const {
+    float sum = 1; // the base itself: its ratio is one by definition
+    for (int m = 0; m < paths_.offsets(); ++m)
+        sum += paths_.density(slot, m);
+    return sum;
+}
+
+/// Before visibility is known, 1/R is a lower bound of the weight. It only decides on a probability, so that the
+/// estimator stays unbiased whatever becomes of the edges.
+void PathReuse::play_weight_roulette(const Random& random) {
+    const float even = static_cast<float>(paths_.offsets());
+    for (int slot = light_.first_shared(); slot < light_.slot_count(); ++slot) {
+        if (!light_.is_alive(slot)) {
+            slot_scale_[static_cast<std::size_t>(slot)] = 0;
             continue;
-        float sum = 1; // the base itself: its ratio is one by definition
-        for (int m = 0; m < offsets; ++m)
-            sum += paths_.density(slot, m);
-        const float weight = scale / sum;
+        }
+        // Not below 0.1: should most edges turn out to be blocked, 1/q would not be made up for by 1/R.
+        const float q = std::max(even / (density_sum(slot) * weight_threshold_), 0.1f);
+        if (q >= 1)
+            continue;
+        const bool survives = random.draw(slot, Draw::weight_survival) < q;
+        slot_scale_[static_cast<std::size_t>(slot)] = survives ? 1 / q : 0;
+        tracer_.counters.skipped_light_paths += !survives;
+    }
+}
+
+void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
+    for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
+        if (!is_shared(slot))
+            continue;
+        const float weight = scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot);
         radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * weight;
-        for (int m = 0; m < offsets; ++m)
+        for (int m = 0; m < paths_.offsets(); ++m)
             radiance[static_cast<std::size_t>(m)] += paths_.value(slot, m) * weight;
     }
 }

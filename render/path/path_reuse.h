@@ -14,23 +14,52 @@ namespace tessera {
 /// gradients.
 class PathReuse {
 public:
-    PathReuse(const Tracer& tracer, float shift_threshold) : tracer_(tracer), threshold_(shift_threshold) {}
+    /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this share
+    /// of
+    ///                          the even weight 1/|T| if no new edge were blocked is shared out with a probability
+    ///                          in proportion to it [after Bekaert 2002]; 0: all are
+    PathReuse(const Tracer& tracer, const ShiftSettings& settings, float weight_threshold)
+        : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold) {}
 
     /// @param set     the base paths of T, one a pixel
     /// @param base    the one whose light is shared out, an index into `set`
-    /// @param scale   factor on all of it: one over the probability that this path is reused
+    /// @param scale   factor on what is shared: one over the probability that this path is reused; 0: it is not,
+    /// and
+    ///                only the light that is never shifted is added, to the base's own pixel
     /// @param radiance one a pixel of T; what the path brings is added
     void share(std::span<const BasePath* const> set, int base, float scale, std::span<Rgb> radiance);
 
+    /// What of a path's radiance is shifted to others, ...
+    Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
+    /// ... and what is not.
+    Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }
+
+    /// How the shifts of the last share() to each pixel of T ended; meaningless for the base's own. Empty: no
+    /// shift was tried.
+    std::span<const ShiftOutcome> outcomes() const { return outcomes_; }
+
 private:
+    bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
     void shift_to_all(std::span<const BasePath* const> set, int base);
+    void replay_to_all(std::span<const BasePath* const> set, int base);
+    void judge(int base, std::span<const std::uint8_t> blocked);
+    void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
+    float density_sum(int slot) const;
+    bool is_shared(int slot) const {
+        return light_.is_alive(slot) && slot_scale_[static_cast<std::size_t>(slot)] > 0;
+    }
 
     Tracer tracer_;
-    float threshold_;
+    ShiftSettings settings_;
+    float weight_threshold_;
     LightPaths light_;
     OffsetPaths paths_;
     PendingEdges edges_;
+    BasePath replayed_;
+    LightPaths replayed_light_;
+    std::vector<float>
+        slot_scale_; ///< one over the probability that the roulette on small weights kept it; 0: it did not
     std::vector<ShiftOutcome> outcomes_;
     std::vector<std::uint8_t> blocked_;
 };

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "render/method/counters.h"
+#include "render/path/counters.h"
+#include "render/path/path_settings.h"
 #include "render/path/vertex.h"
+#include "render/random.h"
 #include "render/scene/scene.h"
 
 #include <optional>
@@ -9,14 +11,42 @@
 
 namespace tessera {
 
-/// Shoots the rays of paths and counts them.
+/// Shoots the rays of paths and counts them; knows the lights as emitter sampling sees them.
 struct Tracer {
     const Scene& scene;
     Counters& counters;
+    PathSettings settings;
+
+    /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
+    /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
+    /// that of all light samples of a vertex together, which is what the balance heuristic weighs [Veach
+    /// 1997, 9.2.2].
+    bool sample_light(glm::vec3 receiver, const Random& random, int index, int sample, LightPoint& light) const {
+        if (!scene.lights().sample(receiver, random, index + sample * (most_edges + 1), light))
+            return false;
+        light.pdf *= density_factor();
+        return true;
+    }
+
+    /// The light of a vertex toward a unit direction (world, away from the surface); black from behind.
+    LightPoint light_of(const Vertex& vertex, glm::vec3 direction) const {
+        LightPoint light = vertex.light_toward(direction);
+        light.pdf *= density_factor();
+        return light;
+    }
+
+    /// The light of the environment from a unit direction; black: none.
+    LightPoint environment_toward(glm::vec3 direction) const {
+        LightPoint light = scene.lights().environment_toward(direction);
+        light.pdf *= density_factor();
+        return light;
+    }
+
+    float density_factor() const { return static_cast<float>(settings.light_samples); }
 
     /// Makes `vertex` what the ray meets first. False: it leaves the scene.
-    bool closest(const Ray& ray, Vertex& vertex) const {
-        ++counters.closest_hit_rays;
+    bool closest(const Ray& ray, Vertex& vertex, RayKind kind) const {
+        ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return false;
@@ -27,10 +57,10 @@ struct Tracer {
     enum class Met : std::uint8_t { light, darkness, infinity };
 
     /// The same for a ray on which only a light is of interest: `vertex` is made where it meets one.
-    Met closest_light(const Ray& ray, Vertex& vertex) const {
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind) const {
         if (!scene.lights().may_be_hit(ray))
             return Met::darkness;
-        ++counters.closest_hit_rays;
+        ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return Met::infinity;
@@ -41,12 +71,12 @@ struct Tracer {
     }
 
     /// The light that a ray runs into; black: none. `scratch` is overwritten.
-    LightPoint light_along(const Ray& ray, Vertex& scratch) const {
-        switch (closest_light(ray, scratch)) {
+    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind) const {
+        switch (closest_light(ray, scratch, kind)) {
         case Met::light:
-            return scratch.light_toward(-ray.direction);
+            return light_of(scratch, -ray.direction);
         case Met::infinity:
-            return scene.lights().environment_toward(ray.direction);
+            return environment_toward(ray.direction);
         case Met::darkness:
             break;
         }
@@ -74,14 +104,15 @@ struct Tracer {
         return {start, start + way_out * direction};
     }
 
-    bool occluded(const Segment& segment) const {
-        ++counters.occlusion_rays;
+    bool occluded(const Segment& segment, RayKind kind) const {
+        ++counters.rays[static_cast<std::size_t>(kind)];
         return scene.intersector().occluded(segment);
     }
 
-    /// The same for segments that share an end, as packets; writes 1 for a blocked one.
+    /// The same for new edges of shifts that share an end, or are parallel, as packets; writes 1 for a blocked
+    /// one.
     void occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
-        counters.occlusion_rays += segments.size();
+        counters.rays[static_cast<std::size_t>(RayKind::shift_edge)] += segments.size();
         scene.intersector().occluded(segments, blocked);
     }
 };

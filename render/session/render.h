@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/film.h"
-#include "render/method/settings.h"
+#include "render/method/reuse_plan.h"
 #include "render/scene/scene.h"
 #include "render/session/thread_pool.h"
 
@@ -26,6 +26,7 @@ public:
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
     GradientImages images() const { return film_.means(spp_); }
+    ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
 
 private:
     std::shared_ptr<const Scene> scene_;
@@ -33,13 +34,11 @@ private:
     glm::ivec2 size_;
     RenderSettings settings_;
     Film film_;
+    ReusePlan plan_;
     Counters counters_;
     int spp_ = 0;
     double seconds_ = 0;
     double cpu_seconds_ = 0;
 };
-
-/// Throws std::invalid_argument, naming the setting, where one is outside its limits.
-void check(const RenderSettings& settings);
 
 } // namespace tessera

@@ -2,8 +2,8 @@
 
 #include "recon/gradient_images.h"
 #include "recon/reconstruct.h"
-#include "render/method/counters.h"
 #include "render/method/settings.h"
+#include "render/path/counters.h"
 
 #include <cstdint>
 #include <memory>

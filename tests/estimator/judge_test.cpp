@@ -3,6 +3,8 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -14,28 +16,78 @@ constexpr int naive_samples = 32768;
 constexpr int runs = 48;
 constexpr int passes = 16;
 
+/// What of the settings a variant has that is not the default.
+struct Variant {
+    std::string name;
+    RenderSettings settings;
+};
+
+Variant variant(std::string name, Method method, int tile,
+                const std::function<void(RenderSettings&)>& change = {}) {
+    RenderSettings s;
+    s.method = method;
+    s.tile = tile;
+    s.seed = 1000 * static_cast<std::uint64_t>(tile) + 17;
+    if (change)
+        change(s);
+    return {std::move(name), s};
+}
+
+/// Every method and shift, tiles of all kinds, and every option that changes what is sampled or weighted.
+std::vector<Variant> all_variants() {
+    using S = RenderSettings;
+    return {
+        variant("pt", Method::pt, 1),
+        variant("pt, 3 light samples, RR depth 2", Method::pt, 1,
+                [](S& s) { s.light_samples = 3, s.roulette_depth = 2; }),
+        variant("pr, absolute roulette", Method::pr, 4, [](S& s) { s.roulette = RouletteKind::absolute; }),
+        variant("pr, 5-rooks, reconnection", Method::pr, 5,
+                [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::reconnection; }),
+        variant("pr, 8-rooks, RR weight", Method::pr, 8,
+                [](S& s) { s.pattern = Pattern::rooks, s.weight_threshold = 0.9f; }),
+        variant("pr, 4-rooks, replay, RR depth 2", Method::pr, 4,
+                [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::replay, s.roulette_depth = 2; }),
+        variant("pr, reconnection, 2 light samples, RR depth 1", Method::pr, 4,
+                [](S& s) { s.shift = ShiftKind::reconnection, s.light_samples = 2, s.roulette_depth = 1; }),
+        variant("gpt, RR weight", Method::gpt, 1, [](S& s) { s.weight_threshold = 1; }),
+        variant("gpt, replay", Method::gpt, 1, [](S& s) { s.shift = ShiftKind::replay; }),
+        variant("gpt, replay-reconnection", Method::gpt, 1,
+                [](S& s) { s.shift = ShiftKind::replay_reconnection, s.light_samples = 2; }),
+        variant("gpr", Method::gpr, 1),
+        variant("gpr, absolute roulette", Method::gpr, 2, [](S& s) { s.roulette = RouletteKind::absolute; }),
+        variant("gpr, replay", Method::gpr, 3, [](S& s) { s.shift = ShiftKind::replay; }),
+        variant("gpr, tiles whole", Method::gpr, 6, [](S& s) { s.adapt_tile = false; }),
+        variant("gpr", Method::gpr, 6),
+        variant("gpr, replay-reconnection, RR depth 1", Method::gpr, 6,
+                [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 1; }),
+        variant("gpr, reconnection, base primal", Method::gpr, 8,
+                [](S& s) { s.shift = ShiftKind::reconnection, s.primal = PrimalSource::base; }),
+        variant("gpr, no roulette, 2 light samples, RR weight, RR depth 2", Method::gpr, 16,
+                [](S& s) {
+                    s.roulette = RouletteKind::none, s.adapt_tile = false, s.light_samples = 2;
+                    s.weight_threshold = 0.9f, s.roulette_depth = 2;
+                }),
+    };
+}
+
 class Judge : public testing::TestWithParam<TestScene> {
 protected:
-    void judge(const Measured& truth, Method method, int tile) {
+    void judge(const Measured& truth, Variant v) {
         const TestScene& t = GetParam();
-        RenderSettings s;
-        s.method = method;
-        s.max_depth = t.max_depth;
-        s.tile = tile;
-        s.shift_threshold = t.shift_threshold;
-        s.seed = 1000 * static_cast<std::uint64_t>(tile) + 17;
-        const MethodMeasured m = measure(t.scene, size, s, runs * t.effort, passes);
-        report("primal", method, tile, z_test(m.primal, truth));
-        if (has_gradients(method)) {
-            report("dx", method, tile, z_test(m.dx, difference_x(truth)));
-            report("dy", method, tile, z_test(m.dy, difference_y(truth)));
+        v.settings.max_depth = t.max_depth;
+        v.settings.shift_threshold = t.shift_threshold;
+        const MethodMeasured m = measure(t.scene, size, v.settings, runs * t.effort, passes);
+        report("primal", v, z_test(m.primal, truth));
+        if (has_gradients(v.settings.method)) {
+            report("dx", v, z_test(m.dx, difference_x(truth)));
+            report("dy", v, z_test(m.dy, difference_y(truth)));
         }
     }
 
-    void report(const char* what, Method method, int tile, const ZResult& z) {
-        std::printf("  %-26s %-3s tile %2d %-6s %s\n", GetParam().name.c_str(), short_name(method).data(), tile,
+    void report(const char* what, const Variant& v, const ZResult& z) {
+        std::printf("  %-26s %-58s tile %2d %-6s %s\n", GetParam().name.c_str(), v.name.c_str(), v.settings.tile,
                     what, z.to_string().c_str());
-        EXPECT_TRUE(z.passes()) << GetParam().name << ' ' << short_name(method) << " tile " << tile << ' ' << what
+        EXPECT_TRUE(z.passes()) << GetParam().name << ' ' << v.name << " tile " << v.settings.tile << ' ' << what
                                 << ": " << z.to_string();
     }
 };
@@ -43,11 +95,8 @@ protected:
 TEST_P(Judge, AllMethods) {
     const TestScene& t = GetParam();
     const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples * t.effort, 1);
-    judge(truth, Method::pt, 1);
-    judge(truth, Method::pr, 4);
-    judge(truth, Method::gpt, 1);
-    for (int tile : {1, 2, 6, 16})
-        judge(truth, Method::gpr, tile);
+    for (const Variant& v : all_variants())
+        judge(truth, v);
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, Judge, testing::ValuesIn(all_test_scenes()),

@@ -29,7 +29,10 @@ struct Tally {
 Tally tally(const TestScene& t) {
     Tally sum;
     Counters counters;
-    const Tracer tracer{*t.scene, counters};
+    PathSettings path_settings;
+    path_settings.max_depth = t.max_depth;
+    const Tracer tracer{*t.scene, counters, path_settings};
+    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold};
     const Projection projection(t.scene->camera(), size);
     LightPaths light;
     OffsetPaths paths;
@@ -41,18 +44,19 @@ Tally tally(const TestScene& t) {
                 BasePath base, right;
                 const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
                 const auto pixel = static_cast<std::uint32_t>(y * size.x + x);
-                trace_base_path(tracer, projection.ray(p), t.max_depth, {7, pixel, std::uint32_t(pass)}, base);
-                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), 1, {7, pixel + 1, 0}, right);
+                trace_base_path(tracer, projection.ray(p), {7, pixel, std::uint32_t(pass)}, base);
+                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), {7, pixel + 1, 0}, right);
                 if (base.size() < 2 || right.empty())
                     continue;
-                light.reset(base, t.shift_threshold);
-                const int slot = LightPaths::emitter_slot(1);
+                light.reset(base, shift_settings);
+                const int slot = light.emitter_slot(1, 0);
                 if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
                     continue;
                 paths.reset(light.slot_count(), 1);
                 edges.reset(light.slot_count());
-                shift(tracer, t.shift_threshold, base, light, right[0].vertex, 0, paths, edges);
-                edges.resolve(tracer, paths, blocked);
+                shift(tracer, shift_settings, base, light, right[0].vertex, 0, paths, edges);
+                edges.resolve(tracer, paths, std::vector<float>(static_cast<std::size_t>(light.slot_count()), 1),
+                              blocked);
                 const bool shifted = paths.density(slot, 0) > 0;
                 if (light.last_alive() == slot) {
                     ++sum.light_is_last;
@@ -61,7 +65,8 @@ Tally tally(const TestScene& t) {
                 const Vertex &from = right[0].vertex, &to = base[1].vertex;
                 const glm::vec3 direction = glm::normalize(to.position - from.position);
                 if (tracer.occluded(tracer.between(from.position, from.geometric_normal, to.position,
-                                                   to.geometric_normal, direction))) {
+                                                   to.geometric_normal, direction),
+                                    RayKind::shift_edge)) {
                     ++sum.edge_hidden;
                     sum.shifted_past_hidden += shifted;
                 }

@@ -113,7 +113,7 @@ TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
         messages = session.take_messages();
         return !messages.empty();
     }));
-    EXPECT_NE(messages[0].find("tile size is 99"), std::string::npos) << messages[0];
+    EXPECT_NE(messages[0].find("tile is 99"), std::string::npos) << messages[0];
     session.submit(0, request(Method::gpr, {16, 16}, 1));
     EXPECT_TRUE(eventually([&] { return session.latest(0) && !session.latest(0)->coarse; }));
 }

@@ -53,6 +53,9 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
     click_at("max_depth", 0.99f);
     expected.render.max_depth = 64;
     check("max_depth");
+    choose("roulette", "absolute");
+    expected.render.roulette = RouletteKind::absolute;
+    check("roulette");
     click_at("rr_delta", 0.01f);
     expected.render.rr_delta = 0;
     check("rr_delta");
@@ -73,16 +76,48 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
     check("norm");
 }
 
+TEST_F(PanelTest, SeldomChangedSettingsAreFoldedAway) {
+    EXPECT_FALSE(has("light_samples"));
+    click("more");
+    click_at("light_samples", 0.99f);
+    EXPECT_EQ(render(0).light_samples, 16);
+    choose("primal", "base");
+    EXPECT_EQ(render(1).primal, PrimalSource::base);
+    click("more");
+    EXPECT_FALSE(has("light_samples"));
+}
+
 TEST_F(PanelTest, LogSlidersReachSmallValuesInTheMiddle) {
     click_at("alpha", 0.5f);
     EXPECT_GT(pane(0).settings.reconstruction.alpha, 0.03f);
     EXPECT_LT(pane(0).settings.reconstruction.alpha, 0.3f);
+    choose("roulette", "absolute");
     click_at("rr_delta", 0.5f);
     EXPECT_GT(render(0).rr_delta, 0.01f);
     EXPECT_LT(render(0).rr_delta, 1.0f);
 }
 
+TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
+    EXPECT_TRUE(has("rr_scale"));
+    EXPECT_FALSE(has("rr_delta"));
+    EXPECT_FALSE(has("pattern"));
+    choose("pane0.method", "pr"); // linked: what matters in any pane
+    EXPECT_TRUE(has("pattern"));
+    choose("pattern", "rooks");
+    EXPECT_EQ(render(0).pattern, Pattern::rooks);
+    choose("roulette", "absolute");
+    EXPECT_TRUE(has("rr_delta"));
+    EXPECT_FALSE(has("rr_scale"));
+    click_at("linked", 0.5f);
+    choose("pane0.method", "pt");
+    click("pane0.picture");
+    EXPECT_FALSE(has("tile"));
+    click("pane1.picture");
+    EXPECT_TRUE(has("tile"));
+}
+
 TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
+    choose("pane0.method", "pr");
     click_at("linked", 0.5f);
     EXPECT_FALSE(state().linked);
     click("pane0.picture");
@@ -96,7 +131,7 @@ TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
     EXPECT_EQ(render(1).tile, 1);
     click_at("linked", 0.5f); // linked again: the active pane's hold for all
     EXPECT_EQ(render(0).tile, 1);
-    EXPECT_EQ(render(0).method, Method::pt);
+    EXPECT_EQ(render(0).method, Method::pr);
 }
 
 TEST_F(PanelTest, DisplayAndSize) {

@@ -233,8 +233,7 @@ TEST(Viewer, StatusTellsMethodSamplesTimeAndRays) {
     snapshot->spp = 12;
     snapshot->seconds = 2;
     snapshot->settings.method = Method::gpr;
-    snapshot->counters.closest_hit_rays = 3000000;
-    snapshot->counters.occlusion_rays = 2000000;
+    snapshot->counters.rays = {1000000, 2000000, 2000000};
     snapshot->reconstruction = std::make_shared<Reconstruction>();
     snapshot->reconstruction_spp = 11;
     pane.snapshot = snapshot;

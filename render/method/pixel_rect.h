@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// A rectangle of pixels: first column and row, and one past the last.
+struct PixelRect {
+    int x0, y0, x1, y1;
+
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+    PixelRect clipped(glm::ivec2 size) const {
+        return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
+    }
+};
+
+/// The squares of a given edge that fill a rectangle, row by row; the last ones are cut off.
+inline std::vector<PixelRect> squares(PixelRect rect, int edge) {
+    std::vector<PixelRect> list;
+    for (int y = rect.y0; y < rect.y1; y += edge)
+        for (int x = rect.x0; x < rect.x1; x += edge)
+            list.push_back({x, y, std::min(x + edge, rect.x1), std::min(y + edge, rect.y1)});
+    return list;
+}
+
+} // namespace tessera

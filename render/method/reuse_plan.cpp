@@ -1,0 +1,50 @@
+#include "render/method/reuse_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Pixels that should share where V = l = 1: the best of those tried on seven scenes.
+constexpr double sharers = 10;
+
+} // namespace
+
+ReusePlan::ReusePlan(glm::ivec2 size, const RenderSettings& settings)
+    : tile_(settings.tile), adapts_(settings.adapt_tile), size_(size),
+      cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge) {}
+
+void ReusePlan::learn(const Image<float>& luminance) {
+    if (!adapts_)
+        return;
+    for (int y = 0; y < luminance.height(); ++y)
+        for (int x = 0; x < luminance.width(); ++x) {
+            Cell& cell = cells_(x / cell_edge, y / cell_edge);
+            const double l = luminance(x, y);
+            cell.paths += 1;
+            cell.lit += l > 0;
+            cell.sum += l;
+            cell.squares += l * l;
+        }
+}
+
+int ReusePlan::part_edge(PixelRect tile) const {
+    if (!adapts_)
+        return tile_;
+    const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
+    const glm::ivec2 pixel = glm::clamp(middle, glm::ivec2(0), size_ - 1);
+    const Cell& cell = cells_(pixel.x / cell_edge, pixel.y / cell_edge);
+    if (!(cell.sum > 0))
+        return tile_;
+    const double relative_variance = cell.squares * cell.paths / (cell.sum * cell.sum) - 1;
+    const double edge = std::sqrt(sharers * std::max(relative_variance, 0.0) * cell.paths / cell.lit);
+    // A whole number of parts, all of nearly the same size.
+    const int parts = static_cast<int>(std::ceil(tile_ / std::clamp(edge, 1.0, static_cast<double>(tile_))));
+    return (tile_ + parts - 1) / parts;
+}
+
+} // namespace tessera

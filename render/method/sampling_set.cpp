@@ -1,0 +1,39 @@
+#include "render/method/sampling_set.h"
+
+#include "render/method/pass.h"
+
+namespace tessera {
+
+void SamplingSet::add(PixelRect rect) {
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+            add(x, y);
+}
+
+void SamplingSet::collect(const BaseBlock& base) {
+    paths.clear();
+    for (glm::ivec2 p : pixels)
+        paths.push_back(&base.at(p.x, p.y));
+    radiance.assign(pixels.size(), Rgb(0));
+    arrived.assign(pixels.size(), 0);
+    failed.assign(pixels.size(), 0);
+}
+
+void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
+    for (std::size_t m = 0; m < outcomes.size(); ++m)
+        if (m != static_cast<std::size_t>(k))
+            ++(outcomes[m] == ShiftOutcome::ok ? arrived : failed)[m];
+}
+
+PixelSample SamplingSet::sample(int i) const {
+    const auto m = static_cast<std::size_t>(i);
+    return {radiance[m],
+            Rgb(0),
+            Rgb(0),
+            paths[m]->very_direct,
+            arrived[m],
+            failed[m],
+            luminance(paths[m]->radiance())};
+}
+
+} // namespace tessera

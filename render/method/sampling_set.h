@@ -1,0 +1,38 @@
+#pragma once
+
+#include "render/film.h"
+#include "render/method/pixel_rect.h"
+#include "render/path/base_path.h"
+
+#include <span>
+#include <vector>
+
+namespace tessera {
+
+class BaseBlock;
+
+/// T: the pixels whose base paths take part in one balance heuristic, and what each gets of their light. All lists
+/// have one entry a pixel.
+struct SamplingSet {
+    std::vector<glm::ivec2> pixels;
+    std::vector<const BasePath*> paths;
+    std::vector<Rgb> radiance;
+    std::vector<std::uint32_t> arrived; ///< shifts to the pixel that brought light, ...
+    std::vector<std::uint32_t> failed;  ///< ... and that did not
+
+    int size() const { return static_cast<int>(pixels.size()); }
+
+    void clear() { pixels.clear(); }
+    void add(int x, int y) { pixels.emplace_back(x, y); }
+    /// All pixels of a rectangle, row by row.
+    void add(PixelRect rect);
+
+    /// Looks the base paths of `pixels` up, and sets all sums to 0.
+    void collect(const BaseBlock& base);
+    /// Counts how the shifts of base path k ended; none: no shift was tried.
+    void count(std::span<const ShiftOutcome> outcomes, int k);
+    /// What entry i got, without gradients.
+    PixelSample sample(int i) const;
+};
+
+} // namespace tessera
