@@ -5,15 +5,15 @@
 #include "app/exit_codes.h"
 #include "app/info.h"
 #include "app/load_notes.h"
+#include "app/option_values.h"
 #include "app/render.h"
+#include "app/setting_options.h"
+#include "app/sweep.h"
 #include "app/view.h"
-#include "render/method/settings_table.h"
 #include "render/session/thread_pool.h"
 
-#include <algorithm>
-#include <cstdlib>
-#include <map>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -22,27 +22,6 @@ namespace tessera {
 
 namespace {
 
-/// "WxH" in pixels, as given to `option`.
-glm::ivec2 parse_size(const std::string& option, const std::string& text) {
-    int w = 0, h = 0, used = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
-        throw BadInput(fmt::format("{} {}: must be WIDTHxHEIGHT, such as 640x360", option, text));
-    if (w < 1 || h < 1 || w > 32768 || h > 32768)
-        throw BadInput(fmt::format("{} {}: width and height must be from 1 to 32768", option, text));
-    return {w, h};
-}
-
-SceneVariables parse_variables(const std::vector<std::string>& definitions) {
-    SceneVariables variables;
-    for (const std::string& d : definitions) {
-        const std::size_t equals = d.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw BadInput(fmt::format("-D {}: must be name=value", d));
-        variables[d.substr(0, equals)] = d.substr(equals + 1);
-    }
-    return variables;
-}
-
 /// The words of the command line, before they are given a meaning.
 struct Words {
     std::string scene, camera, size, window, method = "gpr", norms, clock = "wall";
@@ -50,6 +29,7 @@ struct Words {
     int spp = 0;
     double time = 0;
     double seconds = 5;
+    std::vector<std::string> scenes, variations;
     float alpha = 0.2f;
     int threads = 0;
     RenderSettings settings;
@@ -63,61 +43,15 @@ void add_scene(CLI::App& command, Words& words, bool required) {
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
 }
 
-/// --rr-delta for "rr_delta".
-std::string option_name(const Setting& setting) {
-    std::string name = "--" + std::string(setting.id);
-    std::replace(name.begin(), name.end(), '_', '-');
-    return name;
-}
-
-void add_choice(CLI::App& command, const Setting& setting, const Setting::OneOf& one, RenderSettings& s) {
-    std::map<std::string, int> values;
-    for (std::size_t i = 0; i < one.choices.size(); ++i)
-        values[std::string(one.choices[i].id)] = static_cast<int>(i);
-    command
-        .add_option_function<std::string>(
-            option_name(setting), [&one, &s, values](const std::string& word) { one.set(s, values.at(word)); },
-            std::string(setting.help))
-        ->check(CLI::IsMember(values))
-        ->default_str(setting.text(s));
-}
-
-/// The setting as an option. `s` must outlive the command.
-void add_setting(CLI::App& command, const Setting& setting, RenderSettings& s) {
-    const std::string name = option_name(setting), help(setting.help);
-    CLI::Option* option = nullptr;
-    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
-        option = command.add_option(name, s.*whole->member, help)->check(CLI::Range(whole->least, whole->most));
-    else if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
-        option = command.add_option(name, s.*real->member, help)->check(CLI::Range(real->least, real->most));
-    else if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
-        option = command.add_flag(name + ",!--no-" + name.substr(2), s.*on->member, help);
-    else
-        return add_choice(command, setting, std::get<Setting::OneOf>(setting.kind), s);
-    option->default_str(setting.id == "max_depth" ? "the scene's" : setting.text(s));
-}
-
 void add_settings(CLI::App& command, Words& words) {
     RenderSettings& s = words.settings;
     command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
-    for (const Setting& setting : all_settings())
-        add_setting(command, setting, s);
+    add_setting_options(command, s);
     command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
         ->check(CLI::Range(1e-4, 1e3))
         ->capture_default_str();
     command.add_option("--seed", s.seed, "of the random numbers")->capture_default_str();
     command.add_option("--threads", words.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
-}
-
-std::vector<Norm> parse_norms(const std::string& text) {
-    std::vector<Norm> norms;
-    for (const std::string& name : CLI::detail::split(text, ',')) {
-        const std::optional<Norm> norm = norm_from_name(name);
-        if (!norm)
-            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1", name));
-        norms.push_back(*norm);
-    }
-    return norms;
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
@@ -183,6 +117,67 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }
 
+void add_sweep(CLI::App& app, Words& words, SweepOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "sweep", "error, time and efficiency by the values of settings, on scenes with references");
+    command.footer(
+        "Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, anew after each "
+        "render. What is there of an earlier sweep is not continued, but replaced.\n"
+        "References are REFERENCE/SCENE-WxH-dDEPTH-1.exr and -2.exr; missing ones are rendered first.");
+    command.add_option("scenes", words.scenes, "Mitsuba scenes, XML")->required()->take_all();
+    add_settings(command, words);
+    command.get_option("--size")->description("WIDTHxHEIGHT of the images, pixels")->default_str("640x360");
+    command.get_option("--max-depth")->default_str(std::to_string(words.settings.max_depth));
+    command.get_option("--seed")->description("of the first render of each point");
+    command
+        .add_option("--vary", words.variations,
+                    "SETTING=VALUE,VALUE,...: a setting and its values, such as tile=2,4,8; given twice: all "
+                    "combinations")
+        ->take_all()
+        ->allow_extra_args(false);
+    command.add_option("-m,--method", words.method, "pt, pr, gpt, gpr or several: gpr,pr")->capture_default_str();
+    CLI::Option* spp = command.add_option("--spp", options.spp, "samples a pixel")
+                           ->check(CLI::Range(1, 100000000))
+                           ->capture_default_str();
+    command.add_option("--time", words.time, "CPU seconds of rendering, instead of --spp")
+        ->check(CLI::PositiveNumber)
+        ->excludes(spp);
+    command.add_option("--seeds", options.seeds, "renders of each point, each with another seed, in turn")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--recon", words.norms, "none, l2 or l1, where there are gradients")->default_str("l2");
+    command.add_option("--reference", options.references, "folder of the references")->required();
+    command.add_option("--reference-spp", options.reference_spp, "samples a pixel of references that are missing")
+        ->check(CLI::Range(1, 100000000))
+        ->capture_default_str();
+    command.add_option("-o,--output", options.output, "folder to write to")->required();
+}
+
+int sweep(const CLI::App& command, const Words& words, SweepOptions options) {
+    options.scenes.assign(words.scenes.begin(), words.scenes.end());
+    options.methods = parse_methods(words.method);
+    if (words.variations.size() > 2)
+        throw BadInput("--vary: two settings at the most");
+    for (const std::string& text : words.variations)
+        options.variations.push_back(parse_variation(text));
+    if (options.variations.size() == 2 && options.variations[0].setting == options.variations[1].setting)
+        throw BadInput(fmt::format("--vary {}: the setting is varied twice", words.variations[1]));
+    options.settings = words.settings;
+    if (command.count("--time"))
+        options.time = words.time;
+    if (!words.size.empty())
+        options.size = parse_size("--size", words.size);
+    if (command.count("--recon")) {
+        const std::vector<Norm> norms = parse_norms(words.norms);
+        if (norms.size() != 1)
+            throw BadInput(fmt::format("--recon {}: one for all renders", words.norms));
+        options.reconstruction.norm = norms.front();
+    }
+    options.reconstruction.alpha = words.alpha;
+    options.threads = words.threads;
+    return run_sweep(options);
+}
+
 /// Makes the scene of `source`, with `threads` threads, whenever it is called.
 SceneLoader loader_of(const SceneSource& source, int threads) {
     return [source, threads](std::vector<std::string>& notes, LoadProgress& progress) {
@@ -240,12 +235,14 @@ int run_command_line(int argc, char** argv) {
     app.set_version_flag("--version", TESSERA_VERSION);
     // The last of a repeated option counts.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    Words render_words, view_words, info_words;
+    Words render_words, sweep_words, view_words, info_words;
     RenderOptions render_options;
+    SweepOptions sweep_options;
     CompareOptions compare_options;
     ViewOptions view_options;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
+    add_sweep(app, sweep_words, sweep_options);
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
     add_scene(info, info_words, true);
@@ -255,9 +252,11 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
     if (app.get_subcommands().empty())
-        throw BadInput("no command was given: view, render, compare or info (tessera --help)");
+        throw BadInput("no command was given: view, render, sweep, compare or info (tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
+    if (app.got_subcommand("sweep"))
+        return sweep(*app.get_subcommand("sweep"), sweep_words, sweep_options);
     if (app.got_subcommand("view"))
         return view(*app.get_subcommand("view"), view_words, view_options);
     if (app.got_subcommand("compare"))

@@ -23,6 +23,14 @@ void check_writable(const std::filesystem::path& path) {
     std::filesystem::remove(trial);
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder))
+        throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                                   error ? error.message() : "a file is in its place"));
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
     TemporaryFile temporary(path);
     std::ofstream out(temporary.path(), std::ios::binary);

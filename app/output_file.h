@@ -8,6 +8,9 @@ namespace tessera {
 /// Throws BadInput where no file can be made at `path`: better before a render than after it.
 void check_writable(const std::filesystem::path& path);
 
+/// Makes the folder and those that it lies in, where there are none. Throws BadInput.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
 void write_text(const std::filesystem::path& path, const std::string& text);
 

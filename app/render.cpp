@@ -1,6 +1,7 @@
 #include "app/render.h"
 
 #include "app/exit_codes.h"
+#include "app/interrupt.h"
 #include "app/load_notes.h"
 #include "app/output_file.h"
 #include "app/process_usage.h"
@@ -12,10 +13,8 @@
 #include "render/session/render.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 
 #include <fmt/core.h>
@@ -24,21 +23,6 @@
 namespace tessera {
 
 namespace {
-
-std::atomic<bool> interrupted = false;
-
-/// While it lives, Ctrl-C asks for an end after the current pass; a second one ends the process.
-class InterruptGuard {
-public:
-    InterruptGuard() {
-        interrupted = false;
-        std::signal(SIGINT, [](int) {
-            interrupted = true;
-            std::signal(SIGINT, SIG_DFL);
-        });
-    }
-    ~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
-};
 
 /// What is asked for, with everything left open filled in from the scene.
 struct Plan {
@@ -75,7 +59,7 @@ void render_passes(const RenderOptions& options, const Plan& plan, Render& rende
         done = share_done(options, plan, render);
         const std::string target = plan.spp > 0 ? fmt::format(" of {}", plan.spp) : "";
         progress.update(done, render.seconds(), fmt::format("{}{} spp", render.spp(), target));
-    } while (done < 1 && !interrupted);
+    } while (done < 1 && !interrupted());
 }
 
 /// The means of a map, as a layer.
@@ -156,7 +140,7 @@ int run_render(const RenderOptions& options) {
         write_exr(options.output, file);
     if (!options.stats.empty())
         write_text(options.stats,
-                   stats_json(settings, opened, render, pool.size(), recon, interrupted).dump(2) + "\n");
+                   stats_json(settings, opened, render, pool.size(), recon, interrupted()).dump(2) + "\n");
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
     return exit_ok;

@@ -1,5 +1,7 @@
 #include "render/method/settings_table.h"
 
+#include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -114,6 +116,17 @@ std::span<const Setting> all_settings() {
     return table;
 }
 
+const Setting& setting_named(std::string_view id) {
+    std::string wanted(id), all;
+    std::replace(wanted.begin(), wanted.end(), '-', '_');
+    for (const Setting& setting : table) {
+        if (setting.id == wanted)
+            return setting;
+        all += fmt::format("{}{}", all.empty() ? "" : ", ", setting.id);
+    }
+    throw std::invalid_argument(fmt::format("there is no setting \"{}\", only: {}", id, all));
+}
+
 std::string Setting::text(const RenderSettings& s) const {
     if (const auto* whole = std::get_if<Whole>(&kind))
         return fmt::format("{}", s.*whole->member);
@@ -125,11 +138,53 @@ std::string Setting::text(const RenderSettings& s) const {
     return std::string(one.choices[static_cast<std::size_t>(one.get(s))].id);
 }
 
+std::string Setting::allowed() const {
+    if (const auto* whole = std::get_if<Whole>(&kind))
+        return fmt::format("a whole number from {} to {}", whole->least, whole->most);
+    if (const auto* real = std::get_if<Real>(&kind))
+        return fmt::format("a number from {:g} to {:g}", real->least, real->most);
+    if (std::holds_alternative<Switch>(kind))
+        return "on or off";
+    std::string choices;
+    for (const SettingChoice& choice : std::get<OneOf>(kind).choices)
+        choices += fmt::format("{}{}", choices.empty() ? "one of " : ", ", choice.id);
+    return choices;
+}
+
+void Setting::set_text(RenderSettings& s, std::string_view text) const {
+    const auto refuse = [&] {
+        throw std::invalid_argument(fmt::format("{} is \"{}\": must be {}", id, text, allowed()));
+    };
+    const auto number = [&](auto value, auto least, auto most) {
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || rest != end || !(value >= least && value <= most))
+            refuse();
+        return value;
+    };
+    if (const auto* whole = std::get_if<Whole>(&kind)) {
+        s.*whole->member = number(0, whole->least, whole->most);
+    } else if (const auto* real = std::get_if<Real>(&kind)) {
+        s.*real->member = number(0.0f, real->least, real->most);
+    } else if (const auto* on = std::get_if<Switch>(&kind)) {
+        if (text != "on" && text != "off")
+            refuse();
+        s.*on->member = text == "on";
+    } else {
+        const OneOf& one = std::get<OneOf>(kind);
+        const auto has_id = [&](const SettingChoice& choice) { return choice.id == text; };
+        const auto found = std::find_if(one.choices.begin(), one.choices.end(), has_id);
+        if (found == one.choices.end())
+            refuse();
+        one.set(s, static_cast<int>(found - one.choices.begin()));
+    }
+}
+
 void check(const RenderSettings& s) {
-    const auto check_range = [](const Setting& setting, auto value, auto least, auto most) {
+    const auto check_range = [&s](const Setting& setting, auto value, auto least, auto most) {
         if (!(value >= least && value <= most))
             throw std::invalid_argument(
-                fmt::format("{} is {}: must be from {} to {}", setting.id, value, least, most));
+                fmt::format("{} is {}: must be {}", setting.id, setting.text(s), setting.allowed()));
     };
     for (const Setting& setting : table) {
         if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))

@@ -48,10 +48,18 @@ struct Setting {
 
     /// The value as a word or number: "6", "0.1", "on", "half-vector".
     std::string text(const RenderSettings& settings) const;
+    /// Sets it from such a word or number. Throws std::invalid_argument that says what it may be.
+    void set_text(RenderSettings& settings, std::string_view text) const;
+    /// What it may be: "a whole number from 1 to 16", "on or off", "one of tile, rooks".
+    std::string allowed() const;
 };
 
 /// All but method and seed, in the order of the panel.
 std::span<const Setting> all_settings();
+
+/// The setting of that id, with underscores or with the option's hyphens. Throws std::invalid_argument that names
+/// all.
+const Setting& setting_named(std::string_view id);
 
 /// Throws std::invalid_argument, naming the setting, where one is outside its limits.
 void check(const RenderSettings& settings);

@@ -2,9 +2,9 @@
 #include "render/load/camera_file.h"
 #include "render/load/exr.h"
 #include "render/load/mitsuba_xml.h"
+#include "tests/app/program.h"
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -24,25 +24,6 @@ namespace tessera::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int exit_code = -1;
-    std::string output;
-};
-
-/// Runs the program in `folder` with both output streams in one.
-Outcome run(const fs::path& folder, const std::string& arguments) {
-    const std::string command = "unset DISPLAY WAYLAND_DISPLAY; cd '" + folder.string() + "' && '" +
-                                std::string(TESSERA_BINARY) + "' " + arguments + " 2>&1";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome;
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-        outcome.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return outcome;
-}
 
 class CommandLine : public testing::Test {
 protected:

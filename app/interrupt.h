@@ -1,0 +1,17 @@
+#pragma once
+
+namespace tessera {
+
+/// While one lives, Ctrl-C asks for an end in good order; a second one ends the process.
+class InterruptGuard {
+public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+/// Whether the latest guard has seen Ctrl-C.
+bool interrupted();
+
+} // namespace tessera

@@ -1,0 +1,55 @@
+#include "app/option_values.h"
+
+#include "app/exit_codes.h"
+
+#include <cstdio>
+#include <optional>
+
+#include <CLI/StringTools.hpp>
+#include <fmt/core.h>
+
+namespace tessera {
+
+glm::ivec2 parse_size(const std::string& option, const std::string& text) {
+    int w = 0, h = 0, used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
+        throw BadInput(fmt::format("{} {}: must be WIDTHxHEIGHT, such as 640x360", option, text));
+    if (w < 1 || h < 1 || w > 32768 || h > 32768)
+        throw BadInput(fmt::format("{} {}: width and height must be from 1 to 32768", option, text));
+    return {w, h};
+}
+
+SceneVariables parse_variables(const std::vector<std::string>& definitions) {
+    SceneVariables variables;
+    for (const std::string& d : definitions) {
+        const std::size_t equals = d.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw BadInput(fmt::format("-D {}: must be name=value", d));
+        variables[d.substr(0, equals)] = d.substr(equals + 1);
+    }
+    return variables;
+}
+
+std::vector<Norm> parse_norms(const std::string& text) {
+    std::vector<Norm> norms;
+    for (const std::string& name : CLI::detail::split(text, ',')) {
+        const std::optional<Norm> norm = norm_from_name(name);
+        if (!norm)
+            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1", name));
+        norms.push_back(*norm);
+    }
+    return norms;
+}
+
+std::vector<Method> parse_methods(const std::string& text) {
+    std::vector<Method> methods;
+    for (const std::string& name : CLI::detail::split(text, ',')) {
+        const std::optional<Method> method = method_from_name(name);
+        if (!method)
+            throw BadInput(fmt::format("-m {}: must be of pt, pr, gpt, gpr", name));
+        methods.push_back(*method);
+    }
+    return methods;
+}
+
+} // namespace tessera

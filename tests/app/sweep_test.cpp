@@ -1,0 +1,239 @@
+// `tessera sweep`: what it renders, what it writes, and what it refuses.
+#include "app/sweep_result.h"
+#include "render/load/exr.h"
+#include "tests/app/program.h"
+#include "tests/load/temporary_folder.h"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class SweepCommand : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder() / "box");
+        fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", folder() / "box/scene.xml");
+        fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", folder() / "other.xml");
+    }
+
+    const fs::path& folder() const { return folder_.path(); }
+    fs::path reference(int i, const std::string& scene = "box", int depth = 8) const {
+        return folder() / "refs" / (scene + "-32x18-d" + std::to_string(depth) + "-" + std::to_string(i) + ".exr");
+    }
+    std::string text(const fs::path& name) const {
+        std::ostringstream out;
+        out << std::ifstream(folder() / name).rdbuf();
+        return out.str();
+    }
+    std::vector<std::vector<std::string>> csv() const {
+        std::vector<std::vector<std::string>> rows;
+        std::istringstream lines(text("out/sweep.csv"));
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream cells(line + ",");
+            rows.emplace_back();
+            for (std::string cell; std::getline(cells, cell, ',');)
+                rows.back().push_back(cell);
+        }
+        return rows;
+    }
+    json results() const { return json::parse(text("out/sweep.json")); }
+
+    const std::string small_ = " --size 32x18 --spp 2 --reference refs --reference-spp 2 --threads 1 -o out ";
+    TemporaryFolder folder_;
+};
+
+TEST_F(SweepCommand, WritesTablesAndAChart) {
+    const Outcome o = run(folder(), "sweep box/scene.xml --vary tile=2,3 --seeds 2 --seed 7" + small_);
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_THAT(o.output, HasSubstr("refs/box-32x18-d8-1.exr is missing: rendering it"));
+
+    const auto rows = csv();
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].size(), 3 + sweep_figures().size());
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(rows[i].size(), rows[0].size());
+    EXPECT_THAT(std::vector(rows[0].begin(), rows[0].begin() + 5),
+                ElementsAre("scene", "method", "tile", "spp", "seeds"));
+    EXPECT_THAT(std::vector(rows[1].begin(), rows[1].begin() + 5), ElementsAre("box", "gpr", "2", "2", "2"));
+    EXPECT_THAT(std::vector(rows[2].begin(), rows[2].begin() + 5), ElementsAre("box", "gpr", "3", "2", "2"));
+
+    const json all = results();
+    EXPECT_EQ(all["version"], "0.1.0");
+    EXPECT_EQ(all["machine"]["threads"], 1);
+    EXPECT_EQ(all["interrupted"], false);
+    ASSERT_EQ(all["results"].size(), 2u);
+    const json& row = all["results"][1];
+    EXPECT_EQ(row["tile"], 3);
+    EXPECT_EQ(row["settings"]["tile"], 3);
+    EXPECT_EQ(row["settings"]["max_depth"], 8);
+    ASSERT_EQ(row["runs"].size(), 2u);
+    EXPECT_EQ(row["runs"][0]["seed"], 7);
+    EXPECT_EQ(row["runs"][1]["seed"], 8);
+    EXPECT_NEAR(row["relmse"],
+                (row["runs"][0]["relmse"].get<double>() + row["runs"][1]["relmse"].get<double>()) / 2, 1e-9);
+    EXPECT_NEAR(row["reused_share"].get<double>() + row["skipped_share"].get<double>() +
+                    row["dark_share"].get<double>(),
+                1, 1e-6);
+
+    EXPECT_THAT(text("out/sweep.md"), HasSubstr("| scene | method | tile 2 | tile 3 |"));
+    pugi::xml_document chart;
+    EXPECT_TRUE(chart.load_file((folder() / "out/sweep-box.svg").c_str()));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "out"), fs::directory_iterator()), 4);
+}
+
+TEST_F(SweepCommand, MakesReferencesOnce) {
+    const std::string sweep = "sweep box/scene.xml other.xml --vary max_depth=2,3 -m pt" + small_;
+    ASSERT_EQ(run(folder(), sweep).exit_code, 0);
+    std::vector<std::pair<fs::path, fs::file_time_type>> made;
+    for (const char* scene : {"box", "other"})
+        for (int depth : {2, 3})
+            for (int i : {1, 2})
+                made.emplace_back(reference(i, scene, depth), fs::last_write_time(reference(i, scene, depth)));
+    fs::remove(reference(2, "other", 3));
+    const Outcome again = run(folder(), sweep);
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+    EXPECT_THAT(again.output, HasSubstr("other-32x18-d3-2.exr is missing"));
+    for (const auto& [file, time] : made) {
+        if (file != reference(2, "other", 3)) {
+            EXPECT_EQ(fs::last_write_time(file), time) << file;
+        }
+    }
+    const json settings = json::parse(read_exr(reference(2, "other", 3)).attributes.at("tessera:settings"));
+    EXPECT_EQ(settings["seed"], 1002);
+    EXPECT_EQ(settings["tile"], 8);
+    EXPECT_EQ(settings["max_depth"], 3);
+    EXPECT_EQ(csv().size(), 5u);
+    for (const char* chart : {"out/sweep-box.svg", "out/sweep-other.svg"})
+        EXPECT_TRUE(fs::exists(folder() / chart));
+}
+
+TEST_F(SweepCommand, MeasuresWhatRenderAndCompareDo) {
+    ASSERT_EQ(run(folder(), "sweep box/scene.xml -m gpr,pr --vary tile=3 --seed 5 --recon l1" + small_).exit_code,
+              0);
+    for (const json& row : results()["results"]) {
+        const std::string recon = row["method"] == "gpr" ? " --recon l1" : "";
+        ASSERT_EQ(run(folder(), "render box/scene.xml -m " + row["method"].get<std::string>() + recon +
+                                    " --tile 3 --seed 5 --size 32x18 --spp 2 --max-depth 8 -o image.exr")
+                      .exit_code,
+                  0);
+        const Outcome o =
+            run(folder(), "compare image.exr refs/box-32x18-d8-1.exr refs/box-32x18-d8-2.exr --json");
+        const json errors = json::parse(o.output);
+        EXPECT_NEAR(row["relmse"], errors["relmse"], 1e-5 * errors["relmse"].get<double>());
+        EXPECT_NEAR(row["relmse_floor_free"], errors["relmse_floor_free"], 1e-5 * errors["relmse"].get<double>());
+        EXPECT_NEAR(row["relmse_floor_free_standard_error"], errors["relmse_floor_free_standard_error"],
+                    1e-5 * errors["relmse"].get<double>());
+    }
+}
+
+TEST_F(SweepCommand, TimeEndsARender) {
+    const Outcome o = run(folder(), "sweep box/scene.xml -m pt --time 0.1 --size 32x18 --reference refs "
+                                    "--reference-spp 1 -o out");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    const json row = results()["results"][0];
+    EXPECT_GE(row["cpu_seconds"], 0.1);
+    EXPECT_GT(row["spp"], 1);
+    EXPECT_EQ(row["relmse_floor_free_deviation"], json()) << "one seed has none";
+    EXPECT_EQ(row["skipped_share"], json()) << "nothing is shared";
+}
+
+TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
+    folder_.write("file", "");
+    fs::create_directories(folder() / "wrong");
+    write_exr(folder() / "wrong/box-32x18-d8-2.exr", {{{"", RgbImage(8, 4, Rgb(1))}}, {}});
+    const std::string sweep = "sweep box/scene.xml" + small_;
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {sweep + "--vary tiles=2,3", "there is no setting \"tiles\", only: tile,"},
+        {sweep + "--vary tile", "must be SETTING=VALUE"},
+        {sweep + "--vary tile=", "tile is \"\": must be a whole number from 1 to 16"},
+        {sweep + "--vary tile=2,,3", "tile is \"\""},
+        {sweep + "--vary tile=2,17", "tile is \"17\": must be a whole number from 1 to 16"},
+        {sweep + "--vary tile=2.5", "tile is \"2.5\""},
+        {sweep + "--vary rr_delta=-1", "rr_delta is \"-1\": must be a number from 0"},
+        {sweep + "--vary roulette=relative,fair", "must be one of relative, absolute, none"},
+        {sweep + "--vary adapt_tile=yes", "must be on or off"},
+        {sweep + "--vary tile=2 --vary tile=3", "varied twice"},
+        {sweep + "--vary tile=2 --vary q_min=1 --vary primal=base", "two settings at the most"},
+        {sweep + "-m gpr,bdpt", "-m bdpt"},
+        {sweep + "-m ''", "-m"},
+        {sweep + "--recon l2,l1", "--recon l2,l1"},
+        {sweep + "--recon l3", "l3"},
+        {sweep + "--time 1", "excludes"},
+        {sweep + "--seeds 0", "--seeds"},
+        {sweep + "--seed 1000 --seeds 2", "seed 1001 is a reference's"},
+        {sweep + "--reference-spp 0", "--reference-spp"},
+        {sweep + "missing.xml", "missing.xml: there is no such scene file"},
+        {sweep + "box", "box: there is no such scene file"},
+        {sweep + "box/scene.xml", "are both named \"box\""},
+        {sweep + "--size 0x4", "--size 0x4"},
+        {sweep + "-o file", "file: the folder cannot be made"},
+        {sweep + "-o file/out", "file/out: the folder cannot be made"},
+        {sweep + "--reference file", "file: the folder cannot be made"},
+        {sweep + "--reference wrong", "wrong/box-32x18-d8-2.exr is 8x4, but 32x18 is to be rendered"},
+        {"sweep --vary tile=2 --reference refs -o out", "scenes"},
+        {"sweep box/scene.xml -o out", "--reference"},
+        {"sweep box/scene.xml --reference refs", "--output"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = run(folder(), arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments << "\n" << o.output;
+        EXPECT_THAT(o.output, HasSubstr(expected)) << arguments;
+        EXPECT_THAT(o.output, Not(HasSubstr("rendering"))) << arguments;
+        EXPECT_FALSE(fs::exists(folder() / "out/sweep.csv")) << arguments;
+        EXPECT_FALSE(fs::exists(reference(1))) << arguments;
+    }
+}
+
+TEST_F(SweepCommand, OptionsMayComeBeforeScenes) {
+    const Outcome o = run(folder(), "sweep --vary primal=reuse,base -m gpr" + small_ + "box/scene.xml");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_EQ(csv().size(), 3u);
+}
+
+TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder().c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
+            _exit(100);
+        execl(TESSERA_BINARY, "tessera", "sweep", "box/scene.xml", "--vary", "tile=2,3", "--seeds", "1000",
+              "--size", "32x18", "--spp", "8", "--reference", "refs", "--reference-spp", "2", "-o", "out",
+              static_cast<char*>(nullptr));
+        _exit(101);
+    }
+    for (int i = 0; i < 600 && !fs::exists(folder() / "out/sweep-box.svg"); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    const json all = results();
+    EXPECT_EQ(all["interrupted"], true);
+    ASSERT_GE(all["results"].size(), 1u);
+    EXPECT_GE(all["results"][0]["runs"].size(), 1u);
+    EXPECT_LT(all["results"][0]["runs"].size(), 1000u);
+    EXPECT_EQ(csv().size(), 1 + all["results"].size());
+}
+
+} // namespace
+
+} // namespace tessera::test
