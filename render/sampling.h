@@ -40,8 +40,9 @@ struct Frame {
 /// Sine and cosine of an angle in [-pi/4, pi/4], by their series; to the last bit but one.
 inline glm::vec2 sin_cos_quarter(float angle) {
     const float a2 = angle * angle;
-    const float sine = angle * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 / 362880))));
-    const float cosine = 1 + a2 * (-0.5f + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 / 40320)));
+    const float sine =
+        angle * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));
+    const float cosine = 1 + a2 * (-0.5f + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 * (1.0f / 40320))));
     return {sine, cosine};
 }
 
@@ -49,11 +50,12 @@ inline glm::vec2 sin_cos_quarter(float angle) {
 inline glm::vec2 sample_disk(glm::vec2 u) {
     const float x = 2 * u.x - 1;
     const float y = 2 * u.y - 1;
-    if (x == 0 && y == 0)
-        return {0, 0};
     const bool wide = std::abs(x) > std::abs(y);
-    const glm::vec2 sc = sin_cos_quarter(pi / 4 * (wide ? y / x : x / y));
-    return wide ? x * glm::vec2(sc.y, sc.x) : y * sc;
+    const float radius = wide ? x : y;
+    if (radius == 0)
+        return {0, 0};
+    const glm::vec2 sc = radius * sin_cos_quarter(pi / 4 * ((wide ? y : x) / radius));
+    return wide ? glm::vec2(sc.y, sc.x) : sc;
 }
 
 /// A direction about +z with pdf_w = cos / pi.

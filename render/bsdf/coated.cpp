@@ -103,14 +103,14 @@ std::optional<BsdfSample> Coated::sample(glm::vec3 to_previous, float lobe, glm:
     }
     if (is_delta) {
         const DeltaValue v = evaluate_delta(to_previous, Scatter::reflect);
-        return BsdfSample{v.to_next, v.value, v.probability, true, Scatter::reflect};
+        return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, Scatter::reflect);
     }
     if (!to_next)
         return {};
     const BsdfValue v = evaluate(to_previous, *to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
-    return BsdfSample{*to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+    return std::make_optional<BsdfSample>(*to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
 float Coated::roughness() const {

@@ -25,7 +25,7 @@ std::optional<BsdfSample> RoughConductor::sample(glm::vec3 to_previous, float, g
     const BsdfValue v = evaluate(to_previous, to_next);
     if (v.pdf_w <= 0 || is_black(v.f_cos))
         return {};
-    return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
 DeltaValue SmoothConductor::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
@@ -38,7 +38,7 @@ std::optional<BsdfSample> SmoothConductor::sample(glm::vec3 to_previous, float, 
     const DeltaValue v = evaluate_delta(to_previous, Scatter::reflect);
     if (is_black(v.value))
         return {};
-    return BsdfSample{v.to_next, v.value, v.probability, true, Scatter::reflect};
+    return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, Scatter::reflect);
 }
 
 } // namespace tessera

@@ -27,7 +27,7 @@ std::optional<BsdfSample> sample_delta(const B& bsdf, glm::vec3 to_previous, flo
     const DeltaValue v = bsdf.evaluate_delta(to_previous, scatter);
     if (v.probability <= 0 || is_black(v.value))
         return {};
-    return BsdfSample{v.to_next, v.value, v.probability, true, scatter};
+    return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, scatter);
 }
 
 /// Share that a thin pane reflects: R + T R T + T R R R T + ... = 2 R / (1 + R).

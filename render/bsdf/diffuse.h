@@ -23,7 +23,7 @@ struct Diffuse {
         const BsdfValue v = evaluate(to_previous, to_next);
         if (v.pdf_w <= 0 || is_black(v.f_cos))
             return {};
-        return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+        return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
     }
 
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }

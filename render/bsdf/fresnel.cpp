@@ -34,11 +34,10 @@ Rgb fresnel_conductor(float cos_previous, Rgb eta, Rgb k) {
 
     const Rgb s1 = a2_plus_b2 + cos2;
     const Rgb s2 = 2.0f * cos_previous * a;
-    const Rgb perpendicular = (s1 - s2) / (s1 + s2);
     const Rgb p1 = a2_plus_b2 * cos2 + sin2 * sin2;
     const Rgb p2 = s2 * sin2;
-    const Rgb parallel = perpendicular * (p1 - p2) / (p1 + p2);
-    return 0.5f * (perpendicular + parallel);
+    // The mean of (s1 - s2) / (s1 + s2), perpendicular, and of (p1 - p2) / (p1 + p2) of it, parallel.
+    return (s1 - s2) * p1 / ((s1 + s2) * (p1 + p2));
 }
 
 } // namespace tessera

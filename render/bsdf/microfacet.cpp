@@ -72,9 +72,10 @@ glm::vec3 sample_visible_ggx(glm::vec3 direction, float alpha, glm::vec2 u) {
     const float s = 0.5f * (1 + stretched.z);
     // Seen from `stretched`, the hemisphere of facets covers a disk of which the half below the horizon is
     // squeezed by s; the second axis points up, so that this half lies at negative y.
-    const float length = std::hypot(stretched.x, stretched.y);
-    const glm::vec3 t1 = length > 1e-6f ? glm::vec3(-stretched.y, stretched.x, 0) / length : glm::vec3(1, 0, 0);
-    const glm::vec3 t2 = glm::cross(stretched, t1);
+    const float length = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
+    const glm::vec2 toward = length > 1e-6f ? glm::vec2(stretched) * (1 / length) : glm::vec2(0, -1);
+    const glm::vec3 t1(-toward.y, toward.x, 0);
+    const glm::vec3 t2(-stretched.z * toward, length); // cross(stretched, t1)
     p.y = (1 - s) * std::sqrt(std::max(1 - p.x * p.x, 0.0f)) + s * p.y;
     const glm::vec3 n = p.x * t1 + p.y * t2 + std::sqrt(std::max(1 - p.x * p.x - p.y * p.y, 0.0f)) * stretched;
     return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(n.z, 0.0f)));
@@ -89,8 +90,8 @@ float Microfacets::density(glm::vec3 normal) const {
     const float sin2 = normal.x * normal.x + normal.y * normal.y;
     const float cos2 = normal.z * normal.z;
     if (distribution == MicrofacetDistribution::ggx) {
-        const float d = sin2 / a2 + cos2;
-        return inv_pi / (a2 * d * d);
+        const float d = sin2 + a2 * cos2;
+        return inv_pi * a2 / (d * d);
     }
     const float exponent = sin2 / (a2 * cos2);
     return exponent < 80 ? std::exp(-exponent) * inv_pi / (a2 * cos2 * cos2) : 0; // or 0 / 0 at grazing normals
@@ -103,8 +104,10 @@ float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
     const float cos2 = direction.z * direction.z;
     if (sin2 <= 0)
         return 1;
-    if (distribution == MicrofacetDistribution::ggx)
-        return 2 / (1 + std::sqrt(1 + alpha * alpha * sin2 / cos2));
+    if (distribution == MicrofacetDistribution::ggx) {
+        const float c = std::abs(direction.z);
+        return 2 * c / (c + std::sqrt(cos2 + alpha * alpha * sin2));
+    }
     const float a = std::sqrt(cos2 / sin2) / alpha;
     if (a > 4)
         return 1; // less than 1e-9 is shadowed

@@ -71,12 +71,12 @@ std::optional<BsdfSample> Mixture::sample(glm::vec3 to_previous, float lobe, glm
         return {};
     if (s->is_delta) {
         const DeltaValue v = evaluate_delta(to_previous, s->scatter);
-        return BsdfSample{v.to_next, v.value, v.probability, true, s->scatter};
+        return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, s->scatter);
     }
     const BsdfValue v = evaluate(to_previous, s->to_next);
     if (!(v.pdf_w > 0))
         return {};
-    return BsdfSample{s->to_next, v.f_cos, v.pdf_w, false, s->scatter};
+    return std::make_optional<BsdfSample>(s->to_next, v.f_cos, v.pdf_w, false, s->scatter);
 }
 
 float Mixture::roughness() const {

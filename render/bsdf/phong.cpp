@@ -55,7 +55,7 @@ std::optional<BsdfSample> Phong::sample(glm::vec3 to_previous, float lobe, glm::
     const BsdfValue v = evaluate(to_previous, to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
-    return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
 float Phong::roughness() const {

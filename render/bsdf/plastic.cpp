@@ -150,14 +150,14 @@ std::optional<BsdfSample> Plastic::sample(glm::vec3 to_previous, float lobe, glm
         const DeltaValue v = evaluate_delta(to_previous, Scatter::reflect);
         if (is_black(v.value))
             return {};
-        return BsdfSample{v.to_next, v.value, v.probability, true, Scatter::reflect};
+        return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, Scatter::reflect);
     }
     const glm::vec3 to_next =
         specular ? reflect(to_previous, facets.sample_visible(to_previous, u)) : sample_cosine_hemisphere(u);
     const BsdfValue v = evaluate(to_previous, to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
-    return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
 } // namespace tessera

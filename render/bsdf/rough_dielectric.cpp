@@ -37,7 +37,8 @@ std::optional<BsdfSample> RoughDielectric::sample(glm::vec3 to_previous, float l
     const BsdfValue v = evaluate(to_previous, *to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
-    return BsdfSample{*to_next, v.f_cos, v.pdf_w, false, reflects ? Scatter::reflect : Scatter::transmit};
+    return std::make_optional<BsdfSample>(*to_next, v.f_cos, v.pdf_w, false,
+                                          reflects ? Scatter::reflect : Scatter::transmit);
 }
 
 } // namespace tessera

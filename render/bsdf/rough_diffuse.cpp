@@ -72,7 +72,7 @@ std::optional<BsdfSample> RoughDiffuse::sample(glm::vec3 to_previous, float, glm
     const BsdfValue v = evaluate(to_previous, to_next);
     if (v.pdf_w <= 0 || is_black(v.f_cos))
         return {};
-    return BsdfSample{to_next, v.f_cos, v.pdf_w, false, Scatter::reflect};
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
 } // namespace tessera

@@ -27,13 +27,17 @@ struct DeltaValue {
     float probability = 0; ///< of choosing it; 0: there is no such part
 };
 
-/// A sampled direction. With is_delta, f_cos is a share and pdf_w a probability, as in DeltaValue.
+/// A sampled direction. With is_delta, f_cos is a share and pdf_w a probability, as in DeltaValue. Paths make one
+/// a vertex: by std::make_optional, in its place, as a copy of what was only just written has to wait.
 struct BsdfSample {
     glm::vec3 to_next;
     Rgb f_cos;
     float pdf_w; ///< > 0
     bool is_delta;
     Scatter scatter;
+
+    BsdfSample(glm::vec3 to_next_, Rgb f_cos_, float pdf_w_, bool is_delta_, Scatter scatter_)
+        : to_next(to_next_), f_cos(f_cos_), pdf_w(pdf_w_), is_delta(is_delta_), scatter(scatter_) {}
 };
 
 /// Mirrors a direction on the normal of the shading frame.

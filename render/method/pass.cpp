@@ -84,6 +84,7 @@ void share_light(const Pass& pass, bool with_roulette, Worker& worker) {
     set.collect(worker.base);
     const ReuseRoulette roulette =
         with_roulette ? ReuseRoulette(pass.settings, worker.reuse, set.paths) : ReuseRoulette();
+    worker.reuse.begin(set.paths);
     for (int k = 0; k < set.size(); ++k) {
         const BasePath& path = *set.paths[static_cast<std::size_t>(k)];
         const Rgb light = worker.reuse.shared_light(path);
@@ -96,7 +97,7 @@ void share_light(const Pass& pass, bool with_roulette, Worker& worker) {
         } else {
             ++worker.counters.skipped_paths;
         }
-        worker.reuse.share(set.paths, k, scale, set.radiance);
+        worker.reuse.share(k, scale, set.radiance);
         set.count(worker.reuse.outcomes(), k);
     }
 }

@@ -4,9 +4,14 @@
 
 namespace tessera {
 
-void PathReuse::share(std::span<const BasePath* const> set, int base, float scale, std::span<Rgb> radiance) {
-    const BasePath& path = *set[static_cast<std::size_t>(base)];
-    outcomes_.clear();
+void PathReuse::begin(std::span<const BasePath* const> set) {
+    set_ = set;
+    primary_.reset(0);
+}
+
+void PathReuse::share(int base, float scale, std::span<Rgb> radiance) {
+    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    tried_ = false;
     if (path.empty())
         return;
     radiance[static_cast<std::size_t>(base)] += kept_light(path);
@@ -15,67 +20,69 @@ void PathReuse::share(std::span<const BasePath* const> set, int base, float scal
     light_.reset(path, settings_);
     if (light_.last_alive() < light_.first_shared())
         return; // where the base carries nothing, no offset can
-    paths_.reset(light_.slot_count(), static_cast<int>(set.size()));
+    tried_ = true;
+    paths_.reset(light_.slot_count(), static_cast<int>(set_.size()));
     slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
-    outcomes_.assign(set.size(), ShiftOutcome::ok);
-    settings_.shift == ShiftKind::replay ? replay_to_all(set, base) : shift_to_all(set, base);
+    settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
+    judge(base);
     balance(base, scale, radiance);
 }
 
-void PathReuse::shift_to_all(std::span<const BasePath* const> set, int base) {
-    const BasePath& path = *set[static_cast<std::size_t>(base)];
-    edges_.reset(light_.slot_count());
-    blocked_.assign(set.size(), 0);
-    for (int m = 0; m < static_cast<int>(set.size()); ++m) {
-        const BasePath& offset = *set[static_cast<std::size_t>(m)];
-        if (m != base)
-            outcomes_[static_cast<std::size_t>(m)] =
-                offset.empty() ? ShiftOutcome::outside
-                               : shift(tracer_, settings_, path, light_, offset[0].vertex, m, paths_, edges_);
+void PathReuse::shift_to_all(int base) {
+    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    const int count = static_cast<int>(set_.size());
+    if (primary_.count() == 0) {
+        primary_.reset(count);
+        for (int m = 0; m < count; ++m)
+            if (const BasePath& offset = *set_[static_cast<std::size_t>(m)]; !offset.empty())
+                primary_.set(m, offset[0].vertex);
     }
+    edges_.reset(count);
+    shift_.run(path, light_, primary_, base, paths_, edges_, outcomes_);
     if (weight_threshold_ > 0)
         play_weight_roulette(path.random);
-    edges_.resolve(tracer_, paths_, slot_scale_, blocked_);
-    judge(base, blocked_);
+    edges_.resolve(tracer_, paths_, slot_scale_, lost_);
 }
 
 /// Random replay: every pixel takes the base's numbers all the way. In the space of these numbers the shift is the
 /// identity, whatever strategy a light path ends by: its density ratio is 1 and its value that of the offset's own
 /// path, with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has density 0, for base and
 /// offset alike.
-void PathReuse::replay_to_all(std::span<const BasePath* const> set, int base) {
-    const BasePath& path = *set[static_cast<std::size_t>(base)];
-    for (int m = 0; m < static_cast<int>(set.size()); ++m) {
-        const BasePath& offset = *set[static_cast<std::size_t>(m)];
-        if (m == base)
+void PathReuse::replay_to_all(int base) {
+    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    for (int m = 0; m < paths_.offsets(); ++m) {
+        const BasePath& offset = *set_[static_cast<std::size_t>(m)];
+        outcomes_[m] = offset.empty() ? ShiftOutcome::outside : ShiftOutcome::ok;
+        lost_[m] = 0;
+        if (m == base || offset.empty())
             continue;
-        if (offset.empty()) {
-            outcomes_[static_cast<std::size_t>(m)] = ShiftOutcome::outside;
-            continue;
-        }
         replay_base_path(tracer_, offset[0].vertex, path.random, light_.vertex_of(light_.last_alive()) + 1,
                          replayed_);
         replayed_light_.reset(replayed_, settings_);
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))
-                paths_.set(slot, m, 1, replayed_light_.carried(slot));
+                paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
     }
-    blocked_.assign(set.size(), 0);
-    judge(base, blocked_);
 }
 
 /// Settles the outcomes of all shifts and counts them.
-void PathReuse::judge(int base, std::span<const std::uint8_t> blocked) {
+void PathReuse::judge(int base) {
+    for (int m = 0; m < padded(paths_.offsets()); ++m)
+        arrived_[m] = 0;
+    for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
+        if (!is_shared(slot))
+            continue;
+        const OffsetRow& row = paths_.row(slot);
+        for (int m = 0; m < padded(paths_.offsets()); ++m)
+            arrived_[m] |= row.density[m] > 0 ? -1 : 0;
+    }
     for (int m = 0; m < paths_.offsets(); ++m) {
         if (m == base)
             continue;
-        ShiftOutcome& outcome = outcomes_[static_cast<std::size_t>(m)];
-        bool arrived = false;
-        for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot)
-            arrived = arrived || (is_shared(slot) && paths_.density(slot, m) > 0);
-        if (arrived)
+        ShiftOutcome& outcome = outcomes_[m];
+        if (arrived_[m])
             outcome = ShiftOutcome::ok;
-        else if (blocked[static_cast<std::size_t>(m)])
+        else if (lost_[m])
             outcome = ShiftOutcome::occluded;
         else if (outcome == ShiftOutcome::ok)
             outcome = ShiftOutcome::no_light;
@@ -84,9 +91,10 @@ void PathReuse::judge(int base, std::span<const std::uint8_t> blocked) {
 }
 
 float PathReuse::density_sum(int slot) const {
+    const OffsetRow& row = paths_.row(slot);
     float sum = 1; // the base itself: its ratio is one by definition
     for (int m = 0; m < paths_.offsets(); ++m)
-        sum += paths_.density(slot, m);
+        sum += row.density[m];
     return sum;
 }
 
@@ -115,8 +123,9 @@ void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
             continue;
         const float weight = scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot);
         radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * weight;
+        const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < paths_.offsets(); ++m)
-            radiance[static_cast<std::size_t>(m)] += paths_.value(slot, m) * weight;
+            radiance[static_cast<std::size_t>(m)] += row.value[m] * weight;
     }
 }
 

@@ -19,15 +19,18 @@ public:
     ///                          the even weight 1/|T| if no new edge were blocked is shared out with a probability
     ///                          in proportion to it [after Bekaert 2002]; 0: all are
     PathReuse(const Tracer& tracer, const ShiftSettings& settings, float weight_threshold)
-        : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold) {}
+        : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold), shift_(tracer, settings) {}
 
-    /// @param set     the base paths of T, one a pixel
-    /// @param base    the one whose light is shared out, an index into `set`
+    /// Begins with another sampling set.
+    /// @param set  the base paths of T, one a pixel, at most most_lanes; they must stay until the next begin()
+    void begin(std::span<const BasePath* const> set);
+
+    /// @param base    the path whose light is shared out, an index into the set
     /// @param scale   factor on what is shared: one over the probability that this path is reused; 0: it is not,
     /// and
     ///                only the light that is never shifted is added, to the base's own pixel
     /// @param radiance one a pixel of T; what the path brings is added
-    void share(std::span<const BasePath* const> set, int base, float scale, std::span<Rgb> radiance);
+    void share(int base, float scale, std::span<Rgb> radiance);
 
     /// What of a path's radiance is shifted to others, ...
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
@@ -36,13 +39,13 @@ public:
 
     /// How the shifts of the last share() to each pixel of T ended; meaningless for the base's own. Empty: no
     /// shift was tried.
-    std::span<const ShiftOutcome> outcomes() const { return outcomes_; }
+    std::span<const ShiftOutcome> outcomes() const { return {outcomes_.values.data(), tried_ ? set_.size() : 0}; }
 
 private:
     bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
-    void shift_to_all(std::span<const BasePath* const> set, int base);
-    void replay_to_all(std::span<const BasePath* const> set, int base);
-    void judge(int base, std::span<const std::uint8_t> blocked);
+    void shift_to_all(int base);
+    void replay_to_all(int base);
+    void judge(int base);
     void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
     float density_sum(int slot) const;
@@ -53,6 +56,9 @@ private:
     Tracer tracer_;
     ShiftSettings settings_;
     float weight_threshold_;
+    std::span<const BasePath* const> set_;
+    OffsetVertices primary_; ///< what the pixels of T see; empty until it is needed
+    Shift shift_;
     LightPaths light_;
     OffsetPaths paths_;
     PendingEdges edges_;
@@ -60,8 +66,10 @@ private:
     LightPaths replayed_light_;
     std::vector<float>
         slot_scale_; ///< one over the probability that the roulette on small weights kept it; 0: it did not
-    std::vector<ShiftOutcome> outcomes_;
-    std::vector<std::uint8_t> blocked_;
+    OutcomeLanes outcomes_;
+    bool tried_ = false;
+    LaneMask arrived_; ///< where anything came through
+    LaneMask lost_;    ///< where an edge was blocked
 };
 
 } // namespace tessera

@@ -3,34 +3,38 @@
 #include "render/path/offset_paths.h"
 #include "render/path/tracer.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace tessera {
 
-/// Edges that shifts have made and that may be blocked. All edges of a group end in the same point, a light
-/// (perhaps at infinity) or a base vertex, so their rays are traced together; a blocked edge fails the slots
+/// New edges of offset paths, a lane a pixel, that may be blocked. They all end in the same point, a light
+/// (perhaps at infinity) or a base vertex, so their rays are traced together; a blocked one fails the slots
 /// [first_slot, end_slot).
+struct EdgeGroup {
+    SegmentLanes segments;
+    LaneMask exists;
+    int first_slot, end_slot;
+};
+
+/// The edges of all shifts of a base path.
 class PendingEdges {
 public:
-    void reset(int groups);
-    void add(int group, const Segment& segment, int offset, int first_slot, int end_slot);
+    void reset(int offsets);
 
-    /// Traces all edges; returns whether an offset lost slots in blocked[offset].
+    /// A group to be filled in. Old references end here.
+    EdgeGroup& add(int first_slot, int end_slot);
+
+    /// Traces all edges; says in which lanes something was lost.
     /// @param slot_scale  a slot with 0 needs no answer
-    void resolve(const Tracer& tracer, OffsetPaths& paths, std::span<const float> slot_scale,
-                 std::span<std::uint8_t> blocked);
+    void resolve(const Tracer& tracer, OffsetPaths& paths, std::span<const float> slot_scale, LaneMask& lost);
 
 private:
-    struct Group {
-        std::vector<Segment> segments;
-        std::vector<int> offsets;
-        int first_slot = 0;
-        int end_slot = 0;
-    };
-    std::vector<Group> groups_;
-    int used_ = 0;
-    std::vector<std::uint8_t> hidden_;
+    int offsets_ = 0;
+    std::vector<std::unique_ptr<EdgeGroup>> groups_; // never shrinks
+    std::size_t used_ = 0;
+    LaneMask blocked_;
 };
 
 } // namespace tessera

@@ -1,16 +1,95 @@
 #pragma once
 
+#include "render/path/connections.h"
+#include "render/path/half_vector.h"
 #include "render/path/light_paths.h"
+#include "render/path/offset_vertices.h"
 #include "render/path/pending_edges.h"
+
+#include <vector>
 
 namespace tessera {
 
-/// Shifts all light paths of a base path to the pixel that sees `primary`, column `offset` of `paths`, by the kind
-/// of shift in `settings`, but for random replay all the way (PathReuse): until base and offset can be connected,
-/// half vectors are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. New edges are added to
-/// `edges`, unchecked. Returns ok, or why the first light path that failed did so.
-ShiftOutcome shift(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
-                   const LightPaths& light, const Vertex& primary, int offset, OffsetPaths& paths,
-                   PendingEdges& edges);
+/// How a shift went, a lane a pixel.
+using OutcomeLanes = LaneArray<ShiftOutcome>;
+
+/// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
+/// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
+/// are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. The base path alone decides on every
+/// branch, so all lanes do the same arithmetic.
+class Shift {
+public:
+    Shift(const Tracer& tracer, const ShiftSettings& settings) : tracer_(tracer), settings_(settings) {}
+
+    /// @param primary  what the pixels see; a lane without a vertex is not shifted to
+    /// @param self     the lane of the base's own pixel, which is left alone; -1: none
+    /// @param paths    receives densities and values, all failed before
+    /// @param edges    receives the new edges, unchecked
+    /// @param outcomes receives ok, or why the first light path that failed did so
+    void run(const BasePath& base, const LightPaths& light, const OffsetVertices& primary, int self,
+             OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
+
+private:
+    /// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single
+    /// number (never products of densities, which underflow).
+    struct Prefix {
+        Lanes density; ///< pdf of the offset with its Jacobians over the base's
+        Lanes3 value;  ///< f of the offset with its Jacobians over the base's pdf
+    };
+
+    const BaseVertex& base(int i) const { return (*base_)[i]; }
+    bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
+    bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
+
+    void start(const OffsetVertices& primary, int self);
+    void walk();
+    void ask_for_kind(bool connectable);
+    void note_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
+    void note(int m, ShiftOutcome outcome);
+
+    // Lights of x_i.
+    void shift_lights(int i);
+    void connect_light(int i, int sample);
+    void bounce_to_light(int i, int sample, int m);
+    void replay_light(int i, int sample, int m, EdgeGroup& edges);
+    void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
+                      float base_pdf_sum, bool is_delta);
+
+    // What lies beyond x_i.
+    void escape(int i);
+    void connect_infinity(int i);
+    void connect_vertex(int i);
+    void set_hits(int i, const LaneMask& arrived);
+    void connect_beyond(int next, const LaneMask& arrived);
+    bool bounce(int i);
+    bool bounce(int i, int m);
+    std::optional<CopiedScatter> copy_scatter(int i, int m);
+    std::optional<CopiedScatter> replay_scatter(int i, int m);
+
+    Tracer tracer_;
+    ShiftSettings settings_;
+
+    // The base path at hand.
+    const BasePath* base_ = nullptr;
+    const LightPaths* light_ = nullptr;
+    OffsetPaths* paths_ = nullptr;
+    PendingEdges* edges_ = nullptr;
+    OutcomeLanes* outcomes_ = nullptr;
+
+    // The offsets.
+    const OffsetVertices* y_ = nullptr; ///< y_i
+    LaneMask active_;                   ///< those that go on
+    Prefix prefix_;
+    OffsetVertices moved_; ///< y_i beyond the first bounce
+    std::vector<Vertex> moved_vertices_;
+
+    // Of the connection at hand.
+    LaneMask asked_;
+    ConnectionLanes seen_;
+    LightLanes arriving_;
+    BsdfLanes bsdf_;
+    Prefix joined_;
+    Lanes3 to_previous_; ///< from x_{i+1} to y_i, in its frame
+};
 
 } // namespace tessera

@@ -7,7 +7,6 @@
 #include "render/scene/scene.h"
 
 #include <optional>
-#include <span>
 
 namespace tessera {
 
@@ -109,11 +108,13 @@ struct Tracer {
         return scene.intersector().occluded(segment);
     }
 
-    /// The same for new edges of shifts that share an end, or are parallel, as packets; writes 1 for a blocked
-    /// one.
-    void occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
-        counters.rays[static_cast<std::size_t>(RayKind::shift_edge)] += segments.size();
-        scene.intersector().occluded(segments, blocked);
+    /// The same for new edges of shifts that share an end, or are parallel: packets.
+    void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const {
+        std::uint64_t rays = 0;
+        for (int lane = 0; lane < count; ++lane)
+            rays += asked[lane] != 0;
+        counters.rays[static_cast<std::size_t>(RayKind::shift_edge)] += rays;
+        scene.intersector().occluded(segments, asked, count, blocked);
     }
 };
 

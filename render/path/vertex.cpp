@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace tessera {
 
@@ -13,14 +14,6 @@ namespace {
 template <class T>
 T interpolate(T a, T b, T c, glm::vec2 barycentric) {
     return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
-}
-
-/// Normalises the cross product of a triangle's edges, whose square may be beyond floats.
-glm::vec3 unit(glm::vec3 n) {
-    const float square = glm::dot(n, n);
-    if (square > 1e-30f && square < 1e30f)
-        return n / std::sqrt(square);
-    return glm::vec3(glm::normalize(glm::dvec3(n)));
 }
 
 /// Derivatives of the position by u and v over a triangle. False: uv says nothing of directions.
@@ -80,7 +73,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         v.position =
             interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
     }
-    v.geometric_normal = unit(hit.geometric_normal);
+    v.geometric_normal = hit.geometric_normal;
     glm::vec3 normal = v.geometric_normal;
     if (shape.normals) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
@@ -89,7 +82,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
             v.geometric_normal = -v.geometric_normal; // as front_normal() has it
         const glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
         const float length = glm::length(n);
-        normal = length > 0 ? n / length : v.geometric_normal;
+        normal = length > 0 ? n * (1 / length) : v.geometric_normal;
     }
     SurfacePoint at{hit.barycentric};
     if (shape.uvs) {
@@ -100,7 +93,8 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         const glm::uvec3 t = shape.triangles[hit.triangle];
         at.vertex_color = interpolate(shape.colors[t.x], shape.colors[t.y], shape.colors[t.z], hit.barycentric);
     }
-    v.bsdf = shape.material->resolve(at);
+    // In its place, as a copy of what was only just written, number by number, has to wait.
+    new (&v.bsdf) Bsdf(shape.material->resolve(at));
     v.bsdf.terminator = -1;
     glm::vec3 bent = normal;
     if (shape.material->relief) {
@@ -111,10 +105,11 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         }
     }
     const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
-    v.frame = Frame(side * bent);
+    const Frame frame(side * bent);
     if (v.bsdf.is_bent())
-        v.bsdf.unbent_normal = v.to_local(side * normal);
-    v.to_previous = v.to_local(-ray.direction);
+        v.bsdf.unbent_normal = frame.to_local(side * normal);
+    v.to_previous = frame.to_local(-ray.direction);
+    v.frame = frame;
     v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;
     v.emitter_pdf_a = shape.emitter_pdf_a;
 }

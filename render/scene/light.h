@@ -47,12 +47,15 @@ struct DirectionalLight {
     Rgb irradiance{1};           ///< on a surface that faces it
 };
 
-/// How a receiver sees a point on a light.
+/// How a receiver sees a point on a light. (The constructor lets std::make_optional write it in its place.)
 struct LightRay {
     glm::vec3 direction; ///< unit, toward the light
     Rgb radiance;        ///< that arrives; of a point the intensity, of a directional light the irradiance
     float pdf_w;         ///< of emitter sampling per solid angle, or what stands for it where light comes from one
                          ///< direction alone: f cos radiance / pdf_w is what emitter sampling brings
+
+    LightRay(glm::vec3 direction_, Rgb radiance_, float pdf_w_)
+        : direction(direction_), radiance(radiance_), pdf_w(pdf_w_) {}
 };
 
 /// The end of a light path, whoever chose it: emitter sampling, or a ray that happened to meet a light.
@@ -82,7 +85,7 @@ struct LightPoint {
         if (!(distance2 > 0))
             return {};
         const float distance = std::sqrt(distance2);
-        return LightRay{d / distance, radiance, pdf * distance2 * distance / facing};
+        return std::make_optional<LightRay>(d / distance, radiance, pdf * distance2 * distance / facing);
     }
 
 private:

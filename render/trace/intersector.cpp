@@ -28,7 +28,7 @@ constexpr float farthest = 1e18f;
 
 bool is_sound(glm::vec3 v) {
     // A NaN fails every comparison.
-    return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest;
+    return (std::abs(v.x) < farthest) & (std::abs(v.y) < farthest) & (std::abs(v.z) < farthest);
 }
 
 void on_error(void*, RTCError code, const char* text) {
@@ -58,20 +58,29 @@ RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
     return ray;
 }
 
-void set_ray(RTCRay8& packet, int lane, const Segment& s) {
-    const glm::vec3 direction = s.to - s.from;
-    packet.org_x[lane] = s.from.x;
-    packet.org_y[lane] = s.from.y;
-    packet.org_z[lane] = s.from.z;
-    packet.dir_x[lane] = direction.x;
-    packet.dir_y[lane] = direction.y;
-    packet.dir_z[lane] = direction.z;
-    packet.tnear[lane] = 0;
-    packet.tfar[lane] = 1;
-    packet.time[lane] = 0;
-    packet.mask[lane] = ~0u;
-    packet.id[lane] = 0;
-    packet.flags[lane] = 0;
+/// What is alike in all packets of stretches.
+RTCRay8 empty_packet() {
+    RTCRay8 packet;
+    for (int lane = 0; lane < packet_size; ++lane) {
+        packet.tnear[lane] = 0;
+        packet.time[lane] = 0;
+        packet.mask[lane] = ~0u;
+        packet.id[lane] = 0;
+        packet.flags[lane] = 0;
+    }
+    return packet;
+}
+
+/// False: it is not fit to be traced.
+bool set_ray(RTCRay8& packet, int lane, const SegmentLanes& s, int m) {
+    packet.org_x[lane] = s.from.x[m];
+    packet.org_y[lane] = s.from.y[m];
+    packet.org_z[lane] = s.from.z[m];
+    packet.dir_x[lane] = s.to.x[m] - s.from.x[m];
+    packet.dir_y[lane] = s.to.y[m] - s.from.y[m];
+    packet.dir_z[lane] = s.to.z[m] - s.from.z[m];
+    packet.tfar[lane] = 1; // Embree marks what is blocked here
+    return is_sound(s.from[m]) & is_sound(s.to[m]);
 }
 
 // The two versions of Embree differ in how a query is told its wishes.
@@ -106,6 +115,14 @@ void test_occluded(RTCScene scene, const int* valid, RTCRay8& rays) {
     rtcOccluded8(valid, scene, &context, &rays);
 }
 #endif
+
+/// Normalises the cross product of a triangle's edges, whose square may be beyond floats.
+glm::vec3 unit(glm::vec3 n) {
+    const float square = glm::dot(n, n);
+    if (square > 1e-30f && square < 1e30f)
+        return n * (1 / std::sqrt(square));
+    return glm::vec3(glm::normalize(glm::dvec3(n)));
+}
 
 /// A surface that not all light meets.
 struct Mask {
@@ -235,7 +252,7 @@ bool Intersector::closest(const Ray& ray, Hit& hit) const {
     hit.triangle = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
     hit.distance = query.ray.tfar;
-    hit.geometric_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+    hit.geometric_normal = unit({query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
     return true;
 }
 
@@ -251,20 +268,24 @@ std::size_t Intersector::bytes() const {
     return impl_ ? static_cast<std::size_t>(std::max<std::ptrdiff_t>(impl_->bytes, 0)) : 0;
 }
 
-void Intersector::occluded(std::span<const Segment> segments, std::uint8_t* blocked) const {
+void Intersector::occluded(const SegmentLanes& segments, const LaneMask& asked, int count,
+                           LaneMask& blocked) const {
     alignas(32) int valid[packet_size];
-    alignas(32) RTCRay8 packet;
-    for (std::size_t start = 0; start < segments.size(); start += packet_size) {
-        const int count = static_cast<int>(std::min<std::size_t>(packet_size, segments.size() - start));
+    alignas(32) RTCRay8 packet = empty_packet();
+    for (int start = 0; start < count; start += packet_size) {
+        bool any = false;
         for (int lane = 0; lane < packet_size; ++lane) {
-            const Segment& s = segments[start + static_cast<std::size_t>(std::min(lane, count - 1))];
-            const bool sound = is_sound(s.from) && is_sound(s.to);
-            valid[lane] = lane < count && sound ? -1 : 0;
-            set_ray(packet, lane, sound ? s : Segment{});
+            const int m = start + lane;
+            const bool sound = set_ray(packet, lane, segments, m);
+            valid[lane] = sound ? asked[m] : 0;
+            blocked[m] = sound ? 0 : asked[m];
+            any |= valid[lane] != 0;
         }
+        if (!any)
+            continue;
         test_occluded(impl_->scene, valid, packet);
-        for (int lane = 0; lane < count; ++lane)
-            blocked[start + static_cast<std::size_t>(lane)] = !valid[lane] || packet.tfar[lane] < 0;
+        for (int lane = 0; lane < packet_size; ++lane)
+            blocked[start + lane] |= packet.tfar[lane] < 0 ? valid[lane] : 0;
     }
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "render/scene/mesh.h"
+#include "render/trace/lanes.h"
 #include "render/trace/ray.h"
 
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -23,7 +23,7 @@ struct Hit {
     std::uint32_t triangle;
     glm::vec2 barycentric;      ///< weights of the second and third corner
     float distance;             ///< along the unit direction of the ray
-    glm::vec3 geometric_normal; ///< not unit: on the side from which the corners run counter-clockwise
+    glm::vec3 geometric_normal; ///< unit, on the side from which the corners run counter-clockwise
 };
 
 /// A stretch of space that light must cross: open at both ends.
@@ -39,7 +39,8 @@ struct Segment {
 class Intersector {
 public:
     Intersector();
-    /// @param opacities one a shape: the share of light (luminance) that meets it; null: all does. May be empty: all
+    /// @param opacities one a shape: the share of light (luminance) that meets it; null: all does. May be empty:
+    /// all
     ///                  shapes are opaque.
     /// Meshes and textures must stay where they are for as long as this lives.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
@@ -64,8 +65,9 @@ public:
         return position + step * geometric_normal * glm::max(glm::abs(position), smallest_coordinate_);
     }
 
-    /// As occluded(), for segments that share one end or nearly so: packets. Writes 1 for a blocked one.
-    void occluded(std::span<const Segment> segments, std::uint8_t* blocked) const;
+    /// As occluded(), for segments that share one end or nearly so: packets. Only lanes that are asked for are
+    /// traced; the others are not blocked.
+    void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const;
 
 private:
     struct Impl;

@@ -37,7 +37,10 @@ Tally tally(const TestScene& t) {
     LightPaths light;
     OffsetPaths paths;
     PendingEdges edges;
-    std::vector<std::uint8_t> blocked(1);
+    OffsetVertices primary;
+    Shift shift(tracer, shift_settings);
+    OutcomeLanes outcomes;
+    LaneMask lost;
     for (int pass = 0; pass < 40; ++pass)
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x + 1 < size.x; ++x) {
@@ -53,10 +56,12 @@ Tally tally(const TestScene& t) {
                 if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
                     continue;
                 paths.reset(light.slot_count(), 1);
-                edges.reset(light.slot_count());
-                shift(tracer, shift_settings, base, light, right[0].vertex, 0, paths, edges);
+                edges.reset(1);
+                primary.reset(1);
+                primary.set(0, right[0].vertex);
+                shift.run(base, light, primary, -1, paths, edges, outcomes);
                 edges.resolve(tracer, paths, std::vector<float>(static_cast<std::size_t>(light.slot_count()), 1),
-                              blocked);
+                              lost);
                 const bool shifted = paths.density(slot, 0) > 0;
                 if (light.last_alive() == slot) {
                     ++sum.light_is_last;

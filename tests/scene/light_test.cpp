@@ -126,19 +126,23 @@ TEST(Intersector, MaskStopsItsShareOfRays) {
     const auto scene = b.build();
     int hits = 0, blocked = 0, blocked_in_packets = 0;
     constexpr int side = 200;
-    std::vector<Segment> segments;
-    for (int i = 0; i < side; ++i)
+    SegmentLanes segments;
+    LaneMask asked, result;
+    for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; ++j) {
             const glm::vec3 from((glm::vec2(i, j) + 0.3f) / float(side), 1);
             Hit hit;
             hits += scene->intersector().closest({from, {0, 0, -1}}, hit);
-            segments.push_back({from, from - glm::vec3(0, 0, 2)});
-            blocked += scene->intersector().occluded(segments.back());
+            const glm::vec3 to = from - glm::vec3(0, 0, 2);
+            blocked += scene->intersector().occluded({from, to});
+            segments.from.set(j, from);
+            segments.to.set(j, to);
+            asked[j] = -1;
         }
-    std::vector<std::uint8_t> result(segments.size());
-    scene->intersector().occluded(segments, result.data());
-    for (std::uint8_t r : result)
-        blocked_in_packets += r;
+        scene->intersector().occluded(segments, asked, side, result);
+        for (int j = 0; j < side; ++j)
+            blocked_in_packets += result[j] != 0;
+    }
     const double count = side * side;
     for (int n : {hits, blocked, blocked_in_packets})
         EXPECT_NEAR(n / count, 0.3, 4 * std::sqrt(0.21 / count));
