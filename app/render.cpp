@@ -69,8 +69,11 @@ RgbImage gray(const Image<float>& map) {
     return image;
 }
 
-ExrFile assemble(const RenderOptions& options, const GradientImages& images, const ReuseMaps& maps,
-                 std::vector<ReconstructionStats>& recon, const std::vector<Norm>& norms, ThreadPool& pool) {
+/// What is to be written. Nothing is kept that is not: a picture takes more memory here than many a scene.
+ExrFile assemble(const RenderOptions& options, Render& render, std::vector<ReconstructionStats>& recon,
+                 const std::vector<Norm>& norms, ThreadPool& pool) {
+    const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
+    GradientImages images = render.take_images();
     ExrFile file;
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
         pool.parallel_for(count, [&body](int i, int) { body(i); });
@@ -83,12 +86,12 @@ ExrFile assemble(const RenderOptions& options, const GradientImages& images, con
     }
     if (!options.buffers)
         return file;
-    file.layers.push_back({"primal", images.primal});
+    file.layers.push_back({"primal", std::move(images.primal)});
     if (images.has_gradients()) {
-        file.layers.push_back({"dx", images.dx});
-        file.layers.push_back({"dy", images.dy});
+        file.layers.push_back({"dx", std::move(images.dx)});
+        file.layers.push_back({"dy", std::move(images.dy)});
     }
-    file.layers.push_back({"direct", images.very_direct});
+    file.layers.push_back({"direct", std::move(images.very_direct)});
     if (!maps.reused.empty()) {
         file.layers.push_back({"reused", gray(maps.reused)});
         file.layers.push_back({"failed", gray(maps.failed)});
@@ -130,7 +133,7 @@ int run_render(const RenderOptions& options) {
         fmt::print(stderr, "warning: {}\n", warning);
 
     std::vector<ReconstructionStats> recon;
-    ExrFile file = assemble(options, render.images(), render.reuse_maps(), recon, plan.norms, pool);
+    ExrFile file = assemble(options, render, recon, plan.norms, pool);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};

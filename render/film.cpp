@@ -1,6 +1,7 @@
 #include "render/film.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera {
 
@@ -64,6 +65,13 @@ ReuseMaps Film::reuse_maps(int passes) const {
 
 GradientImages Film::means(int passes) const {
     return {mean(primal_, passes), mean(dx_, passes), mean(dy_, passes), mean(very_direct_, passes)};
+}
+
+GradientImages Film::take_means(int passes) {
+    const auto take = [passes](Sums& sums) { return mean(std::exchange(sums, {}), passes); };
+    shifts_ = {};
+    base_luminance_ = {};
+    return {take(primal_), take(dx_), take(dy_), take(very_direct_)};
 }
 
 } // namespace tessera

@@ -44,6 +44,9 @@ public:
 
     /// Means over `passes` complete passes.
     GradientImages means(int passes) const;
+    /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
+    /// means are never all there together. The film is then good for nothing more.
+    GradientImages take_means(int passes);
     /// Empty images where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const;
     /// Of the last pass; empty where tiles are not shared.

@@ -26,6 +26,9 @@ public:
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
     GradientImages images() const { return film_.means(spp_); }
+    /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
+    /// counts stay.
+    GradientImages take_images() { return film_.take_means(spp_); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
 
 private:

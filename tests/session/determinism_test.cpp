@@ -61,6 +61,16 @@ TEST_P(Determinism, SameBitsForAnyNumberOfThreads) {
     EXPECT_TRUE(same_bits(one, render(GetParam(), 8)));
 }
 
+TEST_P(Determinism, ImagesAreTakenAsTheyAreSeen) {
+    ThreadPool pool(1);
+    const auto s = scene();
+    Render render(s, s->camera(), size, settings_for(GetParam()));
+    EXPECT_TRUE(render.pass(pool));
+    const GradientImages seen = render.images();
+    EXPECT_TRUE(same_bits(seen, render.take_images()));
+    EXPECT_TRUE(render.images().primal.empty()); // given up
+}
+
 TEST_P(Determinism, AnotherSeedGivesAnotherPicture) {
     EXPECT_FALSE(same_bits(render(GetParam(), 2, 42), render(GetParam(), 2, 43)));
 }

@@ -1,0 +1,85 @@
+// BSDF evaluations and samples per CPU second, one benchmark a kind.
+
+#include "tests/bsdf/bsdf_cases.h"
+
+#include <array>
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using namespace tessera;
+using namespace tessera::test;
+
+std::vector<Case> one_of_each_kind() {
+    using enum MicrofacetDistribution;
+    const Rgb orange(0.8f, 0.5f, 0.2f);
+    const auto diffuse = shared(DiffuseMaterial{{orange}}), metal = shared(copper(0.3f));
+    return {{"diffuse", {Diffuse{orange}}},
+            {"rough_diffuse", {RoughDiffuse{orange, 0.5f, false}}},
+            {"rough_conductor_ggx", {rough(ggx, 0.2f)}},
+            {"rough_conductor_beckmann", {rough(beckmann, 0.2f)}},
+            {"conductor", resolved(copper(0))},
+            {"dielectric", resolved(glass(0)), 1.5f},
+            {"rough_dielectric", resolved(glass(0.2f)), 1.5f},
+            {"thin_dielectric", resolved(DielectricMaterial{true})},
+            {"plastic", {plastic(ggx, 0, orange, false)}},
+            {"rough_plastic", {plastic(ggx, 0.2f, orange, false)}},
+            {"phong", {Phong(30, orange, Rgb(0.2f))}},
+            {"blend", resolved(blend(diffuse, metal, 0.3f))},
+            {"coated_diffuse", resolved(coated(diffuse, Rgb(0.5f)))}};
+}
+
+/// What one call takes, for so many calls that the branches taken are not learnt by heart.
+struct Query {
+    glm::vec3 to_previous, to_next;
+    float lobe;
+    glm::vec2 u;
+};
+
+/// Directions to all sides, the next one below the surface where light is transmitted.
+std::array<Query, 1024> queries(bool transmits) {
+    Uniform uniform(1);
+    const auto above = [&uniform] {
+        const float phi = 6.2831853f * uniform();
+        return direction(std::acos(uniform()), phi);
+    };
+    std::array<Query, 1024> all;
+    for (Query& q : all) {
+        q = {above(), above(), uniform(), uniform.two()};
+        if (transmits && uniform() < 0.5f)
+            q.to_next.z = -q.to_next.z;
+    }
+    return all;
+}
+
+template <class Call>
+void run(benchmark::State& state, const Case& c, Call&& call) {
+    const auto all = queries(c.eta != 1);
+    for (auto _ : state)
+        for (const Query& q : all)
+            benchmark::DoNotOptimize(call(q));
+    state.counters["calls"] =
+        benchmark::Counter(static_cast<double>(all.size()), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void evaluate(benchmark::State& state, const Case& c) {
+    run(state, c, [&c](const Query& q) { return c.bsdf.evaluate(q.to_previous, q.to_next); });
+}
+
+void sample(benchmark::State& state, const Case& c) {
+    run(state, c, [&c](const Query& q) { return c.bsdf.sample(q.to_previous, q.lobe, q.u); });
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv))
+        return 1;
+    for (const Case& c : one_of_each_kind()) {
+        benchmark::RegisterBenchmark((std::string("evaluate/") + c.name).c_str(), evaluate, c);
+        benchmark::RegisterBenchmark((std::string("sample/") + c.name).c_str(), sample, c);
+    }
+    benchmark::RunSpecifiedBenchmarks();
+}
