@@ -1,17 +1,21 @@
 #version 330 core
-// Shows an image of radiance (exposure, then sRGB) or of gradients (+/- colours) in a pane.
+// Shows an image of radiance (exposure, then sRGB), of gradients (+/- colours), or of numbers (false colours) in a
+// pane.
 
 uniform sampler2D image;
 uniform ivec2 pane_size;    // pixels
 uniform vec2 image_origin;  // top left corner of the image in the pane, pixels from the pane's top left
 uniform vec2 image_extent;  // size of the image in the pane, pixels
-uniform float gain;         // 2^exposure
-uniform bool is_signed;     // gradients: the luminance's sign becomes a hue
+uniform float gain;         // 2^exposure; false colours: 1 / top value
+uniform int colour_map;     // 0: radiance, or one of those below
+uniform vec3 false_colours[9]; // display colours of 0 to the top value, evenly spaced
 uniform bool is_coarse;     // a first look at a fraction of the size: interpolate
 uniform vec3 background;    // display colour around the image
 
 out vec4 colour;
 
+const int signed_difference = 1; // gradients: the luminance's sign becomes a hue
+const int false_colour = 2;      // numbers: red alone counts
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
 const vec3 infinity_colour = vec3(0.0, 1.0, 1.0);
 const vec3 zero_colour = vec3(0.10, 0.10, 0.11);
@@ -32,13 +36,22 @@ float luminance(vec3 c) { return dot(c, vec3(0.212671, 0.715160, 0.072169)); }
 // What is shown of a value before the display's curve: in [0, 1], signed in [-1, 1]. Averages are taken of this,
 // so that one bright pixel does not outshine its neighbours when the image is shrunk.
 vec3 exposed(vec3 value) {
-    return is_signed ? vec3(clamp(luminance(value) * gain, -1.0, 1.0)) : clamp(value * gain, 0.0, 1.0);
+    return colour_map == signed_difference ? vec3(clamp(luminance(value) * gain, -1.0, 1.0))
+                                           : clamp(value * gain, 0.0, 1.0);
+}
+
+vec3 in_false_colour(float share) {
+    float place = share * float(false_colours.length() - 1);
+    int below = min(int(place), false_colours.length() - 2);
+    return mix(false_colours[below], false_colours[below + 1], place - float(below));
 }
 
 vec3 displayed(vec3 value) {
-    if (!is_signed)
-        return vec3(srgb(value.r), srgb(value.g), srgb(value.b));
-    return mix(zero_colour, value.r >= 0.0 ? plus_colour : minus_colour, srgb(abs(value.r)));
+    if (colour_map == false_colour)
+        return in_false_colour(value.r);
+    if (colour_map == signed_difference)
+        return mix(zero_colour, value.r >= 0.0 ? plus_colour : minus_colour, srgb(abs(value.r)));
+    return vec3(srgb(value.r), srgb(value.g), srgb(value.b));
 }
 
 // The image's pixels that the pane's pixel covers, or the one that it lies in.

@@ -4,13 +4,15 @@
 #include "ui/canvas.h"
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace tessera {
 
 /// What a pane can show of a snapshot.
-enum class Buffer { reconstruction, primal, dx, dy };
-inline constexpr Buffer all_buffers[] = {Buffer::reconstruction, Buffer::primal, Buffer::dx, Buffer::dy};
+enum class Buffer { reconstruction, primal, dx, dy, reused, failed };
+inline constexpr Buffer all_buffers[] = {Buffer::reconstruction, Buffer::primal, Buffer::dx, Buffer::dy,
+                                         Buffer::reused,         Buffer::failed};
 
 std::string_view short_name(Buffer buffer); ///< "reconstruction", ...: names of log and command line
 std::string_view long_name(Buffer buffer);  ///< "Reconstruction", ...: names of the panel
@@ -26,5 +28,12 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
 /// size, or none is needed, the primal stands in, which holds the very direct light, so that lamps are not black.
 /// `scratch` is storage to build an image in; the result may refer to it or to the snapshot.
 const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch);
+
+/// The value that the last false colour stands for in such a buffer's image: 1 for shares, else the greatest,
+/// rounded up to one that reads well. 1 for an image without any value above 0.
+float top_value(Buffer buffer, const RgbImage& image);
+
+/// What false colours up to `top` stand for: "reused: 0 .. 50 paths a pass".
+std::string legend_text(Buffer buffer, float top);
 
 } // namespace tessera

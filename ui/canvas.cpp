@@ -2,6 +2,7 @@
 
 #include "embedded/canvas_fragment_shader.h"
 #include "embedded/canvas_vertex_shader.h"
+#include "ui/false_colours.h"
 
 #include <cmath>
 
@@ -27,8 +28,9 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view) const {
     program_.set("pane_size", view.pane_size);
     program_.set("image_origin", view.image_origin);
     program_.set("image_extent", view.image_extent);
-    program_.set("gain", std::exp2(view.exposure));
-    program_.set("is_signed", view.colour_map == ColourMap::signed_difference ? 1 : 0);
+    program_.set("gain", view.colour_map == ColourMap::false_colour ? 1 / view.top : std::exp2(view.exposure));
+    program_.set("colour_map", static_cast<int>(view.colour_map));
+    program_.set("false_colours", false_colours);
     program_.set("is_coarse", view.coarse ? 1 : 0);
     program_.set("background", background_colour);
     glActiveTexture(GL_TEXTURE0);

@@ -9,6 +9,7 @@ namespace tessera {
 enum class ColourMap {
     radiance,          ///< exposure, then sRGB
     signed_difference, ///< luminance, exposed: orange above zero, blue below
+    false_colour,      ///< the first channel, from 0 to a top value: false_colours
 };
 
 /// How an image is to lie in a pane.
@@ -19,6 +20,7 @@ struct CanvasView {
     ColourMap colour_map = ColourMap::radiance;
     float exposure = 0;  ///< stops
     bool coarse = false; ///< interpolate between the image's pixels
+    float top = 1;       ///< of false colours: the value that the last of them stands for
 
     bool operator==(const CanvasView&) const = default;
 };

@@ -50,6 +50,7 @@ Values describe(const ViewerState& state) {
     values["paused"] = text(state.paused);
     values["help"] = text(state.show_help);
     values["panel"] = text(state.show_panel);
+    values["statistics"] = text(state.show_statistics);
     values["scene"] = state.scene_name;
     values["scenes shown"] = std::to_string(state.scenes_shown);
     values["loading"] = state.loading;

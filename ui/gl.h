@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 
+#include <span>
 #include <string_view>
 
 #include <glad/gl.h>
@@ -81,6 +82,9 @@ public:
     void set(const char* uniform, glm::ivec2 v) const { glUniform2i(location(uniform), v.x, v.y); }
     void set(const char* uniform, glm::vec2 v) const { glUniform2f(location(uniform), v.x, v.y); }
     void set(const char* uniform, glm::vec3 v) const { glUniform3f(location(uniform), v.x, v.y, v.z); }
+    void set(const char* uniform, std::span<const glm::vec3> array) const {
+        glUniform3fv(location(uniform), static_cast<GLsizei>(array.size()), &array.front().x);
+    }
 
 private:
     GLint location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }

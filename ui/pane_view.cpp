@@ -1,6 +1,7 @@
 #include "ui/pane_view.h"
 
 #include "ui/imgui_version.h"
+#include "ui/legend.h"
 #include "ui/mouse.h"
 #include "ui/theme.h"
 
@@ -33,6 +34,10 @@ const std::vector<ChoiceItem>& buffer_items() {
          "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR."},
         {"dy", "Gradient dy",
          "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR."},
+        {"reused", "Reuse count",
+         "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT."},
+        {"failed", "Failed shifts",
+         "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT."},
     };
     return items;
 }
@@ -66,22 +71,28 @@ void draw_notice(ImVec2 min, ImVec2 max, const char* text) {
 }
 
 std::string notice(const PaneState& pane) {
-    const bool gradient = colour_map(pane.settings.buffer) == ColourMap::signed_difference;
-    if (gradient && !has_gradients(pane.settings.render.method))
-        return std::string(paper_name(pane.settings.render.method)) + " measures no gradients";
+    const Method method = pane.settings.render.method;
+    const ColourMap map = colour_map(pane.settings.buffer);
+    if (map == ColourMap::signed_difference && !has_gradients(method))
+        return std::string(paper_name(method)) + " measures no gradients";
+    if (map == ColourMap::false_colour && method == Method::pt)
+        return std::string(paper_name(method)) + " shares no paths between pixels";
     return "";
 }
 
 } // namespace
 
 void PaneView::upload(const PaneState& pane) {
+    static const RgbImage no_picture;
     const Buffer buffer = pane.settings.buffer;
     std::shared_ptr<const void> source = pane.snapshot ? picture_source(*pane.snapshot, buffer) : nullptr;
     if (source == shown_ && buffer == shown_buffer_)
         return;
     shown_ = std::move(source);
     shown_buffer_ = buffer;
-    canvas_.show(shown_ ? picture(*pane.snapshot, buffer, scratch_) : RgbImage());
+    const RgbImage& image = pane.snapshot ? picture(*pane.snapshot, buffer, scratch_) : no_picture;
+    canvas_.show(image);
+    top_ = colour_map(buffer) == ColourMap::false_colour ? top_value(buffer, image) : 1;
     ++uploads_;
 }
 
@@ -106,7 +117,7 @@ void PaneView::draw_header(const std::string& id, Controls& controls, PaneState&
     int buffer = static_cast<int>(pane.settings.buffer);
     if (controls.bare_choice((id + ".buffer").c_str(),
                              buffer_items()[static_cast<std::size_t>(buffer)].label.c_str(), buffer_items(),
-                             buffer, buffer_width, "What this pane shows (1 2 3 4: all panes)."))
+                             buffer, buffer_width, "What this pane shows (1 to 6: all panes)."))
         pane.settings.buffer = all_buffers[buffer];
 }
 
@@ -133,14 +144,20 @@ void PaneView::draw_picture(int index, const std::string& id, const CanvasShader
 
     upload(pane);
     const Placement placement = state.view.place(image_size, pixels);
-    CanvasView view{pixels,           placement.origin,
-                    placement.extent, colour_map(pane.settings.buffer),
-                    state.exposure,   pane.snapshot && pane.snapshot->coarse};
+    CanvasView view{pixels,
+                    placement.origin,
+                    placement.extent,
+                    colour_map(pane.settings.buffer),
+                    state.exposure,
+                    pane.snapshot && pane.snapshot->coarse,
+                    top_};
     ImGui::GetWindowDrawList()->AddImage(texture_id(canvas_.draw(shader, view)), min, max, {0, 1}, {1, 0});
     if (index == state.active_pane && !state.linked)
         ImGui::GetWindowDrawList()->AddRect(min, max, colours::accent);
     if (const std::string text = notice(pane); !text.empty())
         draw_notice(min, max, text.c_str());
+    else if (colour_map(pane.settings.buffer) == ColourMap::false_colour && !canvas_.empty())
+        draw_legend({{min.x, min.y}, {max.x, max.y}}, id + ".legend", pane.settings.buffer, top_, controls);
 }
 
 void PaneView::draw(int index, const ScreenRect& where, const CanvasShader& shader, Controls& controls,

@@ -30,6 +30,7 @@ private:
     RgbImage scratch_;
     std::shared_ptr<const void> shown_; // what the canvas holds a picture of, kept so that it stays unique
     Buffer shown_buffer_ = Buffer::reconstruction;
+    float top_ = 1; // of the false colours
     int uploads_ = 0;
 };
 

@@ -39,7 +39,7 @@ void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
 /// The end of a name that fits into a width; the beginning gives way to dots.
 std::string shortened(const std::string& name, float width) {
     const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; };
-    if (fits(name))
+    if (name.empty() || fits(name)) // nothing fits into no room at all
         return name;
     std::size_t cut = 1;
     while (cut < name.size() && (!fits("..." + name.substr(cut)) || (name[cut] & 0xc0) == 0x80))
@@ -175,12 +175,14 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    if (ImGui::Begin("Help", nullptr, overlay_flags ^ ImGuiWindowFlags_NoScrollbar)) {
+    if (ImGui::Begin("Help", nullptr, overlay_flags)) {
+        // The button stays where it is while the page is scrolled.
+        ImGui::BeginChild("page", {0, -ImGui::GetFrameHeightWithSpacing()});
         heading("Keys");
         draw_action_table();
         heading("Mouse and camera");
         draw_gesture_table();
-        ImGui::Spacing();
+        ImGui::EndChild();
         if (controls.button("close_help", "Close", "Closes this page (F1, ? or Esc)."))
             state.show_help = false;
     }

@@ -4,6 +4,8 @@
 #include "ui/controls.h"
 #include "ui/viewer_state.h"
 
+#include <imgui.h>
+
 namespace tessera {
 
 /// The windows around the pictures. Each is drawn into the current Dear ImGui frame and changes the state only.
@@ -14,11 +16,19 @@ struct ScreenRect {
     glm::vec2 size() const { return max - min; }
 };
 
+/// Of a window beside the pictures: it stays where it is, and scrolls.
+inline constexpr ImGuiWindowFlags side_panel_flags =
+    (ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
 /// The menus of all actions, across the top; returns its height, screen units.
 float draw_menu_bar(Controls& controls, ViewerState& state);
 
 /// Settings of the active pane (of all, when linked), of the picture and its size.
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
+/// What the render on show in the active pane has counted.
+void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);

@@ -145,10 +145,7 @@ void draw_contents(Controls& controls, ViewerState& state) {
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
-    if (ImGui::Begin("Settings", nullptr,
-                     (ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                         ImGuiWindowFlags_NoNav))
+    if (ImGui::Begin("Settings", nullptr, side_panel_flags))
         draw_contents(controls, state);
     ImGui::End();
 }

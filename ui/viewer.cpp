@@ -18,7 +18,8 @@ namespace tessera {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr float longest_step = 0.1f; // seconds that a held key moves in one frame at the most
+constexpr float longest_step = 0.1f;    // seconds that a held key moves in one frame at the most
+constexpr float settings_share = 0.45f; // of the height beside the pictures, where statistics lie below
 
 /// Panes beside each other; from three on in two rows.
 ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
@@ -46,7 +47,7 @@ bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
 
 Viewer::Viewer(Session& session, ViewerOptions options)
     : session_(session), options_(std::move(options)), pane_views_(options_.panes.size()),
-      sent_(options_.panes.size()) {
+      sent_(options_.panes.size()), refused_told_(options_.panes.size()) {
     for (const PaneSettings& settings : options_.panes)
         state_.panes.push_back({settings, nullptr, 0, glm::ivec2(0)});
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
@@ -124,9 +125,23 @@ void Viewer::take_snapshots() {
     for (std::size_t i = 0; i < state_.panes.size(); ++i) {
         if (auto snapshot = session_.latest(static_cast<int>(i)))
             state_.panes[i].snapshot = std::move(snapshot);
+        report_refused(i);
     }
     for (std::string& message : session_.take_messages())
         state_.add_message(Message::Kind::error, std::move(message));
+}
+
+/// Once for every request; not of a first look, whose pixels are others.
+void Viewer::report_refused(std::size_t pane) {
+    const Snapshot* snapshot = state_.panes[pane].snapshot.get();
+    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == refused_told_[pane])
+        return;
+    const std::string text = refused_text(snapshot->counters, snapshot->settings.seed);
+    if (text.empty())
+        return;
+    refused_told_[pane] = snapshot->generation;
+    state_.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
+                       Message::Origin::scene);
 }
 
 void Viewer::read_keyboard() {
@@ -168,15 +183,25 @@ void Viewer::draw_frame() {
     const float top = draw_menu_bar(controls_, state_);
     const float panel_width = std::floor(std::min(ImGui::GetFontSize() * 20, display.x * 0.5f));
     ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
-    if (state_.show_panel) {
+    if (state_.show_panel || state_.show_statistics) {
         pictures.max.x -= panel_width;
-        draw_settings_panel({{pictures.max.x, top}, {display.x, pictures.max.y}}, controls_, state_);
+        draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
     }
     draw_panes(pictures);
     draw_overlays(pictures);
     fulfil_wishes();
     send_changes();
     log_changes();
+}
+
+/// Settings above, statistics below: both scroll, and either may have all the room.
+void Viewer::draw_side(const ScreenRect& where) {
+    const float middle = std::floor(glm::mix(where.min.y, where.max.y, settings_share));
+    const float settings_end = !state_.show_panel ? where.min.y : state_.show_statistics ? middle : where.max.y;
+    if (state_.show_panel)
+        draw_settings_panel({where.min, {where.max.x, settings_end}}, controls_, state_);
+    if (state_.show_statistics)
+        draw_statistics_panel({{where.min.x, settings_end}, where.max}, controls_, state_);
 }
 
 void Viewer::draw_panes(const ScreenRect& where) {

@@ -66,7 +66,9 @@ private:
     void fulfil_wishes();
     void save_camera();
     void take_snapshots();
+    void report_refused(std::size_t pane);
     void read_keyboard();
+    void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);
     void draw_overlays(const ScreenRect& pictures);
     void send_changes();
@@ -95,6 +97,7 @@ private:
         int spp_limit = 0;
     };
     std::vector<Sent> sent_;
+    std::vector<std::uint64_t> refused_told_; // a pane: the generation whose refused samples have a message
     bool sent_paused_ = false;
 };
 

@@ -58,6 +58,7 @@ struct ViewerState {
     bool paused = false;
 
     bool show_panel = true;
+    bool show_statistics = false;
     bool show_help = false;
     bool show_messages = false;
     std::vector<Message> messages;

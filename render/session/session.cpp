@@ -247,6 +247,8 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->settings = render.settings();
     snapshot->counters = render.counters();
     snapshot->images = std::make_shared<GradientImages>(render.images());
+    if (ReuseMaps maps = render.reuse_maps(); !maps.reused.empty())
+        snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));
     {
         const std::lock_guard lock(mutex_);
         if (pane.generation != generation && !coarse)

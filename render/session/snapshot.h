@@ -2,6 +2,7 @@
 
 #include "recon/gradient_images.h"
 #include "recon/reconstruct.h"
+#include "render/film.h"
 #include "render/method/settings.h"
 #include "render/path/counters.h"
 
@@ -20,6 +21,7 @@ struct Snapshot {
     RenderSettings settings;
     Counters counters;
     std::shared_ptr<const GradientImages> images;
+    std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)
 
     /// Of the newest pass that has been reconstructed, perhaps an older one than `images`; empty at first.
     std::shared_ptr<const Reconstruction> reconstruction;

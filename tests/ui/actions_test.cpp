@@ -88,6 +88,8 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     EXPECT_TRUE(state.copy_camera);
     type(state, key(Key::p));
     EXPECT_FALSE(state.show_panel);
+    type(state, key(Key::t));
+    EXPECT_TRUE(state.show_statistics);
     type(state, key(Key::f2));
     EXPECT_TRUE(state.show_messages);
     type(state, key(Key::tab));
@@ -119,10 +121,9 @@ TEST(Actions, MethodsOfTheActivePaneInTurn) {
 }
 
 TEST(Actions, BuffersInAllPanes) {
-    const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal},
-                                           {Key::digit3, Buffer::dx},
-                                           {Key::digit4, Buffer::dy},
-                                           {Key::digit1, Buffer::reconstruction}};
+    const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal}, {Key::digit3, Buffer::dx},
+                                           {Key::digit4, Buffer::dy},     {Key::digit5, Buffer::reused},
+                                           {Key::digit6, Buffer::failed}, {Key::digit1, Buffer::reconstruction}};
     ViewerState state = two_panes();
     for (const auto& [k, buffer] : keys) {
         type(state, key(k));

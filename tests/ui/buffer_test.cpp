@@ -1,5 +1,7 @@
 #include "ui/buffer.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace tessera {
@@ -16,6 +18,8 @@ Snapshot snapshot_of(Method method) {
     Snapshot snapshot;
     snapshot.settings.method = method;
     snapshot.images = images;
+    if (method != Method::pt)
+        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, 17.0f}, {4, 3, 0.25f}});
     return snapshot;
 }
 
@@ -53,6 +57,51 @@ TEST(Buffer, PrimalStandsInForTheReconstruction) {
 TEST(Buffer, MethodsWithoutGradientsHaveNone) {
     EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), Buffer::dx), -1);
     EXPECT_FLOAT_EQ(first(Snapshot{}, Buffer::primal), -1);
+}
+
+TEST(Buffer, MapsOfReuseWhereThereIsAny) {
+    const Snapshot snapshot = snapshot_of(Method::pr);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 17);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::failed), 0.25f);
+    EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
+    EXPECT_EQ(picture_source(snapshot, Buffer::failed), snapshot.reuse);
+    for (Buffer map : {Buffer::reused, Buffer::failed}) {
+        EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
+        EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
+        EXPECT_EQ(colour_map(map), ColourMap::false_colour);
+    }
+}
+
+TEST(Buffer, TopValuesReadWell) {
+    const auto top = [](float greatest) {
+        RgbImage image(3, 2, Rgb(0));
+        image(1, 1) = Rgb(greatest);
+        return top_value(Buffer::reused, image);
+    };
+    EXPECT_FLOAT_EQ(top(47), 50);
+    EXPECT_FLOAT_EQ(top(50), 50);
+    EXPECT_FLOAT_EQ(top(8.1f), 10);
+    EXPECT_FLOAT_EQ(top(10), 10);
+    EXPECT_FLOAT_EQ(top(0.11f), 0.12f);
+    EXPECT_FLOAT_EQ(top(101), 120);
+    EXPECT_FLOAT_EQ(top(0), 1);
+    EXPECT_FLOAT_EQ(top_value(Buffer::reused, RgbImage()), 1);
+    EXPECT_FLOAT_EQ(top_value(Buffer::failed, RgbImage(2, 2, Rgb(0.3f))), 1);
+}
+
+TEST(Buffer, LegendSaysWhatTheColoursStandFor) {
+    EXPECT_EQ(legend_text(Buffer::reused, 50), "reused: 0 .. 50 paths a pass");
+    EXPECT_EQ(legend_text(Buffer::reused, 0.12f), "reused: 0 .. 0.12 paths a pass");
+    EXPECT_EQ(legend_text(Buffer::failed, 1), "failed: 0 .. 100 %");
+}
+
+TEST(Buffer, EveryOneHasNamesOfItsOwn) {
+    std::set<std::string_view> names;
+    for (Buffer buffer : all_buffers) {
+        EXPECT_TRUE(names.insert(short_name(buffer)).second);
+        EXPECT_TRUE(names.insert(long_name(buffer)).second);
+    }
+    EXPECT_EQ(names.count(""), 0u);
 }
 
 TEST(Buffer, SourceChangesWithWhatIsShownOnly) {

@@ -1,5 +1,6 @@
 #include "tests/ui/osmesa_context.h"
 #include "ui/canvas.h"
+#include "ui/false_colours.h"
 #include "ui/screenshot.h"
 
 #include <array>
@@ -97,6 +98,42 @@ TEST_F(CanvasTest, GradientsShowTheirSignByHue) {
     EXPECT_LT(plus[0], 200);
 }
 
+Colour display(glm::vec3 c) {
+    return {static_cast<int>(std::lround(c.r * 255)), static_cast<int>(std::lround(c.g * 255)),
+            static_cast<int>(std::lround(c.b * 255))};
+}
+
+TEST_F(CanvasTest, FalseColoursReachFromZeroToTheTop) {
+    RgbImage image(5, 1, Rgb(0));
+    image(1, 0) = Rgb(3);
+    image(2, 0) = Rgb(6);
+    image(3, 0) = Rgb(60);
+    image(4, 0) = Rgb(1.875f); // half-way between the third colour and the fourth
+    canvas_.show(image);
+    CanvasView view = filling({15, 3});
+    view.colour_map = ColourMap::false_colour;
+    view.top = 6;
+    for (float stops : {0.0f, 3.0f}) { // exposure is for light
+        view.exposure = stops;
+        canvas_.draw(shader_, view);
+        expect_colour(1, 1, display(false_colours.front()));
+        expect_colour(4, 1, display(false_colours[4]));
+        expect_colour(7, 1, display(false_colours.back()));
+        expect_colour(10, 1, display(false_colours.back()));
+        expect_colour(13, 1, display((false_colours[2] + false_colours[3]) * 0.5f));
+    }
+}
+
+TEST(FalseColours, GreaterIsBrighter) {
+    const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+    float before = -1;
+    for (const glm::vec3& c : false_colours) {
+        const float lightness = std::cbrt(luminance({linear(c.r), linear(c.g), linear(c.b)}));
+        EXPECT_GT(lightness, before + 0.05f);
+        before = lightness;
+    }
+}
+
 TEST_F(CanvasTest, NanAndInfinityAreMarkedInEveryView) {
     RgbImage image(3, 1);
     image(0, 0) = {0, nan, 0};
@@ -104,7 +141,7 @@ TEST_F(CanvasTest, NanAndInfinityAreMarkedInEveryView) {
     image(2, 0) = {0, 0, -infinity};
     canvas_.show(image);
     CanvasView view = filling({9, 3});
-    for (ColourMap map : {ColourMap::radiance, ColourMap::signed_difference}) {
+    for (ColourMap map : {ColourMap::radiance, ColourMap::signed_difference, ColourMap::false_colour}) {
         view.colour_map = map;
         canvas_.draw(shader_, view);
         expect_colour(1, 1, magenta, 0);

@@ -28,7 +28,8 @@ TEST_F(PanelTest, MethodOfEachPane) {
 }
 
 TEST_F(PanelTest, BufferOfEachPane) {
-    for (Buffer buffer : {Buffer::dy, Buffer::primal, Buffer::dx, Buffer::reconstruction}) {
+    for (Buffer buffer :
+         {Buffer::dy, Buffer::primal, Buffer::reused, Buffer::dx, Buffer::failed, Buffer::reconstruction}) {
         choose("pane1.buffer", std::string(short_name(buffer)));
         EXPECT_EQ(pane(1).settings.buffer, buffer);
         EXPECT_EQ(pane(0).settings.buffer, Buffer::reconstruction);

@@ -1,0 +1,225 @@
+// What a render has counted, as it is seen in the viewer: maps, panel, message.
+
+#include "tests/support/scene_builder.h"
+#include "tests/ui/viewer_harness.h"
+#include "ui/false_colours.h"
+#include "ui/statistics.h"
+#include "ui/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+/// PT and G-PR at rest.
+struct CountersView : testing::Test, ViewerHarness {
+    CountersView() { rest(3); }
+
+    /// Display colours, [0, 255], of the middle of a pixel of the image in the right pane.
+    glm::vec3 shown(const ScreenPixels& pixels, int x, int y) {
+        const glm::ivec2 size = state().request_size();
+        const Placement placement = state().view.place(size, pane(1).canvas_size);
+        const glm::vec2 at = place("pane1.picture").min + placement.origin +
+                             (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
+        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return {p[0], p[1], p[2]};
+    }
+    void expect_map(const Image<float>& map, float top);
+};
+
+glm::vec3 false_colour(float share) {
+    const float place = std::min(share, 1.0f) * static_cast<float>(false_colours.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(place), false_colours.size() - 2);
+    return 255.0f * glm::mix(false_colours[below], false_colours[below + 1], place - static_cast<float>(below));
+}
+
+void CountersView::expect_map(const Image<float>& map, float top) {
+    const ScreenPixels pixels = screen();
+    for (int y = 0; y < map.height(); y += 5) {
+        for (int x = 0; x < map.width(); x += 5) {
+            const glm::vec3 seen = shown(pixels, x, y), expected = false_colour(map(x, y) / top);
+            EXPECT_LT(glm::distance(seen, expected), 4) << x << ',' << y;
+        }
+    }
+}
+
+TEST_F(CountersView, MapsAreShownAfterTheirKeys) {
+    EXPECT_FALSE(has("pane1.legend"));
+    const auto maps = pane(1).snapshot->reuse;
+    ASSERT_NE(maps, nullptr);
+    EXPECT_GT(*std::max_element(maps->reused.begin(), maps->reused.end()), 1);
+
+    type(Key::digit5);
+    RgbImage scratch;
+    expect_map(maps->reused, top_value(Buffer::reused, picture(*pane(1).snapshot, Buffer::reused, scratch)));
+    EXPECT_TRUE(has("pane1.legend"));
+    save("reused.png");
+    type(Key::digit6);
+    expect_map(maps->failed, 1);
+    EXPECT_TRUE(has("pane1.legend"));
+    save("failed.png");
+    type(Key::digit1);
+    EXPECT_FALSE(has("pane1.legend"));
+}
+
+TEST_F(CountersView, LegendShowsItsColoursWithinThePicture) {
+    type(Key::digit6);
+    const ControlRect legend = place("pane1.legend"), picture = place("pane1.picture");
+    EXPECT_GT(legend.min.x, picture.min.x);
+    EXPECT_LT(legend.max.y, picture.max.y);
+    const ScreenPixels pixels = screen();
+    float least = 255, most = 0; // of the bar's green, from dark to bright
+    for (float x = legend.min.x + 9; x < legend.max.x - 9; ++x) {
+        const float green = pixels.at(static_cast<int>(x), static_cast<int>(legend.max.y) - 10)[1];
+        least = std::min(least, green);
+        most = std::max(most, green);
+    }
+    EXPECT_LT(least, 12);
+    EXPECT_GT(most, 230);
+}
+
+TEST_F(CountersView, PathTracingHasNoMaps) {
+    EXPECT_EQ(pane(0).snapshot->reuse, nullptr);
+    for (Key key : {Key::digit5, Key::digit6}) {
+        type(key);
+        EXPECT_TRUE(viewer.pane_view(0).canvas().empty());
+        EXPECT_FALSE(viewer.pane_view(1).canvas().empty());
+        EXPECT_FALSE(has("pane0.legend"));
+    }
+}
+
+TEST_F(CountersView, NoLegendWhereThereIsNoRoom) {
+    type(Key::digit5);
+    resize({420, 300});
+    EXPECT_FALSE(has("pane1.legend"));
+    EXPECT_TRUE(has("pane1.picture"));
+}
+
+TEST_F(CountersView, PanelShowsTheFiguresOfTheActivePane) {
+    EXPECT_FALSE(has("statistics.spp"));
+    type(Key::t);
+    const Counters& c = pane(1).snapshot->counters;
+    EXPECT_GE(c.camera_paths, 3u * 48 * 36);
+    for (const FigureGroup& group : statistics(*pane(1).snapshot)) {
+        for (const Figure& figure : group.figures) {
+            EXPECT_TRUE(has("statistics." + figure.id)) << figure.id;
+            if (figure.id == "camera_paths") {
+                EXPECT_EQ(figure.value, std::to_string(c.camera_paths));
+            } else if (figure.id == "shifts.ok") {
+                EXPECT_DOUBLE_EQ(*figure.share,
+                                 static_cast<double>(c.shifts[0]) / static_cast<double>(c.shift_attempts()));
+            } else if (figure.id == "reused") {
+                EXPECT_DOUBLE_EQ(*figure.share,
+                                 static_cast<double>(c.reused_paths) / static_cast<double>(c.set_paths()));
+            }
+        }
+    }
+    EXPECT_TRUE(has("statistics.shifts.ok"));
+    EXPECT_TRUE(has("tile")); // the settings have the room above
+    save("statistics.png");
+
+    click("pane0.picture");
+    EXPECT_TRUE(has("statistics.rays.camera"));
+    EXPECT_FALSE(has("statistics.shifts.ok"));
+    type(Key::t);
+    EXPECT_FALSE(has("statistics.spp"));
+}
+
+TEST_F(CountersView, PanelDrawsSharesAsBars) {
+    type(Key::p); // alone: nothing is scrolled away
+    type(Key::t);
+    ASSERT_TRUE(wait_until([&] { return viewer.settled(3); })); // of another size
+    const Snapshot& snapshot = *pane(1).snapshot;
+    const double share =
+        static_cast<double>(snapshot.counters.shifts[0]) / static_cast<double>(snapshot.counters.shift_attempts());
+    const ControlRect row = place("statistics.shifts.ok");
+    const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(method_colour(Method::gpr));
+    const ScreenPixels pixels = screen();
+    int filled = 0, width = 0;
+    for (float x = row.min.x + (row.max.x - row.min.x) * 0.83f; x < row.max.x - 1; ++x, ++width) {
+        const std::uint8_t* p = pixels.at(static_cast<int>(x), static_cast<int>(row.center().y) + 1);
+        filled += std::abs(p[1] - 255 * colour.y) < 3;
+    }
+    EXPECT_NEAR(filled, share * width, 3);
+    EXPECT_GT(filled, 0);
+    EXPECT_LT(filled, width);
+}
+
+TEST_F(CountersView, FiguresAndLegendExplainThemselves) {
+    type(Key::digit5);
+    type(Key::t);
+    for (const char* control : {"statistics.skipped", "pane1.legend"}) {
+        move_to(place(control).center());
+        EXPECT_TRUE(viewer.controls().tooltip_pending()) << control;
+        const auto before = screen();
+        frames(40);
+        EXPECT_NE(before.rgb, screen().rgb) << control;
+        save(std::string("tooltip-") + control + ".png");
+    }
+}
+
+TEST_F(CountersView, PanelIsInTheMenuAndScrolls) {
+    click("menu View");
+    click("menu View/Statistics");
+    EXPECT_TRUE(state().show_statistics);
+    const float before = place("statistics.spp").min.y;
+    move_to(place("statistics.spp").center());
+    wheel(-3);
+    EXPECT_LT(place("statistics.spp").min.y, before);
+}
+
+TEST(StatisticsPanel, IsHarmlessBeforeAnyScene) {
+    ViewerHarness h;
+    h.state().show_statistics = true;
+    h.frames(3);
+    EXPECT_FALSE(h.has("statistics.spp"));
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(200, 20), glm::ivec2(60, 60)}) {
+        h.resize(size);
+        h.frames(2);
+    }
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+/// A room with a sphere of which no light is finite.
+std::shared_ptr<const Scene> broken_scene() {
+    SceneBuilder room;
+    const int white = room.diffuse(Rgb(0.75f));
+    room.room({white, white, white, white, white});
+    room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
+    room.sphere({0.3f, -0.55f, 0.1f}, 0.45f, room.diffuse(Rgb(std::numeric_limits<float>::quiet_NaN())));
+    room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
+    return room.build();
+}
+
+TEST(RefusedSamples, AreReportedOnceARequest) {
+    ViewerHarness h;
+    h.state().spp_limit = 3;
+    h.state().show_statistics = true;
+    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.wait_until([&] { return h.viewer.settled(3); });
+    h.frames(3);
+    const auto told = [&](const std::string& method) {
+        return std::count_if(h.state().messages.begin(), h.state().messages.end(), [&](const Message& m) {
+            return m.text.rfind(method + ": ", 0) == 0 && m.text.find("pass 0, pixel (") != std::string::npos &&
+                   m.text.find("seed 0") != std::string::npos;
+        });
+    };
+    EXPECT_EQ(told("PT"), 1);
+    EXPECT_EQ(told("G-PR"), 1);
+    EXPECT_EQ(h.state().messages.size(), 2u);
+    EXPECT_TRUE(h.has("statistics.refused"));
+    h.type(Key::f2);
+    h.save("refused.png");
+    h.state().restart = true;
+    h.frame();
+    h.wait_until([&] { return h.viewer.settled(3); });
+    h.frames(3);
+    EXPECT_EQ(told("G-PR"), 2);
+}
+
+} // namespace
+} // namespace tessera::test
