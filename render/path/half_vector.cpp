@@ -4,18 +4,38 @@ namespace tessera {
 
 namespace {
 
-/// A direction of the base's frame in the offset's, turned along with the normal by the shortest arc: frames
-/// themselves may lie about normals in any way, and half vectors of neighbours would then point anywhere. The same
-/// way back; the angle to the normal is kept.
+/// Turns v by the shortest arc from one unit vector to another, not to its opposite [Rodrigues].
+glm::vec3 turn(glm::vec3 from, glm::vec3 to, glm::vec3 v) {
+    const float cosine = glm::dot(from, to);
+    const glm::vec3 axis = glm::cross(from, to);
+    return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1 + cosine));
+}
+
+/// From here normals are turned to: any direction, as long as it is the same for all.
+constexpr glm::vec3 pole(0.36f, 0.48f, 0.8f);
+
+/// Normals close to the pole's opposite are turned there first, and then by half a turn about an axis across.
+bool is_far_side(glm::vec3 normal) {
+    return glm::dot(normal, pole) < -0.999f;
+}
+glm::vec3 half_turn(glm::vec3 v) {
+    constexpr glm::vec3 across(0.8f, -0.6f, 0);
+    return 2 * glm::dot(across, v) * across - v;
+}
+glm::vec3 to_pole(glm::vec3 normal, glm::vec3 v) {
+    return is_far_side(normal) ? half_turn(turn(normal, -pole, v)) : turn(normal, pole, v);
+}
+glm::vec3 from_pole(glm::vec3 normal, glm::vec3 v) {
+    return is_far_side(normal) ? turn(-pole, normal, half_turn(v)) : turn(pole, normal, v);
+}
+
+/// A direction of the base's frame in the offset's, turned along with the normal: frames themselves may lie about
+/// normals in any way, and half vectors of neighbours would then point anywhere. All pixels of a sampling set must
+/// agree on the light path that each of them sees: by way of a third one it must be the same. So the turn goes
+/// from the base's normal to a pole and on to the offset's; shortest arcs from normal to normal would add up to
+/// another one on the way round a triangle. The angle to the normal is kept.
 glm::vec3 carry(const Frame& base, const Frame& offset, glm::vec3 local) {
-    const float cosine = glm::dot(base.normal, offset.normal);
-    if (cosine < -0.99f)
-        return local; // no arc is the shortest
-    const glm::vec3 world = base.to_world(local);
-    const glm::vec3 axis = glm::cross(base.normal, offset.normal);
-    const glm::vec3 turned =
-        cosine * world + glm::cross(axis, world) + axis * (glm::dot(axis, world) / (1 + cosine)); // [Rodrigues]
-    glm::vec3 result = offset.to_local(turned);
+    glm::vec3 result = offset.to_local(from_pole(offset.normal, to_pole(base.normal, base.to_world(local))));
     result.z = local.z;
     return glm::normalize(result);
 }

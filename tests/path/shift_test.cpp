@@ -1,6 +1,7 @@
 // Light paths that reach their light by way of a surface too glossy to connect to: the shift must take them along
 // whatever else the base path carries, and whether or not the edge that it does not use is free.
 #include "render/path/path_reuse.h"
+#include "tests/support/one_shift.h"
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
@@ -36,11 +37,6 @@ Tally tally(const TestScene& t) {
     const Projection projection(t.scene->camera(), size);
     LightPaths light;
     OffsetPaths paths;
-    PendingEdges edges;
-    OffsetVertices primary;
-    Shift shift(tracer, shift_settings);
-    OutcomeLanes outcomes;
-    LaneMask lost;
     for (int pass = 0; pass < 40; ++pass)
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x + 1 < size.x; ++x) {
@@ -55,13 +51,7 @@ Tally tally(const TestScene& t) {
                 const int slot = light.emitter_slot(1, 0);
                 if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
                     continue;
-                paths.reset(light.slot_count(), 1);
-                edges.reset(1);
-                primary.reset(1);
-                primary.set(0, right[0].vertex);
-                shift.run(base, light, primary, -1, paths, edges, outcomes);
-                edges.resolve(tracer, paths, std::vector<float>(static_cast<std::size_t>(light.slot_count()), 1),
-                              lost);
+                shift_to_one(tracer, shift_settings, base, light, right[0].vertex, paths, true);
                 const bool shifted = paths.density(slot, 0) > 0;
                 if (light.last_alive() == slot) {
                     ++sum.light_is_last;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,16 @@ std::shared_ptr<const Scene> scene() {
     return nullptr;
 }
 
+/// Settings by name.
+struct Variant {
+    std::string name;
+    RenderSettings settings;
+};
+
+void PrintTo(const Variant& v, std::ostream* out) {
+    *out << v.name;
+}
+
 RenderSettings settings_for(Method method) {
     RenderSettings s;
     s.method = method;
@@ -30,6 +41,32 @@ RenderSettings settings_for(Method method) {
     s.max_depth = 5;
     s.seed = 42;
     return s;
+}
+
+/// Every setting that decides on random numbers, or on who shares with whom.
+std::vector<Variant> variants() {
+    std::vector<Variant> list;
+    const auto add = [&](std::string name, Method method, const std::function<void(RenderSettings&)>& change) {
+        list.push_back({std::move(name), settings_for(method)});
+        change(list.back().settings);
+    };
+    using S = RenderSettings;
+    for (const Method method : all_methods)
+        add(std::string(short_name(method)), method, [](S&) {});
+    add("rooks", Method::pr, [](S& s) { s.pattern = Pattern::rooks; });
+    add("rooks_replay", Method::pr, [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::replay; });
+    add("reconnection", Method::pr, [](S& s) { s.shift = ShiftKind::reconnection; });
+    add("replay", Method::gpr, [](S& s) { s.shift = ShiftKind::replay; });
+    add("replay_reconnection", Method::gpr, [](S& s) { s.shift = ShiftKind::replay_reconnection; });
+    add("half_vectors", Method::gpr, [](S& s) { s.shift_threshold = 0.1f; });
+    add("weight_roulette", Method::gpr, [](S& s) { s.weight_threshold = 0.9f; });
+    add("light_samples", Method::gpt, [](S& s) { s.light_samples = 2; });
+    add("roulette_depth", Method::gpr, [](S& s) { s.roulette_depth = 1; });
+    add("base_primal", Method::gpr, [](S& s) { s.primal = PrimalSource::base; });
+    add("absolute_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::absolute; });
+    add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
+    add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
+    return list;
 }
 
 bool same_bits(const RgbImage& a, const RgbImage& b) {
@@ -42,24 +79,28 @@ bool same_bits(const GradientImages& a, const GradientImages& b) {
            same_bits(a.very_direct, b.very_direct);
 }
 
-GradientImages render(Method method, int threads, std::uint64_t seed = 42) {
+GradientImages render(const RenderSettings& settings, int threads) {
     ThreadPool pool(threads);
     const auto s = scene();
-    RenderSettings settings = settings_for(method);
-    settings.seed = seed;
     Render render(s, s->camera(), size, settings);
     for (int i = 0; i < passes; ++i)
         EXPECT_TRUE(render.pass(pool));
     return render.images();
 }
 
-class Determinism : public testing::TestWithParam<Method> {};
+class Threads : public testing::TestWithParam<Variant> {};
 
-TEST_P(Determinism, SameBitsForAnyNumberOfThreads) {
-    const GradientImages one = render(GetParam(), 1);
-    EXPECT_TRUE(same_bits(one, render(GetParam(), 2)));
-    EXPECT_TRUE(same_bits(one, render(GetParam(), 8)));
+TEST_P(Threads, GiveTheSameBitsHoweverManyTheyAre) {
+    const RenderSettings& settings = GetParam().settings;
+    const GradientImages one = render(settings, 1);
+    for (const int threads : {2, 3, 8})
+        EXPECT_TRUE(same_bits(one, render(settings, threads))) << threads;
 }
+
+INSTANTIATE_TEST_SUITE_P(variants, Threads, testing::ValuesIn(variants()),
+                         [](const auto& p) { return p.param.name; });
+
+class Determinism : public testing::TestWithParam<Method> {};
 
 TEST_P(Determinism, ImagesAreTakenAsTheyAreSeen) {
     ThreadPool pool(1);
@@ -72,7 +113,10 @@ TEST_P(Determinism, ImagesAreTakenAsTheyAreSeen) {
 }
 
 TEST_P(Determinism, AnotherSeedGivesAnotherPicture) {
-    EXPECT_FALSE(same_bits(render(GetParam(), 2, 42), render(GetParam(), 2, 43)));
+    RenderSettings settings = settings_for(GetParam());
+    const GradientImages one = render(settings, 2);
+    ++settings.seed;
+    EXPECT_FALSE(same_bits(one, render(settings, 2)));
 }
 
 TEST_P(Determinism, SessionGivesTheBitsOfAHeadlessRender) {
@@ -87,7 +131,7 @@ TEST_P(Determinism, SessionGivesTheBitsOfAHeadlessRender) {
     }
     ASSERT_TRUE(snapshot);
     ASSERT_EQ(snapshot->spp, passes);
-    EXPECT_TRUE(same_bits(*snapshot->images, render(GetParam(), 1)));
+    EXPECT_TRUE(same_bits(*snapshot->images, render(settings_for(GetParam()), 1)));
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, Determinism, testing::ValuesIn(all_methods),

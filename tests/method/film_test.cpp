@@ -1,0 +1,104 @@
+// The film: what it refuses, and sums that hold 10^5 passes.
+#include "render/film.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+
+bool is_black_everywhere(const RgbImage& image) {
+    for (Rgb c : image)
+        if (c != Rgb(0))
+            return false;
+    return true;
+}
+
+TEST(Film, RefusesWhatIsNotFinite) {
+    for (const float bad : {infinity, -infinity, nan})
+        for (Rgb PixelSample::*part :
+             {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy, &PixelSample::very_direct})
+            for (int channel = 0; channel < 3; ++channel) {
+                Film film(3, 2, Method::gpr);
+                Counters counters;
+                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), 1, 1, 1};
+                (sample.*part)[channel] = bad;
+                film.add(1, 0, 4, sample, counters);
+                EXPECT_EQ(counters.refused_samples, 1u);
+                EXPECT_EQ(counters.first_refused, (RefusedSample{4, 0, 1}));
+                const GradientImages images = film.means(1);
+                for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
+                    EXPECT_TRUE(is_black_everywhere(*image));
+                EXPECT_EQ(film.reuse_maps(1).reused(1, 0), 0);
+                EXPECT_EQ(film.base_luminance()(1, 0), 0);
+            }
+}
+
+TEST(Film, AddsTheLargestFloat) {
+    Film film(1, 1, Method::pt);
+    Counters counters;
+    for (int pass = 0; pass < 4; ++pass)
+        film.add(0, 0, pass, {Rgb(std::numeric_limits<float>::max())}, counters);
+    EXPECT_EQ(counters.refused_samples, 0u);
+    EXPECT_EQ(film.means(4).primal(0, 0), Rgb(std::numeric_limits<float>::max()));
+}
+
+/// Sums of floats would lose all of the small values: the mean is right to half a unit in the last place.
+TEST(Film, SumsOfManyPassesDoNotDrift) {
+    constexpr int passes = 100'001;
+    Film film(1, 1, Method::gpr);
+    Counters counters;
+    film.add(0, 0, 0, {Rgb(1e8f, 1, 0), Rgb(0), Rgb(0), Rgb(-1e8f, 0, 1e8f)}, counters);
+    for (int pass = 1; pass < passes; ++pass)
+        film.add(0, 0, pass, {Rgb(0.1f, 1e-8f, 0.1f), Rgb(0), Rgb(0), Rgb(0.1f, 1e-8f, 1e-8f)}, counters);
+    const GradientImages images = film.means(passes);
+    const auto mean = [](double first, float others) { return (first + 1e5 * double(others)) / passes; };
+    const glm::dvec3 primal(mean(1e8, 0.1f), mean(1, 1e-8f), mean(0, 0.1f));
+    const glm::dvec3 very_direct(mean(-1e8, 0.1f), mean(0, 1e-8f), mean(1e8, 1e-8f));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(images.primal(0, 0)[c] / primal[c], 1, 1e-7);
+        EXPECT_NEAR(images.very_direct(0, 0)[c] / very_direct[c], 1, 1e-7);
+    }
+}
+
+/// Whoever counts, and in whatever order counts are added: the first is that of the earliest pass, then row, then
+/// column.
+TEST(Counters, RememberTheFirstRefusedSample) {
+    const RefusedSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
+    std::size_t order[] = {0, 1, 2, 3};
+    do {
+        Counters one, sums[2];
+        for (std::size_t i = 0; i < 4; ++i) {
+            one.refuse(in_order[order[i]]);
+            sums[i % 2].refuse(in_order[order[i]]);
+        }
+        Counters all;
+        all += sums[0];
+        all += Counters{};
+        all += sums[1];
+        for (const Counters& c : {one, all}) {
+            EXPECT_EQ(c.refused_samples, 4u);
+            EXPECT_EQ(c.first_refused, in_order[0]);
+        }
+    } while (std::next_permutation(std::begin(order), std::end(order)));
+}
+
+TEST(Counters, SayWhereTheFirstRefusedSampleIs) {
+    Counters counters;
+    EXPECT_EQ(refused_text(counters, 3), "");
+    counters.refuse({5, 2, 7});
+    counters.refuse({6, 2, 7});
+    const std::string text = refused_text(counters, 1234);
+    for (const char* part : {"2 samples", "pass 5", "pixel (7, 2)", "seed 1234"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+}
+
+} // namespace
+
+} // namespace tessera::test

@@ -1,0 +1,254 @@
+// Jacobians of single steps of a shift against finite differences: half vectors copied from every kind of glossy
+// surface to every other, and reconnection.
+#include "render/path/half_vector.h"
+#include "tests/support/one_shift.h"
+#include "tests/support/rooms.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+using Move = std::function<std::optional<glm::dvec3>(glm::vec3)>;
+
+/// Solid angle of moved(d) over that of d, by differences; empty where a neighbour of d cannot be moved.
+std::optional<double> measured_jacobian(glm::vec3 d, const Move& moved) {
+    const Frame around(d);
+    const float step = 5e-4f;
+    glm::dvec3 slopes[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::vec3 side = step * (axis == 0 ? around.tangent : around.bitangent);
+        const auto plus = moved(glm::normalize(d + side)), minus = moved(glm::normalize(d - side));
+        if (!plus || !minus)
+            return {};
+        slopes[axis] = (*plus - *minus) / (2.0 * step);
+    }
+    return glm::length(glm::cross(slopes[0], slopes[1]));
+}
+
+struct NamedBsdf {
+    std::string name;
+    Bsdf bsdf;
+    bool transmits = false;
+};
+
+const Coating& coating() {
+    static const Coating table(1.5f, MicrofacetDistribution::beckmann, 0.2f);
+    return table;
+}
+
+/// All BSDFs that half vectors are copied from and to, rough and less so.
+std::vector<NamedBsdf> glossy_bsdfs() {
+    using enum MicrofacetDistribution;
+    std::vector<NamedBsdf> list;
+    for (const auto distribution : {ggx, beckmann})
+        for (const float alpha : {0.1f, 0.3f, 0.7f}) {
+            const std::string name =
+                (distribution == ggx ? "ggx " : "beckmann ") + std::to_string(alpha).substr(0, 3);
+            list.push_back({"conductor " + name, {RoughConductor{{distribution, alpha}}}});
+            list.push_back({"glass " + name, {RoughDielectric{{distribution, alpha}, 1.5f}}, true});
+        }
+    list.push_back({"water", {RoughDielectric{{ggx, 0.3f}, 1.33f}}, true});
+    list.push_back({"plastic", {Plastic(coating(), 1.5f, {beckmann, 0.2f}, Rgb(1), Rgb(0.4f), false)}});
+    list.push_back({"phong", {Phong(20, Rgb(0.2f), Rgb(0.5f))}});
+    list.push_back({"diffuse", {Diffuse{Rgb(0.5f)}}}); // on the way to a smooth coating, say
+    return list;
+}
+
+struct PairTally {
+    int reflected = 0, transmitted = 0;
+    double worst = 0; ///< |measured / Jacobian - 1|
+};
+
+/// Copies scatters of one surface to another one beside it, turned a little and seen from a little elsewhere.
+PairTally copy_many(const Bsdf& from, const Bsdf& to, float side) {
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
+    const auto next = [&] { return uniform(engine); };
+    PairTally tally;
+    for (int i = 0; i < 3000 && tally.reflected + tally.transmitted < 40; ++i) {
+        Vertex base{}, offset{};
+        base.bsdf = from;
+        offset.bsdf = to;
+        const glm::vec3 normal = glm::normalize(glm::vec3(next() - 0.5f, next() - 0.5f, next() - 0.5f));
+        base.frame = Frame(normal);
+        offset.frame =
+            Frame(glm::normalize(normal + 0.2f * glm::vec3(next() - 0.5f, next() - 0.5f, next() - 0.5f)));
+        const glm::vec3 view(next() - 0.5f, next() - 0.5f, side * (0.3f + next()));
+        base.to_previous = glm::normalize(view);
+        const glm::vec3 aside = 0.2f * glm::vec3(next() - 0.5f, next() - 0.5f, next() - 0.5f);
+        offset.to_previous = offset.to_local(glm::normalize(base.to_world(view) + aside));
+        const float lobe = next(), u = next();
+        const auto s = from.sample(base.to_previous, lobe, {u, next()});
+        if (!s || s->is_delta)
+            continue;
+        const auto copy = copy_half_vector(base, s->to_next, offset);
+        if (!copy)
+            continue;
+        // Close to total reflection and to the horizon the derivative has no bound: differences say nothing there.
+        if (copy->jacobian > 4 || copy->jacobian < 0.25f || std::abs(copy->to_next.z) < 0.15f ||
+            std::abs(s->to_next.z) < 0.15f)
+            continue;
+        const auto measured = measured_jacobian(s->to_next, [&](glm::vec3 d) -> std::optional<glm::dvec3> {
+            const auto moved = copy_half_vector(base, d, offset);
+            return moved ? std::optional(glm::dvec3(moved->to_next)) : std::nullopt;
+        });
+        if (!measured)
+            continue;
+        ++(s->scatter == Scatter::transmit ? tally.transmitted : tally.reflected);
+        tally.worst = std::max(tally.worst, std::abs(*measured / double(copy->jacobian) - 1));
+    }
+    return tally;
+}
+
+TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
+    const std::vector<NamedBsdf> all = glossy_bsdfs();
+    for (const NamedBsdf& from : all)
+        for (const NamedBsdf& to : all)
+            for (const float side : {1.0f, -1.0f}) {
+                if (side < 0 && !(from.transmits && to.transmits))
+                    continue; // black from below
+                const PairTally t = copy_many(from.bsdf, to.bsdf, side);
+                const std::string name = from.name + " to " + to.name + (side > 0 ? "" : " from below");
+                EXPECT_LT(t.worst, 1e-3) << name;
+                EXPECT_GT(t.reflected + t.transmitted, 10) << name;
+                if (from.transmits && to.transmits) {
+                    EXPECT_GT(t.transmitted, 10) << name;
+                } else {
+                    EXPECT_EQ(t.transmitted, 0) << name;
+                }
+            }
+}
+
+/// A diffuse vertex that sees another one, and a diffuse offset: then all that shift() makes of the ratio of
+/// densities but pdf_w(y_1) / pdf_w(x_1) is the Jacobian |cos' / cos| r^2 / r'^2.
+TEST(Jacobian, OfReconnectionIsThatOfDirections) {
+    const auto scene = Room().build();
+    Counters counters;
+    const Tracer tracer{*scene, counters, {4, 1, 0}};
+    const Projection projection(scene->camera(), {64, 48});
+    int count = 0;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Random random(3, i, 0);
+        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
+        for (const ShiftKind kind :
+             {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay_reconnection}) {
+            const ShiftSettings settings{kind};
+            BasePath base, other;
+            trace_base_path(tracer, projection.ray(pixel), random, base);
+            trace_base_path(tracer, projection.ray(pixel + glm::vec2(3, 2)), random, other);
+            LightPaths light;
+            light.reset(base, settings);
+            if (!light.has_join() || !light.is_alive(light.tail_slot()) || other.empty())
+                continue;
+            OffsetPaths paths;
+            const Vertex &x = base[0].vertex, &join = base[1].vertex, &y = other[0].vertex;
+            shift_to_one(tracer, settings, base, light, y, paths);
+            const float density = paths.density(light.tail_slot(), 0);
+            const glm::vec3 to_join = glm::normalize(join.position - y.position);
+            const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(to_join)).pdf_w;
+            if (!(density > 0) || glm::distance(x.position, join.position) < 0.3f ||
+                glm::distance(y.position, join.position) < 0.3f)
+                continue;
+            // The direction is moved, and so is the point that it meets on the plane of x_2.
+            const glm::dvec3 from(x.position), at(join.position), normal(join.geometric_normal), to(y.position);
+            const glm::vec3 direction = glm::normalize(join.position - x.position);
+            if (std::abs(glm::dot(direction, join.geometric_normal)) < 0.15f)
+                continue;
+            const auto measured = measured_jacobian(direction, [&](glm::vec3 d) {
+                const glm::dvec3 ray(d);
+                const glm::dvec3 point = from + ray * (glm::dot(at - from, normal) / glm::dot(ray, normal));
+                return std::optional(glm::normalize(point - to));
+            });
+            EXPECT_NEAR(density * base[0].pdf_w / pdf_w / *measured, 1, 1e-3);
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 200);
+}
+
+/// The same for a point on a light: the ratio of densities is that of the sums over both strategies.
+TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
+    const auto scene = Room().build();
+    Counters counters;
+    const Tracer tracer{*scene, counters, {2, 1, 0}};
+    const ShiftSettings settings;
+    const Projection projection(scene->camera(), {64, 48});
+    int count = 0;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Random random(4, i, 0);
+        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
+        BasePath base, other;
+        trace_base_path(tracer, projection.ray(pixel), random, base);
+        trace_base_path(tracer, projection.ray(pixel + glm::vec2(3, 2)), random, other);
+        LightPaths light;
+        light.reset(base, settings);
+        const int slot = light.emitter_slot(0, 0);
+        if (base.empty() || other.empty() || !light.is_alive(slot))
+            continue;
+        OffsetPaths paths;
+        const Vertex &x = base[0].vertex, &y = other[0].vertex;
+        shift_to_one(tracer, settings, base, light, y, paths);
+        const LightSample& l = base.lights(0)[0];
+        const glm::vec3 direction = glm::normalize(l.light.position - x.position);
+        const auto seen = l.light.seen_from(y.position);
+        if (!(paths.density(slot, 0) > 0) || !seen || glm::dot(direction, l.light.normal) > -0.15f)
+            continue;
+        const glm::dvec3 from(x.position), at(l.light.position), normal(l.light.normal), to(y.position);
+        const auto measured = measured_jacobian(direction, [&](glm::vec3 d) {
+            const glm::dvec3 ray(d);
+            return std::optional(
+                glm::normalize(from + ray * (glm::dot(at - from, normal) / glm::dot(ray, normal)) - to));
+        });
+        const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(seen->direction)).pdf_w;
+        EXPECT_NEAR(paths.density(slot, 0) * l.pdf_sum / (pdf_w + seen->pdf_w) / *measured, 1, 1e-3);
+        ++count;
+    }
+    EXPECT_GT(count, 100);
+}
+
+/// Replayed numbers are the same point in the space of random numbers, so that Jacobians and densities cancel.
+/// Where nothing is connectable that is true all the way: the density ratio of every light path is 1, and its
+/// value that of the offset's own replay.
+TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
+    Room r;
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.3f));
+    r.sphere({0.35f, -0.55f, 0}, 0.35f, r.rough_glass(0.3f));
+    const auto scene = r.build();
+    Counters counters;
+    const Tracer tracer{*scene, counters, {5, 1, 0}};
+    const ShiftSettings settings{ShiftKind::replay_reconnection, 1};
+    const Projection projection(scene->camera(), {64, 48});
+    int count = 0;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Random random(5, i, 0);
+        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
+        BasePath base, other;
+        trace_base_path(tracer, projection.ray(pixel), random, base);
+        trace_base_path(tracer, projection.ray(pixel + glm::vec2(1, 1)), random, other);
+        if (other.empty())
+            continue;
+        LightPaths light, own;
+        light.reset(base, settings);
+        own.reset(other, settings); // `other` has the base's numbers
+        OffsetPaths paths;
+        shift_to_one(tracer, settings, base, light, other[0].vertex, paths);
+        for (int slot = 0; slot < std::min(light.slot_count(), own.slot_count()); ++slot) {
+            if (!(paths.density(slot, 0) > 0) || !own.is_alive(slot)) // dark: an edge that is not looked at here
+                continue;
+            EXPECT_NEAR(paths.density(slot, 0), 1, 1e-4);
+            EXPECT_NEAR(luminance(paths.value(slot, 0)) / luminance(own.carried(slot)), 1, 1e-3);
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 300);
+}
+
+} // namespace
+
+} // namespace tessera::test

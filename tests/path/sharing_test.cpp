@@ -1,0 +1,177 @@
+// What the balance heuristic stands on: whichever pixel of a sampling set a light path comes from, the others see
+// the same light path, give it the same densities, and so share it out alike.
+//
+// A light path of pixel k is taken to pixel m as a path that m could have traced itself
+// (tests/support/shifted_path), and shared from there. With the weights w_k = 1 / R_k of both,
+//   sum over the pixels n that can make the light path of  w_n = 1
+// (for two pixels this is r_km r_mk = 1: the shift back undoes the shift, and so does its Jacobian), and every
+// pixel is given the same radiance by each of them: c_mk w_k = carried_m w_m.
+// Jacobians that undo each other and are wrong alike pass here: they are the matter of jacobian_test.cpp.
+#include "render/path/path_reuse.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/shifted_path.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(48, 36);
+constexpr int edge = 3; // of the sampling set
+
+struct Tally {
+    int shared = 0;  ///< light paths that more than one pixel could have made
+    int lost = 0;    ///< of these, without a way to one of the pixels that got light
+    int unequal = 0; ///< shared out in another way by another pixel, or with weights that do not sum to one, ...
+    int apart = 0;   ///< ... by more than the rounding of short edges explains
+    int astray = 0;  ///< not back at its own vertices after the shift there and back
+};
+
+class Sharing {
+public:
+    Sharing(const TestScene& t, ShiftKind kind, int light_samples, int roulette_depth)
+        : scene_(*t.scene), settings_{kind, t.shift_threshold}, tracer_{scene_,
+                                                                        counters_,
+                                                                        {t.max_depth, light_samples,
+                                                                         roulette_depth}},
+          reuse_(tracer_, settings_, 0) {}
+
+    Tally run(int sets) {
+        for (int i = 0; i < sets; ++i) {
+            const Random random(5, static_cast<std::uint32_t>(i), 0);
+            share_all(glm::ivec2(random.draw_2d(0, Draw::direction) * glm::vec2(size - edge)), random);
+        }
+        return tally_;
+    }
+
+private:
+    using Set = std::vector<const BasePath*>;
+
+    void share_all(glm::ivec2 corner, const Random& random) {
+        const Projection projection(scene_.camera(), size);
+        const glm::vec2 inside = random.draw_2d(1, Draw::direction);
+        std::vector<BasePath> paths(static_cast<std::size_t>(edge * edge));
+        Set set;
+        for (int i = 0; i < edge * edge; ++i) {
+            BasePath& path = paths[static_cast<std::size_t>(i)];
+            const glm::ivec2 pixel = corner + glm::ivec2(i % edge, i / edge);
+            const auto number = static_cast<std::uint32_t>(random.draw(i, Draw::lobe) * 0x1p24f);
+            trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), Random(9, number, 1), path);
+            set.push_back(&path);
+        }
+        for (std::size_t k = 0; k < set.size(); ++k) {
+            LightPaths light;
+            light.reset(*set[k], settings_);
+            for (int slot = light.first_shared(); slot < light.slot_count(); ++slot)
+                if (light.is_alive(slot) && luminance(light.carried(slot)) > 1e-20f)
+                    judge(set, k, slot, light.carried(slot));
+        }
+    }
+
+    /// What every pixel gets of a light path that pixel k has made.
+    std::vector<Rgb> share(Set set, std::size_t k, const BasePath& path) {
+        set[k] = &path;
+        std::vector<Rgb> radiance(set.size(), Rgb(0));
+        reuse_.begin(set);
+        reuse_.share(static_cast<int>(k), 1, radiance);
+        return radiance;
+    }
+
+    void judge(const Set& set, std::size_t k, int slot, Rgb carried) {
+        const BasePath one = isolated(*set[k], settings_, slot);
+        const std::vector<Rgb> from_k = share(set, k, one);
+        double weights = luminance(from_k[k]) / double(luminance(carried));
+        double worst = 0;
+        bool is_shared = false, is_astray = false;
+        for (std::size_t m = 0; m < set.size(); ++m) {
+            if (m == k || is_black(from_k[m]))
+                continue;
+            is_shared = true;
+            const auto there = shifted(tracer_, settings_, one, slot, (*set[m])[0].vertex);
+            if (!there) {
+                ++tally_.lost;
+                return;
+            }
+            LightPaths light;
+            light.reset(*there, settings_);
+            const std::vector<Rgb> from_m = share(set, m, *there);
+            const auto back = shifted(tracer_, settings_, *there, slot, one[0].vertex);
+            is_astray = is_astray || !back || !is_along(*back, one);
+            weights += luminance(from_m[m]) / double(luminance(light.carried(slot)));
+            for (std::size_t n = 0; n < set.size(); ++n) {
+                const double scale = luminance(from_k[n]) + luminance(from_m[n]);
+                if (scale > 0)
+                    worst = std::max(worst, std::abs(luminance(from_k[n] - from_m[n])) / scale);
+            }
+        }
+        tally_.shared += is_shared;
+        if (!is_shared)
+            return;
+        worst = std::max(worst, std::abs(weights - 1));
+        tally_.unequal += !(worst < 1e-3);
+        tally_.apart += !(worst < 0.05);
+        tally_.astray += is_astray;
+    }
+
+    /// Whether a path has the vertices with which another one begins.
+    static bool is_along(const BasePath& path, const BasePath& other) {
+        if (path.size() > other.size())
+            return false;
+        for (int i = 0; i < path.size(); ++i)
+            if (!(glm::distance(path[i].vertex.position, other[i].vertex.position) < 1e-3f))
+                return false;
+        return true;
+    }
+
+    const Scene& scene_;
+    Counters counters_;
+    ShiftSettings settings_;
+    Tracer tracer_;
+    PathReuse reuse_;
+    Tally tally_;
+};
+
+class Shares : public testing::TestWithParam<TestScene> {
+protected:
+    /// Floats cannot tell the length of the shortest edges, in corners, to 1e-3, nor a direction to what a narrow
+    /// lobe makes of it, nor on which side of a triangle's border a ray passes.
+    static void judge(ShiftKind kind, int light_samples, int roulette_depth) {
+        SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(kind)) + ", light samples " +
+                     std::to_string(light_samples));
+        const Tally t = Sharing(GetParam(), kind, light_samples, roulette_depth).run(40);
+        EXPECT_EQ(t.lost, 0);
+        EXPECT_LE(t.unequal, 0.04 * t.shared);
+        EXPECT_LE(t.apart, 0.001 * t.shared);
+        EXPECT_LE(t.astray, 0.001 * t.shared);
+        const bool has_any = GetParam().max_depth > 1 && GetParam().name != "no_light";
+        if (kind != ShiftKind::reconnection && has_any) {
+            EXPECT_GT(t.shared, 200); // or this says nothing
+        }
+    }
+};
+
+TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
+    for (const ShiftKind kind :
+         {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
+        judge(kind, 1, 0);
+        judge(kind, 3, 2);
+    }
+}
+
+/// But those with masks: a mask lets a ray through by chance, which is another one for a ray that differs by
+/// rounding.
+std::vector<TestScene> scenes_without_masks() {
+    std::vector<TestScene> scenes = all_test_scenes();
+    std::erase_if(scenes, [](const TestScene& t) { return t.name.starts_with("masks"); });
+    return scenes;
+}
+
+INSTANTIATE_TEST_SUITE_P(scenes, Shares, testing::ValuesIn(scenes_without_masks()),
+                         [](const auto& p) { return p.param.name; });
+
+} // namespace
+
+} // namespace tessera::test

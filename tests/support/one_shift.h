@@ -1,0 +1,26 @@
+#pragma once
+
+#include "render/path/shift.h"
+
+namespace tessera::test {
+
+/// Shifts all light paths of a base path to one vertex that a camera sees, lane 0 of `paths`. New edges are taken
+/// for free, or traced with `trace_edges`. Returns whether one was blocked.
+inline bool shift_to_one(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
+                         const LightPaths& light, const Vertex& y, OffsetPaths& paths, bool trace_edges = false) {
+    Shift shift(tracer, settings);
+    OffsetVertices primary;
+    primary.reset(1);
+    primary.set(0, y);
+    PendingEdges edges;
+    edges.reset(1);
+    OutcomeLanes outcomes;
+    LaneMask lost;
+    paths.reset(light.slot_count(), 1);
+    shift.run(base, light, primary, -1, paths, edges, outcomes);
+    if (trace_edges)
+        edges.resolve(tracer, paths, std::vector<float>(static_cast<std::size_t>(light.slot_count()), 1.0f), lost);
+    return lost[0] != 0;
+}
+
+} // namespace tessera::test

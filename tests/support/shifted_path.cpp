@@ -1,0 +1,231 @@
+#include "tests/support/shifted_path.h"
+
+#include "render/path/half_vector.h"
+
+#include <glm/geometric.hpp>
+
+namespace tessera::test {
+
+namespace {
+
+/// What a slot of LightPaths stands for.
+struct SlotMeaning {
+    bool is_tail; ///< all that ends beyond the join
+    bool is_hit;  ///< BSDF sampling at `vertex` meets a light
+    int vertex;   ///< the last one with a choice: of the tail the join
+    int sample;   ///< of emitter sampling at `vertex`
+};
+
+SlotMeaning meaning_of(const LightPaths& light, int slot) {
+    if (light.has_join() && slot == light.tail_slot())
+        return {true, false, light.join(), -1};
+    const int vertex = light.vertex_of(slot);
+    return {false, slot == light.hit_slot(vertex), vertex, slot - light.emitter_slot(vertex, 0)};
+}
+
+class Builder {
+public:
+    Builder(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base, int slot)
+        : tracer_(tracer), settings_(settings), base_(base) {
+        light_.reset(base, settings);
+        end_ = meaning_of(light_, slot);
+    }
+
+    std::optional<BasePath> build(const Vertex& primary) {
+        path_.reset(base_.random, base_.light_samples());
+        keep(primary);
+        const int steps = end_.vertex + (end_.is_hit || end_.is_tail);
+        for (int i = 0; i < steps; ++i)
+            if (!step(i))
+                return {};
+        if (end_.is_tail)
+            append_suffix();
+        else if (!end_.is_hit && !end_by_emitter_sampling())
+            return {};
+        return path_;
+    }
+
+private:
+    bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
+    bool ends_by_hit(int i) const { return end_.is_hit && i == end_.vertex; }
+
+    /// Whether the edge from vertex i is to lead to the base's next vertex.
+    bool connects(int i) const {
+        if (!light_.step_is_connectable(i))
+            return false;
+        const bool joins = light_.has_join() && i + 1 >= light_.join();
+        const bool is_lit = !end_.is_hit && i + 1 == end_.vertex && is_connectable(base_[i + 1].vertex);
+        return ends_by_hit(i) || joins || is_lit;
+    }
+
+    void keep(const Vertex& vertex) {
+        path_.spare().vertex = vertex;
+        path_.keep();
+        BaseVertex& y = path_[path_.size() - 1];
+        y.hit_pdf_w = 0;
+        y.hit_brings = y.arriving = Rgb(0);
+    }
+
+    bool step(int i) {
+        const BaseVertex& x = base_[i];
+        BaseVertex& y = path_[i];
+        y.survival = x.survival;
+        y.is_delta = x.is_delta;
+        y.scatter = x.scatter;
+        return connects(i) ? step_to_base(i) : step_by_copy(i);
+    }
+
+    bool step_to_base(int i) {
+        const BaseVertex& x = base_[i];
+        BaseVertex& y = path_[i];
+        const glm::vec3 direction = x.escapes ? x.vertex.to_world(x.to_next)
+                                              : glm::normalize(base_[i + 1].vertex.position - y.vertex.position);
+        y.to_next = y.vertex.to_local(direction);
+        const BsdfValue b = y.vertex.bsdf.evaluate(y.vertex.to_previous, y.to_next);
+        y.f_cos = b.f_cos;
+        y.pdf_w = b.pdf_w;
+        if (!(b.pdf_w > 0))
+            return false;
+        if (x.escapes)
+            return escape(y, direction);
+        Vertex next = base_[i + 1].vertex;
+        next.to_previous = next.to_local(-direction);
+        return arrive(i, next, direction);
+    }
+
+    bool step_by_copy(int i) {
+        BaseVertex& y = path_[i];
+        const std::optional<CopiedScatter> s = copy(i, y.vertex);
+        if (!s)
+            return false;
+        y.to_next = s->to_next;
+        y.f_cos = s->f_cos;
+        y.pdf_w = s->pdf_w;
+        const glm::vec3 direction = y.vertex.to_world(s->to_next);
+        Vertex next;
+        if (!tracer_.closest(tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce))
+            return ends_by_hit(i) && escape(y, direction);
+        return arrive(i, next, direction);
+    }
+
+    std::optional<CopiedScatter> copy(int i, const Vertex& y) const {
+        const BaseVertex& x = base_[i];
+        if (settings_.shift == ShiftKind::replay_reconnection) {
+            const auto s = y.bsdf.sample(y.to_previous, base_.random.draw(i + 1, Draw::lobe),
+                                         base_.random.draw_2d(i + 1, Draw::direction));
+            return s ? std::optional(CopiedScatter{s->to_next, s->f_cos, s->pdf_w, 1}) : std::nullopt;
+        }
+        return x.is_delta ? copy_delta(x.scatter, y) : copy_half_vector(x.vertex, x.to_next, y);
+    }
+
+    bool escape(BaseVertex& y, glm::vec3 direction) {
+        y.escapes = true;
+        const LightPoint light = tracer_.environment_toward(direction);
+        set_hit(y, light.radiance, light.pdf);
+        return true;
+    }
+
+    bool arrive(int i, const Vertex& next, glm::vec3 direction) {
+        keep(next);
+        BaseVertex& y = path_[i]; // only now: keep() ends references
+        const glm::vec3 d = next.position - y.vertex.position;
+        y.next_geometry = std::abs(glm::dot(next.geometric_normal, direction)) / glm::dot(d, d);
+        if (ends_by_hit(i)) {
+            const LightPoint light = tracer_.light_of(next, -direction);
+            set_hit(y, light.radiance, light.pdf / y.next_geometry);
+        }
+        return y.next_geometry > 0;
+    }
+
+    static void set_hit(BaseVertex& y, Rgb radiance, float pdf_w) {
+        y.hit_pdf_w = y.is_delta || is_black(radiance) ? 0 : pdf_w;
+        y.hit_brings = radiance * (y.pdf_w / (y.pdf_w + y.hit_pdf_w));
+    }
+
+    /// The light path ends at a point of a light that the last vertex has chosen.
+    bool end_by_emitter_sampling() {
+        const Vertex& y = path_[end_.vertex].vertex;
+        const LightSample& x = base_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
+        LightSample& drawn = path_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
+        const bool connectable = is_connectable(base_[end_.vertex].vertex);
+        if (!connectable && settings_.shift == ShiftKind::replay_reconnection) {
+            Segment way;
+            return draw_light(tracer_, y, base_.random, end_.vertex + 1, end_.sample, drawn, way);
+        }
+        drawn.light = x.light;
+        if (!connectable && x.light.can_be_hit()) {
+            const auto s = copy_half_vector(base_[end_.vertex].vertex, x.to_light, y);
+            if (!s)
+                return false;
+            Vertex scratch;
+            const Ray ray = tracer_.leave(y, y.to_world(s->to_next));
+            drawn.light = tracer_.light_along(ray, scratch, RayKind::shift_bounce);
+        }
+        const std::optional<LightRay> seen = drawn.light.seen_from(y.position);
+        if (!seen)
+            return false;
+        drawn.to_light = y.to_local(seen->direction);
+        const BsdfValue b = y.bsdf.evaluate(y.to_previous, drawn.to_light);
+        drawn.pdf_w = seen->pdf_w;
+        drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
+        drawn.brings = b.f_cos * seen->radiance / drawn.pdf_sum;
+        return true;
+    }
+
+    /// Behind the vertex after the join nothing is new.
+    void append_suffix() {
+        const int join = end_.vertex;
+        path_[join].arriving = base_[join].arriving;
+        for (int i = join + 1; i < base_.size(); ++i) {
+            if (i > join + 1)
+                keep(base_[i].vertex);
+            path_[i] = base_[i];
+        }
+    }
+
+    const Tracer& tracer_;
+    const ShiftSettings& settings_;
+    const BasePath& base_;
+    LightPaths light_;
+    SlotMeaning end_;
+    BasePath path_;
+};
+
+} // namespace
+
+BasePath isolated(const BasePath& path, const ShiftSettings& settings, int slot) {
+    LightPaths light;
+    light.reset(path, settings);
+    const SlotMeaning end = meaning_of(light, slot);
+    BasePath one = path;
+    one.direct = one.indirect = one.very_direct = Rgb(0);
+    for (int i = 0; i < one.size(); ++i) {
+        if (end.is_tail && i > end.vertex)
+            break; // that is the tail
+        for (int j = 0; j < one.light_samples(); ++j)
+            if (end.is_tail || end.is_hit || i != end.vertex || j != end.sample)
+                one.lights(i)[static_cast<std::size_t>(j)].brings = Rgb(0);
+        if (!end.is_hit || i != end.vertex)
+            one[i].hit_brings = Rgb(0);
+        if (!end.is_tail)
+            one[i].arriving = Rgb(0);
+    }
+    return one;
+}
+
+std::optional<BasePath> shifted(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
+                                int slot, const Vertex& primary) {
+    if (settings.shift != ShiftKind::replay)
+        return Builder(tracer, settings, base, slot).build(primary);
+    LightPaths light;
+    light.reset(base, settings);
+    BasePath path;
+    replay_base_path(tracer, primary, base.random, light.vertex_of(slot) + 1, path);
+    LightPaths own;
+    own.reset(path, settings);
+    if (!own.is_alive(slot))
+        return {};
+    return isolated(path, settings, slot);
+}
+
+} // namespace tessera::test
