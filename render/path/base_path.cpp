@@ -82,7 +82,7 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 float path_survival(const PathSettings& settings, int index, Rgb f_cos, float pdf_w) {
     if (settings.roulette_depth == 0 || index < settings.roulette_depth)
         return 1;
-    return std::clamp(std::max({f_cos.r, f_cos.g, f_cos.b}) / pdf_w, 0.05f, 0.95f);
+    return std::clamp(std::max({f_cos.r, f_cos.g, f_cos.b}) / pdf_w, 0.1f, 0.95f);
 }
 
 /// Samples the BSDF at the last vertex, x_index, and appends what lies in that direction; false: the path ends.
