@@ -16,7 +16,7 @@ struct PixelSample {
     Rgb very_direct{0};
     std::uint32_t arrived = 0; ///< base paths of other pixels that brought light here
     std::uint32_t failed = 0;  ///< those that were shifted here and brought none
-    float base_luminance = 0;  ///< of its own base path's radiance
+    float base_luminance = -1; ///< of what its own base path has to share; negative: it sees nothing
 };
 
 /// How sharing went, per pixel.

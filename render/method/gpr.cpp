@@ -15,7 +15,7 @@ void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) 
         for (int x = inner.x0; x < inner.x1; ++x) {
             const int i = (y - set.y0) * set.width() + x - set.x0;
             const Rgb* here = worker.set.radiance.data() + i;
-            PixelSample sample = worker.set.sample(i);
+            PixelSample sample = worker.set.sample(i, worker.reuse);
             if (x + 1 < set.x1)
                 sample.dx = here[1] - here[0];
             if (y + 1 < set.y1)

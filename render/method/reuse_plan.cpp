@@ -26,6 +26,8 @@ void ReusePlan::learn(const Image<float>& luminance) {
         for (int x = 0; x < luminance.width(); ++x) {
             Cell& cell = cells_(x / cell_edge, y / cell_edge);
             const double l = luminance(x, y);
+            if (l < 0)
+                continue;
             cell.paths += 1;
             cell.lit += l > 0;
             cell.sum += l;

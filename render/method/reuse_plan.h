@@ -17,7 +17,8 @@ namespace tessera {
 /// alike they are cut down to single pixels and their neighbours. Lights a thousand times as bright change
 /// nothing.
 ///
-/// It looks at earlier passes only: a choice by the light of the paths at hand would be biased.
+/// It looks at earlier passes of the same render only: a choice by the light of the paths at hand, or of passes
+/// that a render begun anew will draw again, would be biased.
 class ReusePlan {
 public:
     ReusePlan(glm::ivec2 size, const RenderSettings& settings);
@@ -27,7 +28,7 @@ public:
     int part_edge(PixelRect tile) const;
 
     /// Learns from a whole pass.
-    /// @param luminance  of each pixel's base path, without very direct light
+    /// @param luminance  of what each pixel's base path has to share; negative: it sees nothing
     void learn(const Image<float>& luminance);
 
 private:

@@ -25,15 +25,11 @@ void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
             ++(outcomes[m] == ShiftOutcome::ok ? arrived : failed)[m];
 }
 
-PixelSample SamplingSet::sample(int i) const {
+PixelSample SamplingSet::sample(int i, const PathReuse& reuse) const {
     const auto m = static_cast<std::size_t>(i);
-    return {radiance[m],
-            Rgb(0),
-            Rgb(0),
-            paths[m]->very_direct,
-            arrived[m],
-            failed[m],
-            luminance(paths[m]->radiance())};
+    const BasePath& path = *paths[m];
+    const float base_luminance = path.empty() ? -1 : luminance(reuse.shared_light(path));
+    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, arrived[m], failed[m], base_luminance};
 }
 
 } // namespace tessera

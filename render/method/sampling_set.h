@@ -2,7 +2,7 @@
 
 #include "render/film.h"
 #include "render/method/pixel_rect.h"
-#include "render/path/base_path.h"
+#include "render/path/path_reuse.h"
 
 #include <span>
 #include <vector>
@@ -32,7 +32,7 @@ struct SamplingSet {
     /// Counts how the shifts of base path k ended; none: no shift was tried.
     void count(std::span<const ShiftOutcome> outcomes, int k);
     /// What entry i got, without gradients.
-    PixelSample sample(int i) const;
+    PixelSample sample(int i, const PathReuse& reuse) const;
 };
 
 } // namespace tessera

@@ -16,7 +16,7 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 
         seen.direction.y[m] = dy * scale;
         seen.direction.z[m] = dz * scale;
         seen.geometry[m] = geometry;
-        seen.valid[m] = geometry > 0 ? asked[m] : 0; // not at no distance: 0 / 0 is not above 0
+        seen.valid[m] = (geometry > 0) & (distance2 > 0) ? asked[m] : 0;
     }
 }
 

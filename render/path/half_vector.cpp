@@ -6,9 +6,10 @@ namespace {
 
 /// Turns v by the shortest arc from one unit vector to another, not to its opposite [Rodrigues].
 glm::vec3 turn(glm::vec3 from, glm::vec3 to, glm::vec3 v) {
-    const float cosine = glm::dot(from, to);
+    const glm::vec3 sum = from + to; // nearly exact where they are nearly opposite
+    const float one_and_cosine = 0.5f * glm::dot(sum, sum);
     const glm::vec3 axis = glm::cross(from, to);
-    return cosine * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1 + cosine));
+    return (one_and_cosine - 1) * v + glm::cross(axis, v) + axis * (glm::dot(axis, v) / one_and_cosine);
 }
 
 /// From here normals are turned to: any direction, as long as it is the same for all.
@@ -33,7 +34,8 @@ glm::vec3 from_pole(glm::vec3 normal, glm::vec3 v) {
 /// normals in any way, and half vectors of neighbours would then point anywhere. All pixels of a sampling set must
 /// agree on the light path that each of them sees: by way of a third one it must be the same. So the turn goes
 /// from the base's normal to a pole and on to the offset's; shortest arcs from normal to normal would add up to
-/// another one on the way round a triangle. The angle to the normal is kept.
+/// another one on the way round a triangle. The angle to the normal is kept. (Normals far from the pole are
+/// twisted by more: there, half vectors of neighbours on curved surfaces agree less, which is noise, not bias.)
 glm::vec3 carry(const Frame& base, const Frame& offset, glm::vec3 local) {
     glm::vec3 result = offset.to_local(from_pole(offset.normal, to_pole(base.normal, base.to_world(local))));
     result.z = local.z;

@@ -15,6 +15,8 @@ EdgeGroup& PendingEdges::add(int first_slot, int end_slot) {
     EdgeGroup& group = *groups_[used_++];
     group.first_slot = first_slot;
     group.end_slot = end_slot;
+    for (int m = 0; m < padded(offsets_); ++m)
+        group.exists[m] = 0;
     return group;
 }
 

@@ -23,7 +23,7 @@ class PendingEdges {
 public:
     void reset(int offsets);
 
-    /// A group to be filled in. Old references end here.
+    /// A group to be filled in: none exists as yet.
     EdgeGroup& add(int first_slot, int end_slot);
 
     /// Traces all edges; says in which lanes something was lost.

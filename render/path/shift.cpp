@@ -11,11 +11,12 @@ void Shift::run(const BasePath& base, const LightPaths& light, const OffsetVerti
     paths_ = &paths;
     edges_ = &edges;
     outcomes_ = &outcomes;
-    start(primary, self);
-    walk();
+    if (start(primary, self))
+        walk();
 }
 
-void Shift::start(const OffsetVertices& primary, int self) {
+/// False: there is nothing to shift to.
+bool Shift::start(const OffsetVertices& primary, int self) {
     y_ = &primary;
     for (int m = 0; m < padded(primary.count()); ++m) {
         active_[m] = primary.exists[m];
@@ -25,6 +26,10 @@ void Shift::start(const OffsetVertices& primary, int self) {
         (*outcomes_)[m] = primary.exists[m] ? ShiftOutcome::ok : ShiftOutcome::outside;
     if (self >= 0)
         active_[self] = 0;
+    std::int32_t any = 0;
+    for (int m = 0; m < padded(primary.count()); ++m)
+        any |= active_[m];
+    return any != 0;
 }
 
 /// Goes along the base path, x_1, x_2, ... (vertices 0, 1, ...), and takes the offsets along.
@@ -99,12 +104,9 @@ void Shift::shift_lights(int i) {
             continue;
         }
         EdgeGroup* edges = replays() ? &edges_->add(first + sample, first + sample + 1) : nullptr;
-        for (int m = 0; m < y_->count(); ++m) {
-            if (edges)
-                edges->exists[m] = 0;
+        for (int m = 0; m < y_->count(); ++m)
             if (asked_[m])
                 edges ? replay_light(i, sample, m, *edges) : bounce_to_light(i, sample, m);
-        }
     }
 }
 
@@ -116,12 +118,12 @@ void Shift::connect_light(int i, int sample) {
     y_->evaluate(seen_.direction, seen_.valid, bsdf_);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
-    const float bsdf_counts = x.light.can_be_hit() ? 1 : 0;
+    const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.pdf_w / x.pdf_sum;
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float pdf_sum = bsdf_.pdf_w[m] * bsdf_counts + arriving_.pdf_w[m];
         // The pdf of the light's point is the same for all, so the ratio of the solid angles, the Jacobian, is the
         // inverse of that of the pdfs per solid angle.
-        const float scale = x.pdf_w / (arriving_.pdf_w[m] * x.pdf_sum);
+        const float scale = share / arriving_.pdf_w[m];
         const float density = seen_.valid[m] ? prefix_.density[m] * pdf_sum * scale : 0.0f;
         row.set(m, density,
                 {prefix_.value.x[m] * bsdf_.f_cos.x[m] * arriving_.radiance.x[m] * scale,

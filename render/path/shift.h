@@ -41,7 +41,7 @@ private:
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
     bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
 
-    void start(const OffsetVertices& primary, int self);
+    bool start(const OffsetVertices& primary, int self);
     void walk();
     void ask_for_kind(bool connectable);
     void note_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);

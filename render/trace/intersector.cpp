@@ -277,8 +277,9 @@ void Intersector::occluded(const SegmentLanes& segments, const LaneMask& asked, 
         for (int lane = 0; lane < packet_size; ++lane) {
             const int m = start + lane;
             const bool sound = set_ray(packet, lane, segments, m);
-            valid[lane] = sound ? asked[m] : 0;
-            blocked[m] = sound ? 0 : asked[m];
+            const int wanted = m < count ? asked[m] : 0;
+            valid[lane] = sound ? wanted : 0;
+            blocked[m] = sound ? 0 : wanted;
             any |= valid[lane] != 0;
         }
         if (!any)
