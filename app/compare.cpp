@@ -3,7 +3,6 @@
 #include "recon/metrics.h"
 #include "render/load/exr.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -19,20 +18,8 @@ struct Comparison {
     std::optional<FloorFreeError> floor_free;
 };
 
-const RgbImage* find_layer(const ExrFile& file, const std::string& name) {
-    const auto has_name = [&](const ExrLayer& layer) { return layer.name == name; };
-    const auto found = std::find_if(file.layers.begin(), file.layers.end(), has_name);
-    return found == file.layers.end() ? nullptr : &found->image;
-}
-
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
-    const ExrFile file = read_exr(path);
-    if (const RgbImage* image = find_layer(file, name))
-        return *image;
-    std::string message = path.string() + " has no layer \"" + name + "\", only:";
-    for (const ExrLayer& layer : file.layers)
-        message += " \"" + layer.name + "\"";
-    throw std::runtime_error(message);
+    return require_layer(read_exr(path), name, path);
 }
 
 RgbImage read_reference(const std::filesystem::path& path, const std::string& layer) {

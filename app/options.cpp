@@ -6,6 +6,7 @@
 #include "app/info.h"
 #include "app/load_notes.h"
 #include "app/option_values.h"
+#include "app/reconstruct_options.h"
 #include "app/render.h"
 #include "app/setting_options.h"
 #include "app/sweep.h"
@@ -240,9 +241,11 @@ int run_command_line(int argc, char** argv) {
     SweepOptions sweep_options;
     CompareOptions compare_options;
     ViewOptions view_options;
+    ReconstructWords reconstruct_words;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
     add_sweep(app, sweep_words, sweep_options);
+    add_reconstruct(app, reconstruct_words);
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
     add_scene(info, info_words, true);
@@ -252,9 +255,11 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
     if (app.get_subcommands().empty())
-        throw BadInput("no command was given: view, render, sweep, compare or info (tessera --help)");
+        throw BadInput("no command was given: view, render, reconstruct, sweep, compare or info (tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
+    if (app.got_subcommand("reconstruct"))
+        return run_reconstruct(parse_reconstruct(reconstruct_words));
     if (app.got_subcommand("sweep"))
         return sweep(*app.get_subcommand("sweep"), sweep_words, sweep_options);
     if (app.got_subcommand("view"))

@@ -4,18 +4,13 @@
 #include "app/interrupt.h"
 #include "app/load_notes.h"
 #include "app/output_file.h"
-#include "app/process_usage.h"
 #include "app/progress.h"
+#include "app/reconstruction_layers.h"
 #include "app/stats.h"
-#include "render/load/exr.h"
-#include "render/load/png.h"
 #include "render/method/settings_table.h"
 #include "render/session/render.h"
 
 #include <algorithm>
-#include <cctype>
-#include <chrono>
-#include <fstream>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -69,29 +64,11 @@ RgbImage gray(const Image<float>& map) {
     return image;
 }
 
-/// What is to be written. Nothing is kept that is not: a picture takes more memory here than many a scene.
-ExrFile assemble(const RenderOptions& options, Render& render, std::vector<ReconstructionStats>& recon,
-                 const std::vector<Norm>& norms, ThreadPool& pool) {
-    const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
-    GradientImages images = render.take_images();
-    ExrFile file;
-    const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
-        pool.parallel_for(count, [&body](int i, int) { body(i); });
-    };
-    for (Norm norm : norms) {
-        const double cpu = process_cpu_seconds();
-        Reconstruction r = reconstruct(images, {norm, options.alpha}, parallel_for);
-        recon.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
-        file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
-    }
-    if (!options.buffers)
-        return file;
-    file.layers.push_back({"primal", std::move(images.primal)});
-    if (images.has_gradients()) {
-        file.layers.push_back({"dx", std::move(images.dx)});
-        file.layers.push_back({"dy", std::move(images.dy)});
-    }
-    file.layers.push_back({"direct", std::move(images.very_direct)});
+/// What is to be written.
+ExrFile assemble(const ReconstructionLayers& wanted, Render& render, std::vector<ReconstructionStats>& recon,
+                 ThreadPool& pool) {
+    const ReuseMaps maps = wanted.buffers ? render.reuse_maps() : ReuseMaps{};
+    ExrFile file = reconstruct_layers(render.take_images(), wanted, pool, recon);
     if (!maps.reused.empty()) {
         file.layers.push_back({"reused", gray(maps.reused)});
         file.layers.push_back({"failed", gray(maps.failed)});
@@ -101,24 +78,10 @@ ExrFile assemble(const RenderOptions& options, Render& render, std::vector<Recon
 
 } // namespace
 
-/// Whether the picture is all that is written.
-bool writes_png(const RenderOptions& options) {
-    std::string extension = options.output.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".png" && extension != ".exr")
-        throw BadInput(fmt::format("{}: the name must end in .exr or .png", options.output.string()));
-    if (extension == ".png" && (options.buffers || options.norms.size() > 1))
-        throw BadInput(
-            fmt::format("{}: a PNG file holds one picture; buffers and several reconstructions take EXR",
-                        options.output.string()));
-    return extension == ".png";
-}
-
 int run_render(const RenderOptions& options) {
     check(options.settings);
     check_writable(options.output);
-    const bool png = writes_png(options);
+    check_picture_name(options.output, {options.norms, options.alpha, options.buffers});
     if (!options.stats.empty())
         check_writable(options.stats);
     ThreadPool pool(options.threads);
@@ -133,14 +96,11 @@ int run_render(const RenderOptions& options) {
         fmt::print(stderr, "warning: {}\n", warning);
 
     std::vector<ReconstructionStats> recon;
-    ExrFile file = assemble(options, render, recon, plan.norms, pool);
+    ExrFile file = assemble({plan.norms, options.alpha, options.buffers}, render, recon, pool);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};
-    if (png)
-        write_png(options.output, file.layers.front().image);
-    else
-        write_exr(options.output, file);
+    write_picture(options.output, file);
     if (!options.stats.empty())
         write_text(options.stats,
                    stats_json(settings, opened, render, pool.size(), recon, interrupted()).dump(2) + "\n");

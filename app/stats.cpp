@@ -66,8 +66,7 @@ json counters_json(const Counters& c) {
 
 } // namespace
 
-json stats_json(const json& settings, const OpenedScene& opened, const Render& render, int threads,
-                const std::vector<ReconstructionStats>& reconstructions, bool interrupted) {
+json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions) {
     json recon = json::array();
     for (const ReconstructionStats& r : reconstructions)
         recon.push_back({{"norm", to_string(r.norm)},
@@ -75,6 +74,11 @@ json stats_json(const json& settings, const OpenedScene& opened, const Render& r
                          {"cpu", r.cpu_seconds},
                          {"iterations", r.iterations},
                          {"residual", r.residual}});
+    return recon;
+}
+
+json stats_json(const json& settings, const OpenedScene& opened, const Render& render, int threads,
+                const std::vector<ReconstructionStats>& reconstructions, bool interrupted) {
     json stats{
         {"settings", settings},
         {"threads", threads},
@@ -83,7 +87,7 @@ json stats_json(const json& settings, const OpenedScene& opened, const Render& r
          {{"load", {{"wall", opened.parse_seconds + opened.file_seconds}, {"cpu", opened.load_cpu_seconds}}},
           {"bvh", {{"wall", opened.bvh_seconds}, {"cpu", opened.bvh_cpu_seconds}}},
           {"render", {{"wall", render.seconds()}, {"cpu", render.cpu_seconds()}}},
-          {"reconstruct", recon}}},
+          {"reconstruct", reconstructions_json(reconstructions)}}},
         {"peak_memory", peak_memory_bytes()},
         {"spp", render.spp()}};
     stats.update(counters_json(render.counters()));

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/reconstruction_layers.h"
 #include "app/scene_source.h"
-#include "recon/reconstruct.h"
 #include "render/session/render.h"
 
 #include <vector>
@@ -10,16 +10,12 @@
 
 namespace tessera {
 
-struct ReconstructionStats {
-    Norm norm;
-    double seconds, cpu_seconds;
-    int iterations;
-    double residual;
-};
-
 /// Everything that decides the picture: goes into the header of every image and into the stats.
 nlohmann::json settings_json(const SceneSource& scene, const RenderSettings& settings, glm::ivec2 size, int spp,
                              float alpha);
+
+/// An array of what each cost.
+nlohmann::json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions);
 
 /// The contents of --stats: times in seconds, memory in bytes.
 nlohmann::json stats_json(const nlohmann::json& settings, const OpenedScene& opened, const Render& render,

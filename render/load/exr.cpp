@@ -3,6 +3,7 @@
 #include "render/load/image_files.h"
 #include "render/load/temporary_file.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
@@ -124,6 +125,21 @@ ExrFile read_layers(const std::filesystem::path& path) {
 }
 
 } // namespace
+
+const RgbImage* find_layer(const ExrFile& file, const std::string& name) {
+    const auto has_name = [&](const ExrLayer& layer) { return layer.name == name; };
+    const auto found = std::find_if(file.layers.begin(), file.layers.end(), has_name);
+    return found == file.layers.end() ? nullptr : &found->image;
+}
+
+const RgbImage& require_layer(const ExrFile& file, const std::string& name, const std::filesystem::path& path) {
+    if (const RgbImage* image = find_layer(file, name))
+        return *image;
+    std::string message = path.string() + " has no layer \"" + name + "\", only:";
+    for (const ExrLayer& layer : file.layers)
+        message += " \"" + layer.name + "\"";
+    throw std::runtime_error(message);
+}
 
 void write_exr(const std::filesystem::path& path, const ExrFile& file) {
     try {

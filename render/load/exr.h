@@ -21,6 +21,13 @@ struct ExrFile {
     std::map<std::string, std::string> attributes;
 };
 
+/// The layer of that name; null: there is none.
+const RgbImage* find_layer(const ExrFile& file, const std::string& name);
+
+/// The layer of that name of a file read from `path`. Throws std::runtime_error that names the file and the layers
+/// there are.
+const RgbImage& require_layer(const ExrFile& file, const std::string& name, const std::filesystem::path& path);
+
 /// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
 void write_exr(const std::filesystem::path& path, const ExrFile& file);
 

@@ -19,13 +19,6 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 // No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
 constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
 
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 /// Dark where the file holds what is no light, so that it cannot spread.
 Rgb finite(Rgb c) {
     for (int i = 0; i < 3; ++i)
@@ -87,6 +80,13 @@ Bitmap read_stb_bitmap(const std::filesystem::path& file, bool srgb) {
 }
 
 } // namespace
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
 
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
     const std::string size = std::to_string(width) + " by " + std::to_string(height) + " pixels";

@@ -1,10 +1,14 @@
 #include "render/load/mesh_files.h"
 
 #include <stdexcept>
+#include <system_error>
 
 namespace tessera {
 
 std::ifstream open_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) // opens as a file does, and is then of endless size
+        throw std::runtime_error("it is a folder, not a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw std::runtime_error("the file cannot be opened");

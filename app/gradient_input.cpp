@@ -1,0 +1,121 @@
+#include "app/gradient_input.h"
+
+#include "app/exit_codes.h"
+#include "render/load/exr.h"
+#include "render/load/image_files.h"
+#include "render/load/pfm_file.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// An image and what to call it in messages.
+struct NamedImage {
+    std::string name;
+    RgbImage image;
+};
+
+/// In the order of the command line; very direct light may be missing.
+using Buffers = std::vector<NamedImage>;
+
+Buffers read_layers(const std::filesystem::path& path, std::map<std::string, std::string>& attributes) {
+    if (extension_of(path) != ".exr")
+        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers primal, dx and dy; or give "
+                                   "three or four files: primal, dx, dy and very direct",
+                                   path.string()));
+    const ExrFile file = read_exr(path);
+    for (const auto& [name, text] : file.attributes)
+        if (name.starts_with("tessera:"))
+            attributes[name] = text;
+    Buffers buffers;
+    for (const char* name : {"primal", "dx", "dy", "direct"})
+        if (find_layer(file, name) || std::string(name) != "direct")
+            buffers.push_back({fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)});
+    return buffers;
+}
+
+RgbImage read_image(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    if (extension == ".pfm")
+        return read_pfm(path);
+    if (extension == ".exr")
+        return require_layer(read_exr(path), "", path);
+    throw BadInput(fmt::format("{}: the name must end in .exr or .pfm", path.string()));
+}
+
+std::string text_of_size(const RgbImage& image) {
+    return fmt::format("{}x{}", image.width(), image.height());
+}
+
+/// Brings `buffer` to the primal's size, where it may lack `columns` and `rows` at the end: these are made 0
+/// whether they are there or not, as they mean nothing.
+void fit(NamedImage& buffer, const NamedImage& primal, int columns, int rows) {
+    RgbImage& image = buffer.image;
+    const int width = primal.image.width(), height = primal.image.height();
+    const bool is_whole = image.width() == width && image.height() == height;
+    if (!is_whole && (image.width() != width - columns || image.height() != height - rows))
+        throw BadInput(fmt::format("sizes differ: {} is {}, {} is {}", primal.name, text_of_size(primal.image),
+                                   buffer.name, text_of_size(image)));
+    RgbImage fitted(width, height, Rgb(0));
+    for (int y = 0; y < height - rows; ++y)
+        std::copy_n(image.row(y), width - columns, fitted.row(y));
+    image = std::move(fitted);
+}
+
+/// Returns how many pixels were not finite.
+std::size_t make_finite(NamedImage& buffer, bool repair) {
+    if (const std::string bad = text_of_bad_pixel(buffer.image); !bad.empty() && !repair)
+        throw BadInput(
+            fmt::format("{}: {}, which is not finite; --repair takes such pixels as 0", buffer.name, bad));
+    std::size_t count = 0;
+    for (Rgb& pixel : buffer.image)
+        if (!is_finite(pixel)) {
+            pixel = Rgb(0);
+            ++count;
+        }
+    return count;
+}
+
+} // namespace
+
+std::string text_of_bad_pixel(const RgbImage& image) {
+    const auto bad = std::find_if_not(image.begin(), image.end(), is_finite);
+    if (bad == image.end())
+        return {};
+    const auto index = bad - image.begin();
+    return fmt::format("pixel ({}, {}) is ({}, {}, {})", index % image.width(), index / image.width(), bad->r,
+                       bad->g, bad->b);
+}
+
+GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bool repair) {
+    if (files.size() != 1 && files.size() != 3 && files.size() != 4)
+        throw BadInput(fmt::format("{} inputs were given: one EXR file with layers primal, dx and dy, or three or "
+                                   "four files are needed: primal, dx, dy and very direct",
+                                   files.size()));
+    GradientInput input;
+    Buffers buffers;
+    if (files.size() == 1)
+        buffers = read_layers(files.front(), input.attributes);
+    else
+        for (const std::filesystem::path& file : files)
+            buffers.push_back({file.string(), read_image(file)});
+    fit(buffers[1], buffers[0], 1, 0);
+    fit(buffers[2], buffers[0], 0, 1);
+    if (buffers.size() == 4)
+        fit(buffers[3], buffers[0], 0, 0);
+    for (NamedImage& buffer : buffers)
+        input.repaired += make_finite(buffer, repair);
+    input.images.primal = std::move(buffers[0].image);
+    input.images.dx = std::move(buffers[1].image);
+    input.images.dy = std::move(buffers[2].image);
+    if (buffers.size() == 4)
+        input.images.very_direct = std::move(buffers[3].image);
+    return input;
+}
+
+} // namespace tessera

@@ -1,0 +1,63 @@
+#include "app/reconstruction_layers.h"
+
+#include "app/exit_codes.h"
+#include "app/process_usage.h"
+#include "render/load/image_files.h"
+#include "render/load/png.h"
+
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// Adds the image as a layer, if there is one.
+void add_layer(ExrFile& file, std::string name, RgbImage& image) {
+    if (!image.empty())
+        file.layers.push_back({std::move(name), std::move(image)});
+}
+
+} // namespace
+
+void check_picture_name(const std::filesystem::path& output, const ReconstructionLayers& wanted) {
+    const std::string extension = extension_of(output);
+    if (extension != ".png" && extension != ".exr")
+        throw BadInput(fmt::format("{}: the name must end in .exr or .png", output.string()));
+    if (extension == ".png" && (wanted.buffers || wanted.norms.size() > 1))
+        throw BadInput(fmt::format(
+            "{}: a PNG file holds one picture; buffers and several reconstructions take EXR", output.string()));
+}
+
+// Nothing is kept that is not to be written: a picture takes more memory here than many a scene.
+ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
+                           std::vector<ReconstructionStats>& stats) {
+    ExrFile file;
+    const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
+        pool.parallel_for(count, [&body](int i, int) { body(i); });
+    };
+    for (Norm norm : wanted.norms) {
+        const double cpu = process_cpu_seconds();
+        Reconstruction r = reconstruct(images, {norm, wanted.alpha}, parallel_for);
+        stats.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
+        file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
+    }
+    if (wanted.buffers) {
+        add_layer(file, "primal", images.primal);
+        add_layer(file, "dx", images.dx);
+        add_layer(file, "dy", images.dy);
+        add_layer(file, "direct", images.very_direct);
+    }
+    return file;
+}
+
+void write_picture(const std::filesystem::path& output, const ExrFile& file) {
+    if (extension_of(output) == ".png")
+        write_png(output, file.layers.front().image);
+    else
+        write_exr(output, file);
+}
+
+} // namespace tessera

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "recon/image.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace tessera {
+
+/// Portable float map, colour ("PF") or grey ("Pf", repeated in all channels), of either byte order; its rows,
+/// which go from the bottom up, come out from the top down. The size of the scale is passed over, as its sign
+/// alone has a meaning to all programs. Throws std::runtime_error that names the file.
+RgbImage read_pfm(const std::filesystem::path& path);
+
+/// The same for the bytes of a file; the error names none.
+RgbImage parse_pfm(std::string_view bytes);
+
+} // namespace tessera

@@ -1,0 +1,254 @@
+// `tessera reconstruct`: the solver alone, on saved buffers of this program and of others.
+#include "render/load/exr.h"
+#include "tests/app/program.h"
+#include "tests/load/pfm_bytes.h"
+#include "tests/load/temporary_folder.h"
+#include "tests/recon/test_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The image's columns and rows from the first up to that size.
+RgbImage cut(const RgbImage& image, int width, int height) {
+    RgbImage result(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            result(x, y) = image(x, y);
+    return result;
+}
+
+bool same_pixels(const RgbImage& a, const RgbImage& b) {
+    return a.width() == b.width() && std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+class Reconstruct : public testing::Test {
+protected:
+    fs::path file(const std::string& name) const { return folder.path() / name; }
+    fs::path write(const std::string& name, const RgbImage& contents) const {
+        return folder.write(name, pfm_bytes(contents));
+    }
+    Outcome reconstruct(const std::string& arguments) const {
+        return run(folder.path(), "reconstruct " + arguments);
+    }
+
+    /// The plain RGB of out.exr, as these arguments make it.
+    RgbImage result_of(const std::string& arguments) const {
+        fs::remove(file("out.exr"));
+        const Outcome o = reconstruct(arguments + " -o out.exr");
+        EXPECT_EQ(o.exit_code, 0) << arguments << "\n" << o.output;
+        return o.exit_code == 0 ? *find_layer(read_exr(file("out.exr")), "") : RgbImage(width, height);
+    }
+
+    static constexpr int width = 13, height = 9;
+    TemporaryFolder folder;
+    // With exact gradients any norm and alpha give the image back.
+    const RgbImage image = random_image(width, height, 1, 3);
+    const RgbImage dx = x_differences(image), dy = y_differences(image);
+};
+
+TEST_F(Reconstruct, OfSavedBuffersEqualsTheRendersOwn) {
+    fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", file("box.xml"));
+    const Outcome render =
+        run(folder.path(), "render box.xml -m gpr --size 40x30 --spp 2 --recon l2,l1 --alpha 0.3 "
+                           "--buffers -o buffers.exr");
+    ASSERT_EQ(render.exit_code, 0) << render.output;
+    const Outcome o =
+        reconstruct("buffers.exr --recon l1,l2,none --alpha 0.3 --buffers -o out.exr --stats out.json");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    const ExrFile expected = read_exr(file("buffers.exr")), found = read_exr(file("out.exr"));
+    const auto difference = [&](const std::string& layer, const std::string& other) {
+        return relative_difference(require_layer(found, layer, "out.exr"),
+                                   require_layer(expected, other, "buffers.exr"));
+    };
+    EXPECT_LT(difference("l2", ""), 1e-6);
+    EXPECT_LT(difference("", "l1"), 1e-6);
+    EXPECT_GT(difference("l2", "l1"), 1e-3);
+    for (const char* name : {"primal", "dx", "dy", "direct"})
+        EXPECT_TRUE(same_pixels(*find_layer(found, name), *find_layer(expected, name))) << name;
+    EXPECT_EQ(found.attributes.at("tessera:settings"), expected.attributes.at("tessera:settings"));
+    const auto settings = nlohmann::json::parse(found.attributes.at("tessera:reconstruction"));
+    EXPECT_EQ(settings["inputs"], nlohmann::json::array({"buffers.exr"}));
+    EXPECT_EQ(settings["norms"], nlohmann::json::array({"l1", "l2", "none"}));
+
+    const auto stats = nlohmann::json::parse(std::ifstream(file("out.json")));
+    EXPECT_EQ(stats["settings"], settings);
+    ASSERT_EQ(stats["seconds"]["reconstruct"].size(), 3u);
+    EXPECT_EQ(stats["seconds"]["reconstruct"][1]["norm"], "l2");
+    EXPECT_TRUE(stats["seconds"]["load"]["cpu"].is_number());
+}
+
+TEST_F(Reconstruct, ThreeOrFourFilesOfAnyProgram) {
+    // A primal with a mistake that the gradients do not have.
+    RgbImage primal = image;
+    primal(4, 5) += Rgb(1000);
+    write("p.pfm", primal);
+    write("dx.pfm", dx);
+    write_exr(file("dy.exr"), {{{"", dy}}, {}});
+    write("direct.pfm", RgbImage(width, height, Rgb(0, 0, 50)));
+    const RgbImage three = result_of("p.pfm dx.pfm dy.exr");
+    EXPECT_LT(std::abs(three(4, 5).r - image(4, 5).r), 100); // 1000 in the primal
+    EXPECT_EQ(result_of("p.pfm dx.pfm dy.exr --recon none")(4, 5), primal(4, 5));
+    const RgbImage four = result_of("p.pfm dx.pfm dy.exr direct.pfm");
+    for (std::size_t i = 0; i < four.size(); ++i)
+        EXPECT_EQ(four.data()[i], three.data()[i] + Rgb(0, 0, 50));
+    const RgbImage named = result_of("--dy dy.exr --primal p.pfm --direct direct.pfm --dx dx.pfm");
+    EXPECT_TRUE(same_pixels(named, four));
+}
+
+TEST_F(Reconstruct, ExactGradientsGiveTheImageBack) {
+    write("p.pfm", image);
+    write("dx.pfm", dx);
+    write("dy.pfm", dy);
+    for (const char* arguments : {"", " --recon l1", " --alpha 0.01", " --threads 2"})
+        EXPECT_LT(relative_difference(result_of(std::string("p.pfm dx.pfm dy.pfm") + arguments), image), 1e-5)
+            << arguments;
+    // Differences that mean something else do not.
+    EXPECT_GT(relative_difference(result_of("p.pfm dy.pfm dx.pfm"), image), 1e-2);
+}
+
+// The last column of dx and the last row of dy mean nothing: they may be missing, or hold anything.
+TEST_F(Reconstruct, LastColumnAndRowMayBeMissing) {
+    write("p.pfm", image);
+    write("narrow.pfm", cut(dx, width - 1, height));
+    write("low.pfm", cut(dy, width, height - 1));
+    RgbImage odd_dx = dx, odd_dy = dy;
+    for (int y = 0; y < height; ++y)
+        odd_dx(width - 1, y) = Rgb(NAN);
+    for (int x = 0; x < width; ++x)
+        odd_dy(x, height - 1) = Rgb(77);
+    write("odd_dx.pfm", odd_dx);
+    write("odd_dy.pfm", odd_dy);
+    for (const char* arguments :
+         {"p.pfm narrow.pfm low.pfm", "p.pfm odd_dx.pfm odd_dy.pfm", "p.pfm narrow.pfm odd_dy.pfm"})
+        EXPECT_LT(relative_difference(result_of(arguments), image), 1e-5) << arguments;
+}
+
+TEST_F(Reconstruct, RepairsWhatIsNotFinite) {
+    RgbImage holes = image;
+    holes(3, 2) = Rgb(1, NAN, 1);
+    holes(12, 8) = Rgb(-INFINITY, 0, 0);
+    write("p.pfm", holes);
+    write("dx.pfm", dx);
+    write("dy.pfm", dy);
+    const Outcome refused = reconstruct("p.pfm dx.pfm dy.pfm -o out.exr");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.output.find("p.pfm: pixel (3, 2) is (1, nan, 1)"), std::string::npos) << refused.output;
+    const Outcome repaired = reconstruct("p.pfm dx.pfm dy.pfm --repair --recon none --buffers -o out.exr");
+    ASSERT_EQ(repaired.exit_code, 0) << repaired.output;
+    EXPECT_NE(repaired.output.find("taken as 0: 2"), std::string::npos) << repaired.output;
+    holes(3, 2) = holes(12, 8) = Rgb(0);
+    const ExrFile out = read_exr(file("out.exr"));
+    EXPECT_TRUE(same_pixels(*find_layer(out, ""), holes));
+    EXPECT_EQ(find_layer(out, "direct"), nullptr);
+}
+
+TEST_F(Reconstruct, OfLayersAddsDirectLightAndPassesOverThePlainPicture) {
+    const RgbImage direct(width, height, Rgb(50, 0, 7)), other(width, height, Rgb(1e6f));
+    write_exr(file("b.exr"),
+              {{{"", other}, {"primal", image}, {"dx", dx}, {"dy", dy}, {"direct", direct}, {"l1", other}}, {}});
+    RgbImage expected = image;
+    for (Rgb& pixel : expected)
+        pixel += Rgb(50, 0, 7);
+    EXPECT_LT(relative_difference(result_of("b.exr"), expected), 1e-5);
+}
+
+TEST_F(Reconstruct, WritesAPngAndReplacesItsInput) {
+    write_exr(file("b.exr"), {{{"primal", image}, {"dx", dx}, {"dy", dy}}, {}});
+    EXPECT_EQ(reconstruct("b.exr -o b.png").exit_code, 0);
+    EXPECT_GT(fs::file_size(file("b.png")), 0u);
+    ASSERT_EQ(reconstruct("b.exr -o b.exr").exit_code, 0);
+    EXPECT_LT(relative_difference(*find_layer(read_exr(file("b.exr")), ""), image), 1e-5);
+}
+
+TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
+    write("p.pfm", image);
+    write("dx.pfm", dx);
+    write("dy.pfm", dy);
+    write("small.pfm", RgbImage(3, 2));
+    write("narrow.pfm", cut(dx, width - 1, height));
+    write("huge.pfm", RgbImage(width, height, Rgb(3e38f)));
+    folder.write("cut.pfm", pfm_bytes(image).substr(0, 300));
+    folder.write("text.pfm", "no image");
+    folder.write("text.exr", "no image");
+    folder.write("p.tiff", "II*");
+    RgbImage hole = dx;
+    hole(5, 1).g = NAN;
+    write("hole.pfm", hole);
+    write_exr(file("plain.exr"), {{{"", image}}, {}});
+    write_exr(file("primal.exr"), {{{"primal", image}, {"direct", image}}, {}});
+    write_exr(file("layers.exr"), {{{"primal", image}, {"dx", hole}, {"dy", dy}}, {}});
+    fs::create_directories(file("folder.pfm"));
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"", "0 inputs"},
+        {"p.pfm dx.pfm", "2 inputs"},
+        {"p.pfm dx.pfm dy.pfm p.pfm p.pfm", "5 inputs"},
+        {"p.pfm", "p.pfm: a single input must be an EXR file with layers"},
+        {"missing.exr", "missing.exr"},
+        {"text.exr", "text.exr"},
+        {"plain.exr", "plain.exr has no layer \"primal\", only: \"\""},
+        {"primal.exr", "primal.exr has no layer \"dx\""},
+        {"layers.exr", "layers.exr, layer dx: pixel (5, 1)"},
+        {"primal.exr dx.pfm dy.pfm", "primal.exr has no layer \"\""},
+        {"missing.pfm dx.pfm dy.pfm", "missing.pfm"},
+        {"p.pfm text.pfm dy.pfm", "text.pfm: it is not a PFM file"},
+        {"cut.pfm dx.pfm dy.pfm", "cut.pfm: it has"},
+        {"folder.pfm dx.pfm dy.pfm", "folder.pfm: it is a folder"},
+        {"p.tiff dx.pfm dy.pfm", "p.tiff: the name must end in .exr or .pfm"},
+        {"p.pfm small.pfm dy.pfm", "p.pfm is 13x9, small.pfm is 3x2"},
+        {"p.pfm dx.pfm narrow.pfm", "p.pfm is 13x9, narrow.pfm is 12x9"},
+        {"p.pfm dx.pfm dy.pfm narrow.pfm", "p.pfm is 13x9, narrow.pfm is 12x9"},
+        {"p.pfm hole.pfm dy.pfm", "hole.pfm: pixel (5, 1)"},
+        {"huge.pfm huge.pfm huge.pfm", "too large"},
+        {"--primal p.pfm --dx dx.pfm", "--dy"},
+        {"--direct p.pfm", "--primal"},
+        {"p.pfm dx.pfm dy.pfm --direct p.pfm", "--direct"},
+        {"p.pfm dx.pfm dy.pfm --recon l3", "l3"},
+        {"p.pfm dx.pfm dy.pfm --alpha 0", "--alpha"},
+        {"p.pfm dx.pfm dy.pfm --threads -1", "--threads"},
+        {"p.pfm dx.pfm dy.pfm --stats no/such/stats.json", "no/such"},
+    };
+    for (const auto& [arguments, expected] : cases) {
+        const Outcome o = reconstruct(arguments + " -o out.exr");
+        EXPECT_EQ(o.exit_code, 2) << arguments << "\n" << o.output;
+        EXPECT_NE(o.output.find(expected), std::string::npos) << arguments << "\n" << o.output;
+        EXPECT_FALSE(fs::exists(file("out.exr"))) << arguments;
+    }
+    for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+             {"p.pfm dx.pfm dy.pfm", "--output"},
+             {"p.pfm dx.pfm dy.pfm -o out.tiff", "must end in .exr or .png"},
+             {"p.pfm dx.pfm dy.pfm -o out.png --buffers", "holds one picture"},
+             {"p.pfm dx.pfm dy.pfm -o no/such/out.exr", "no/such"}}) {
+        const Outcome o = reconstruct(arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments << "\n" << o.output;
+        EXPECT_NE(o.output.find(expected), std::string::npos) << arguments << "\n" << o.output;
+    }
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+    }
+}
+
+TEST_F(Reconstruct, HelpSaysWhatTheGradientsAre) {
+    const Outcome o = reconstruct("--help");
+    EXPECT_EQ(o.exit_code, 0);
+    for (const char* expected : {"dx(x,y) = I(x+1,y) - I(x,y)", "dy(x,y) = I(x,y+1) - I(x,y)", "downward"})
+        EXPECT_NE(o.output.find(expected), std::string::npos) << o.output;
+}
+
+} // namespace
+
+} // namespace tessera::test
