@@ -35,7 +35,7 @@ std::vector<Norm> parse_norms(const std::string& text) {
     for (const std::string& name : CLI::detail::split(text, ',')) {
         const std::optional<Norm> norm = norm_from_name(name);
         if (!norm)
-            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1", name));
+            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1, mixed", name));
         norms.push_back(*norm);
     }
     return norms;

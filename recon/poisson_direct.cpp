@@ -91,15 +91,30 @@ PoissonSolver::PoissonSolver(int width, int height)
 PoissonSolver::~PoissonSolver() = default;
 
 void PoissonSolver::solve(const PoissonProblem& problem, RgbImage& image, const ParallelFor& parallel_for) {
-    if (image.width() != width_ || image.height() != height_)
-        image = RgbImage(width_, height_);
-    prepare(problem.alpha);
-    solve_once(problem, Target::image, image, parallel_for);
+    prepare(problem.alpha, image);
+    const RowSource right_side = [&](int y, int begin, int end, float* out) {
+        poisson_right_side(problem, y, begin, end, out);
+    };
+    const RowSource defect = [&](int y, int begin, int end, float* out) {
+        poisson_defect(problem, image, y, begin, end, out);
+    };
+    solve_once(right_side, Target::image, image, parallel_for);
     for (int i = 0; i < refinements(problem.alpha); ++i)
-        solve_once(problem, Target::correction, image, parallel_for);
+        solve_once(defect, Target::correction, image, parallel_for);
 }
 
-void PoissonSolver::prepare(float alpha) {
+void PoissonSolver::solve(const RgbImage& right_side, float alpha, RgbImage& image,
+                          const ParallelFor& parallel_for) {
+    prepare(alpha, image);
+    const RowSource source = [&](int y, int begin, int end, float* out) {
+        std::copy(&right_side(begin, y).x, &right_side(begin, y).x + 3 * (end - begin), out);
+    };
+    solve_once(source, Target::image, image, parallel_for);
+}
+
+void PoissonSolver::prepare(float alpha, RgbImage& image) {
+    if (image.width() != width_ || image.height() != height_)
+        image = RgbImage(width_, height_);
     if (alpha == alpha_)
         return;
     const double alpha_squared = static_cast<double>(alpha) * alpha;
@@ -145,30 +160,23 @@ void PoissonSolver::for_each(int count, const ParallelFor& parallel_for, const B
     });
 }
 
-void PoissonSolver::solve_once(const PoissonProblem& problem, Target target, RgbImage& image,
+void PoissonSolver::solve_once(const RowSource& source, Target target, RgbImage& image,
                                const ParallelFor& parallel_for) {
     const int groups = (height_ + group_rows - 1) / group_rows;
-    const RgbImage* refined = target == Target::correction ? &image : nullptr;
-    for_each(groups, parallel_for,
-             [&](int i, Scratch& scratch) { rows_to_spectrum(problem, refined, i, scratch); });
+    for_each(groups, parallel_for, [&](int i, Scratch& scratch) { rows_to_spectrum(source, i, scratch); });
     parallel_for(columns_.blocks(), [&](int i) { columns_.solve(i, spectrum_.data() + i * block_size()); });
     if (dct_.size() > width_)
         add_border_source(parallel_for);
     for_each(groups, parallel_for, [&](int i, Scratch& scratch) { spectrum_to_rows(i, target, image, scratch); });
 }
 
-void PoissonSolver::rows_to_spectrum(const PoissonProblem& problem, const RgbImage* refined, int group,
-                                     Scratch& scratch) {
+void PoissonSolver::rows_to_spectrum(const RowSource& source, int group, Scratch& scratch) {
     const int first_row = group * group_rows;
     const int rows = std::min(group_rows, height_ - first_row);
     for (int x = 0; x < width_; x += chunk_pixels) {
         const int end = std::min(x + chunk_pixels, width_);
-        for (int l = 0; l < rows; ++l) {
-            if (refined)
-                poisson_defect(problem, *refined, first_row + l, x, end, scratch.chunk[l]);
-            else
-                poisson_right_side(problem, first_row + l, x, end, scratch.chunk[l]);
-        }
+        for (int l = 0; l < rows; ++l)
+            source(first_row + l, x, end, scratch.chunk[l]);
         for (int l = rows; l < group_rows; ++l)
             std::fill(std::begin(scratch.chunk[l]), std::end(scratch.chunk[l]), 0.0f);
         chunk_to_lines(scratch.chunk, dct_, x, end - x, scratch.channels);

@@ -5,6 +5,7 @@
 #include "recon/poisson_problem.h"
 #include "recon/tridiagonal.h"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -40,14 +41,19 @@ public:
     /// any parallel_for. Allocates in the first call and when alpha changes; one call at a time.
     void solve(const PoissonProblem& problem, RgbImage& image, const ParallelFor& parallel_for = serial_for);
 
+    /// The same for a right side b that is at hand, without refinement: for alpha >= 0.1.
+    void solve(const RgbImage& right_side, float alpha, RgbImage& image,
+               const ParallelFor& parallel_for = serial_for);
+
 private:
     struct Scratch;
     enum class Target { image, correction };
+    /// Writes pixels [begin, end) of row y of a right side to `out`, 3 values a pixel.
+    using RowSource = std::function<void(int y, int begin, int end, float* out)>;
 
-    void prepare(float alpha);
-    void solve_once(const PoissonProblem& problem, Target target, RgbImage& image,
-                    const ParallelFor& parallel_for);
-    void rows_to_spectrum(const PoissonProblem& problem, const RgbImage* refined, int group, Scratch& scratch);
+    void prepare(float alpha, RgbImage& image);
+    void solve_once(const RowSource& source, Target target, RgbImage& image, const ParallelFor& parallel_for);
+    void rows_to_spectrum(const RowSource& source, int group, Scratch& scratch);
     void write_spectra(ComplexLanes spectra, int channel, int group);
     void read_spectra(ComplexLanes spectra, int channel, int group) const;
     void spectrum_to_rows(int group, Target target, RgbImage& image, Scratch& scratch) const;

@@ -23,25 +23,22 @@ void add(RgbImage& sum, const RgbImage& image) {
         sum.data()[i] += image.data()[i];
 }
 
-/// All but very direct light and time.
-Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
-                     const ParallelFor& parallel_for, std::stop_token stop) {
-    Reconstruction result;
-    const PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
-    PoissonSolver solver(images.primal.width(), images.primal.height());
-    if (settings.norm == Norm::l1) {
-        result.iterations = solve_poisson_l1(problem, solver, result.image, parallel_for, stop);
-    } else {
-        solver.solve(problem, result.image, parallel_for);
-        result.residual = poisson_residual(problem, result.image, parallel_for);
-        result.iterations = 1;
-    }
-    if (stop.stop_requested())
-        result.image = {};
-    return result;
-}
-
 } // namespace
+
+/// The solvers of one size; each is made when it is first asked for.
+struct Reconstructor::Solvers {
+    int width, height;
+    std::optional<PoissonSolver> l2;
+    std::optional<L1Solver> l1;
+};
+
+Reconstructor::Reconstructor() = default;
+Reconstructor::~Reconstructor() = default;
+
+void Reconstructor::forget() {
+    if (solvers_ && solvers_->l1)
+        solvers_->l1->forget();
+}
 
 std::string_view to_string(Norm norm) {
     switch (norm) {
@@ -51,19 +48,46 @@ std::string_view to_string(Norm norm) {
         return "l2";
     case Norm::l1:
         return "l1";
+    case Norm::mixed:
+        return "mixed";
     }
     return "?";
 }
 
 std::optional<Norm> norm_from_name(std::string_view name) {
-    for (Norm norm : {Norm::none, Norm::l2, Norm::l1})
+    for (const Norm norm : all_norms)
         if (to_string(norm) == name)
             return norm;
     return {};
 }
 
-Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                           const ParallelFor& parallel_for, std::stop_token stop) {
+/// All but very direct light and time.
+Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
+                                    const ParallelFor& parallel_for, std::stop_token stop) {
+    const int width = images.primal.width(), height = images.primal.height();
+    if (!solvers_ || solvers_->width != width || solvers_->height != height)
+        solvers_ = std::make_unique<Solvers>(width, height);
+    const PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
+    Reconstruction result;
+    if (settings.norm == Norm::l2) {
+        if (!solvers_->l2)
+            solvers_->l2.emplace(width, height);
+        solvers_->l2->solve(problem, result.image, parallel_for);
+        result.residual = poisson_residual(problem, result.image, parallel_for);
+        result.iterations = 1;
+    } else {
+        if (!solvers_->l1)
+            solvers_->l1.emplace(width, height);
+        const L1Settings l1{.square_primal = settings.norm == Norm::mixed, .joint_colour = settings.joint_colour};
+        result.iterations = solvers_->l1->solve(problem, l1, result.image, parallel_for, stop);
+    }
+    if (stop.stop_requested())
+        result.image = {};
+    return result;
+}
+
+Reconstruction Reconstructor::reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
+                                          const ParallelFor& parallel_for, std::stop_token stop) {
     const auto start = std::chrono::steady_clock::now();
     check_sizes(images);
     if (settings.norm != Norm::none && !(settings.alpha > 0))
@@ -77,6 +101,11 @@ Reconstruction reconstruct(const GradientImages& images, const ReconstructionSet
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
+}
+
+Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
+                           const ParallelFor& parallel_for, std::stop_token stop) {
+    return Reconstructor().reconstruct(images, settings, parallel_for, stop);
 }
 
 } // namespace tessera

@@ -1,33 +1,63 @@
 #pragma once
 
+#include "recon/gradient_images.h"
+#include "recon/parallel.h"
+
+#include <array>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string_view>
 
-#include "recon/gradient_images.h"
-#include "recon/parallel.h"
-
 namespace tessera {
 
-enum class Norm { none, l2, l1 };
+/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4].
+enum class Norm { none, l2, l1, mixed };
 
-/// "none", "l2", "l1".
+/// All of them, in the order above.
+inline constexpr std::array all_norms = {Norm::none, Norm::l2, Norm::l1, Norm::mixed};
+
+/// "none", "l2", "l1", "mixed".
 std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
 
 struct ReconstructionSettings {
     Norm norm = Norm::l2;
-    float alpha = 0.2f; ///< weight of the primal image against its gradients, > 0
+    float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
+    bool joint_colour = true; ///< L1 and mixed: lengths of colours, not absolute values of each channel
 
     bool operator==(const ReconstructionSettings&) const = default;
 };
 
 struct Reconstruction {
-    RgbImage image;     ///< radiance, very direct light included; empty when stopped
-    double residual = 0;  ///< relative residual of the normal equations (L2)
-    int iterations = 0; ///< inner solves; 1 for L2, 0 for none
-    double seconds = 0; ///< wall time
+    RgbImage image;      ///< radiance, very direct light included; empty when stopped
+    double residual = 0; ///< relative residual of the normal equations (L2)
+    int iterations = 0;  ///< inner solves; 1 for L2, 0 for none
+    double seconds = 0;  ///< wall time
+};
+
+/// Reconstructs one image after the other, and keeps what the next can use: plans, memory, and where the L1 solver
+/// stood. One call at a time.
+class Reconstructor {
+public:
+    Reconstructor();
+    ~Reconstructor();
+
+    /// As the function below. If the last image was of this size, L1 and mixed start where it ended (a warm
+    /// start), which is right if it had the same scene and view and a few samples less.
+    Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
+                               const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+
+    /// The next image starts from nothing.
+    void forget();
+
+private:
+    struct Solvers;
+    Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
+                         const ParallelFor& parallel_for, std::stop_token stop);
+
+    std::unique_ptr<Solvers> solvers_; ///< for the size of the last image
 };
 
 /// The image whose gradients are (dx, dy) and whose values are the primal's, as nearly as the norm and alpha

@@ -56,11 +56,14 @@ bool draw_method_settings(Controls& controls, const ViewerState& state, bool rar
 }
 
 bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& settings) {
-    static const std::array<ChoiceItem, 3> norms = {{
+    static const std::array<ChoiceItem, 4> norms = {{
         {"none", "none", "The primal picture as it is."},
         {"l2", "L2", "Least squares: quick and unbiased; outliers leave blobs."},
         {"l1", "L1",
          "Least absolute differences: outliers vanish; at few samples it follows the median and darkens."},
+        {"mixed", "mixed",
+         "Least absolute differences of the gradients, least squares of the primal: few outliers, and as bright "
+         "as the primal."},
     }};
     int index = static_cast<int>(settings.norm);
     bool changed = controls.choice("norm", "Norm", norms, index,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/image.h"
+#include "recon/gradient_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +58,26 @@ inline double relative_difference(const RgbImage& image, const RgbImage& expecte
     for (std::size_t i = 0; i < image.size(); ++i)
         difference.data()[i] -= expected.data()[i];
     return largest(difference) / largest(expected);
+}
+
+/// Steps and ramps with noise, and gradients with less noise but some outliers.
+inline GradientImages noisy_images(int width, int height, float scale = 1, std::uint32_t seed = 3) {
+    RgbImage truth(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            truth(x, y) = Rgb((x / 10 + y / 8) % 2 == 0 ? 0.9f : 0.2f, 0.4f, 0.1f + 0.01f * static_cast<float>(y));
+    GradientImages images{truth, x_differences(truth), y_differences(truth), {}};
+    const RgbImage noise = random_image(width, height, seed);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const Rgb n = noise.data()[i];
+        images.primal.data()[i] += 0.1f * n;
+        images.dx.data()[i] += 0.02f * Rgb(n.y, n.z, n.x) + Rgb(i % 97 == 0 ? 1.0f : 0.0f);
+        images.dy.data()[i] += 0.02f * Rgb(n.z, n.x, n.y);
+    }
+    for (RgbImage* image : {&images.primal, &images.dx, &images.dy})
+        for (Rgb& c : *image)
+            c *= scale;
+    return images;
 }
 
 } // namespace tessera::test

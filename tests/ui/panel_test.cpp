@@ -69,6 +69,9 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
     click_at("alpha", 0.01f);
     expected.reconstruction.alpha = 0.001f;
     check("alpha");
+    choose("norm", "mixed");
+    expected.reconstruction.norm = Norm::mixed;
+    check("norm");
     choose("norm", "l1");
     expected.reconstruction.norm = Norm::l1;
     check("norm");
