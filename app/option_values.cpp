@@ -30,26 +30,29 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
     return variables;
 }
 
-std::vector<Norm> parse_norms(const std::string& text) {
-    std::vector<Norm> norms;
+namespace {
+
+/// Values with commas between them, each by `from_name`, which returns an optional.
+template <class FromName>
+auto parse_list(const std::string& option, const std::string& text, const char* known, FromName from_name) {
+    std::vector<typename decltype(from_name({}))::value_type> values;
     for (const std::string& name : CLI::detail::split(text, ',')) {
-        const std::optional<Norm> norm = norm_from_name(name);
-        if (!norm)
-            throw BadInput(fmt::format("--recon {}: must be of none, l2, l1, mixed", name));
-        norms.push_back(*norm);
+        const auto value = from_name(name);
+        if (!value)
+            throw BadInput(fmt::format("{} {}: must be of {}", option, name, known));
+        values.push_back(*value);
     }
-    return norms;
+    return values;
+}
+
+} // namespace
+
+std::vector<Norm> parse_norms(const std::string& text) {
+    return parse_list("--recon", text, "none, l2, l1, mixed", norm_from_name);
 }
 
 std::vector<Method> parse_methods(const std::string& text) {
-    std::vector<Method> methods;
-    for (const std::string& name : CLI::detail::split(text, ',')) {
-        const std::optional<Method> method = method_from_name(name);
-        if (!method)
-            throw BadInput(fmt::format("-m {}: must be of pt, pr, gpt, gpr", name));
-        methods.push_back(*method);
-    }
-    return methods;
+    return parse_list("-m", text, "pt, pr, gpt, gpr", method_from_name);
 }
 
 } // namespace tessera

@@ -18,15 +18,11 @@ namespace {
 
 RgbImage read_reference(const std::filesystem::path& path, glm::ivec2 size) {
     const ExrFile file = read_exr(path);
-    for (const ExrLayer& layer : file.layers) {
-        if (!layer.name.empty())
-            continue;
-        if (layer.image.width() != size.x || layer.image.height() != size.y)
-            throw BadInput(fmt::format("{} is {}x{}, but {}x{} is to be rendered", path.string(),
-                                       layer.image.width(), layer.image.height(), size.x, size.y));
-        return layer.image;
-    }
-    throw BadInput(fmt::format("{} has no plain R, G, B", path.string()));
+    const RgbImage& image = require_layer(file, "", path);
+    if (image.width() != size.x || image.height() != size.y)
+        throw BadInput(fmt::format("{} is {}x{}, but {}x{} is to be rendered", path.string(), image.width(),
+                                   image.height(), size.x, size.y));
+    return image;
 }
 
 } // namespace
@@ -76,7 +72,7 @@ bool ReferencePair::make(std::size_t i, const SceneSource& source, const std::sh
     if (render.spp() < options_.spp)
         return false;
     const ReconstructionSettings l2;
-    images_[i] = reconstruct(render.images(), l2).image;
+    images_[i] = reconstruct(render.take_images(), l2).image;
     const std::string text = settings_json(source, settings, options_.size, options_.spp, l2.alpha).dump();
     write_exr(paths_[i],
               {{{"", *images_[i]}}, {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", text}}});

@@ -57,21 +57,14 @@ void render_passes(const RenderOptions& options, const Plan& plan, Render& rende
     } while (done < 1 && !interrupted());
 }
 
-/// The means of a map, as a layer.
-RgbImage gray(const Image<float>& map) {
-    RgbImage image(map.width(), map.height());
-    std::transform(map.begin(), map.end(), image.begin(), [](float v) { return Rgb(v); });
-    return image;
-}
-
 /// What is to be written.
 ExrFile assemble(const ReconstructionLayers& wanted, Render& render, std::vector<ReconstructionStats>& recon,
                  ThreadPool& pool) {
     const ReuseMaps maps = wanted.buffers ? render.reuse_maps() : ReuseMaps{};
     ExrFile file = reconstruct_layers(render.take_images(), wanted, pool, recon);
     if (!maps.reused.empty()) {
-        file.layers.push_back({"reused", gray(maps.reused)});
-        file.layers.push_back({"failed", gray(maps.failed)});
+        file.layers.push_back({"reused", grey(maps.reused)});
+        file.layers.push_back({"failed", grey(maps.failed)});
     }
     return file;
 }

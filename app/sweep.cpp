@@ -127,7 +127,7 @@ private:
             render.pass(pool_);
         if (const std::string warning = refused_text(render.counters(), settings.seed); !warning.empty())
             fmt::print(stderr, "warning: {}\n", warning);
-        const RgbImage image = reconstruct(render.images(), options_.reconstruction).image;
+        const RgbImage image = reconstruct(render.take_images(), options_.reconstruction).image;
         return {settings.seed,
                 render.spp(),
                 render.cpu_seconds(),

@@ -58,4 +58,12 @@ private:
 
 using RgbImage = Image<Rgb>;
 
+/// Numbers as shades of grey.
+inline RgbImage grey(const Image<float>& numbers) {
+    RgbImage image(numbers.width(), numbers.height());
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] = Rgb(numbers.data()[i]);
+    return image;
+}
+
 } // namespace tessera

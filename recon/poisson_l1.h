@@ -38,8 +38,8 @@ public:
     L1Solver(int width, int height);
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if
-    /// stopped, which is looked at between them. The same bits for any parallel_for. Allocates in the first call
-    /// only.
+    /// stopped, which is looked at between them. The same bits for any parallel_for. Allocates images in the first
+    /// call only.
     int solve(const PoissonProblem& problem, const L1Settings& settings, RgbImage& image,
               const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
 

@@ -17,14 +17,15 @@ RgbImage mean(const Image<glm::dvec3>& sums, int passes) {
 
 } // namespace
 
-Film::Film(int width, int height, Method method) : primal_(width, height), very_direct_(width, height) {
-    if (has_gradients(method)) {
+Film::Film(int width, int height, const FilmBuffers& buffers)
+    : primal_(width, height), very_direct_(width, height) {
+    if (buffers.gradients) {
         dx_ = Sums(width, height);
         dy_ = Sums(width, height);
     }
-    if (method != Method::pt)
+    if (buffers.shifts)
         shifts_ = Image<Shifts>(width, height);
-    if (reuses_paths(method))
+    if (buffers.base_luminance)
         base_luminance_ = Image<float>(width, height);
 }
 

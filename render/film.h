@@ -1,7 +1,6 @@
 #pragma once
 
 #include "recon/gradient_images.h"
-#include "render/method/settings.h"
 #include "render/path/counters.h"
 
 #include <glm/vec3.hpp>
@@ -19,6 +18,13 @@ struct PixelSample {
     float base_luminance = -1; ///< of what its own base path has to share; negative: it sees nothing
 };
 
+/// What a film keeps beside primal and very direct light.
+struct FilmBuffers {
+    bool gradients = false;
+    bool shifts = false;         ///< how shifts to a pixel went
+    bool base_luminance = false; ///< of the last pass
+};
+
 /// How sharing went, per pixel.
 struct ReuseMaps {
     Image<float> reused; ///< base paths of other pixels that brought light here, a pass
@@ -34,7 +40,7 @@ class Film {
     };
 
 public:
-    Film(int width, int height, Method method);
+    Film(int width, int height, const FilmBuffers& buffers);
 
     int width() const { return primal_.width(); }
     int height() const { return primal_.height(); }
@@ -49,7 +55,7 @@ public:
     GradientImages take_means(int passes);
     /// Empty images where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const;
-    /// Of the last pass; empty where tiles are not shared.
+    /// Of the last pass; empty where it is not kept.
     const Image<float>& base_luminance() const { return base_luminance_; }
 
 private:

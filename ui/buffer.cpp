@@ -82,12 +82,6 @@ const RgbImage& primal_with_very_direct(const GradientImages& images, RgbImage& 
     return scratch;
 }
 
-const RgbImage& grey(const Image<float>& numbers, RgbImage& scratch) {
-    scratch = RgbImage(numbers.width(), numbers.height());
-    std::transform(numbers.begin(), numbers.end(), scratch.begin(), [](float number) { return Rgb(number); });
-    return scratch;
-}
-
 /// The least of the steps times a power of ten that is not below `value` > 0.
 float rounded_up(float value) {
     const float power = std::pow(10.0f, std::floor(std::log10(value)));
@@ -122,9 +116,9 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
     if (!picture_source(snapshot, buffer))
         return none;
     if (buffer == Buffer::reused)
-        return grey(snapshot.reuse->reused, scratch);
+        return scratch = grey(snapshot.reuse->reused);
     if (buffer == Buffer::failed)
-        return grey(snapshot.reuse->failed, scratch);
+        return scratch = grey(snapshot.reuse->failed);
     if (buffer == Buffer::dx)
         return snapshot.images->dx;
     if (buffer == Buffer::dy)

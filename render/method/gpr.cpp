@@ -10,7 +10,7 @@ void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) 
     const PixelRect set = PixelRect{inner.x0, inner.y0, inner.x1 + 1, inner.y1 + 1}.clipped(pass.size);
     worker.set.clear();
     worker.set.add(set);
-    share_light(pass, true, worker);
+    share_light(pass, pass.settings.roulette, worker);
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
             const int i = (y - set.y0) * set.width() + x - set.x0;

@@ -8,7 +8,7 @@ namespace {
 Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker, PixelSample& sample) {
     worker.set.clear();
     worker.set.add(pair);
-    share_light(pass, false, worker);
+    share_light(pass, RouletteKind::none, worker);
     sample.arrived += worker.set.arrived[0];
     sample.failed += worker.set.failed[0];
     return worker.set.radiance[1] - worker.set.radiance[0];

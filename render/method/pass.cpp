@@ -79,11 +79,10 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
     path.reset(path.random, path.light_samples());
 }
 
-void share_light(const Pass& pass, bool with_roulette, Worker& worker) {
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
     SamplingSet& set = worker.set;
     set.collect(worker.base);
-    const ReuseRoulette roulette =
-        with_roulette ? ReuseRoulette(pass.settings, worker.reuse, set.paths) : ReuseRoulette();
+    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
     worker.reuse.begin(set.paths);
     for (int k = 0; k < set.size(); ++k) {
         const BasePath& path = *set.paths[static_cast<std::size_t>(k)];

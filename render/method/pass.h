@@ -86,10 +86,12 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 /// pixels of the image.
 template <class Render>
 void for_each_part(const Pass& pass, PixelRect block, Render&& render) {
-    for (PixelRect tile : squares(block, pass.settings.tile))
-        for (PixelRect part : squares(tile, pass.plan.part_edge(tile)))
+    for_each_square(block, pass.settings.tile, [&](PixelRect tile) {
+        for_each_square(tile, pass.plan.part_edge(tile), [&](PixelRect part) {
             if (const PixelRect inner = part.clipped(pass.size); !inner.empty())
                 render(inner);
+        });
+    });
 }
 
 /// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
@@ -98,9 +100,9 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
 
 /// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
 /// holds what each has got.
-/// @param roulette  whether a path is reused with the probability q that ReuseRoulette gives it, and weighs 1/q; a
-///                  path that is not adds nothing anywhere [Bauszat 2017, 3.3]
-void share_light(const Pass& pass, bool roulette, Worker& worker);
+/// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
+///              a path that is not adds nothing anywhere [Bauszat 2017, 3.3]
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
 
 // The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -19,13 +18,13 @@ struct PixelRect {
     }
 };
 
-/// The squares of a given edge that fill a rectangle, row by row; the last ones are cut off.
-inline std::vector<PixelRect> squares(PixelRect rect, int edge) {
-    std::vector<PixelRect> list;
+/// Calls `visit(square)` for the squares of a given edge that fill a rectangle, row by row; the last ones are cut
+/// off.
+template <class Visit>
+void for_each_square(PixelRect rect, int edge, Visit&& visit) {
     for (int y = rect.y0; y < rect.y1; y += edge)
         for (int x = rect.x0; x < rect.x1; x += edge)
-            list.push_back({x, y, std::min(x + edge, rect.x1), std::min(y + edge, rect.y1)});
-    return list;
+            visit(PixelRect{x, y, std::min(x + edge, rect.x1), std::min(y + edge, rect.y1)});
 }
 
 } // namespace tessera

@@ -7,7 +7,7 @@ namespace tessera {
 namespace {
 
 void share_and_add(const Pass& pass, Worker& worker, Film& film) {
-    share_light(pass, true, worker);
+    share_light(pass, pass.settings.roulette, worker);
     for (int i = 0; i < worker.set.size(); ++i) {
         const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
         film.add(p.x, p.y, pass.index, worker.set.sample(i, worker.reuse), worker.counters);
@@ -51,8 +51,8 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
     if (pass.settings.pattern == Pattern::rooks) {
         std::vector<int> columns;
-        for (PixelRect tile : squares(block, pass.settings.tile))
-            render_rooks(pass, tile, columns, worker, film);
+        for_each_square(block, pass.settings.tile,
+                        [&](PixelRect tile) { render_rooks(pass, tile, columns, worker, film); });
         return;
     }
     for_each_part(pass, block, [&](PixelRect part) {

@@ -21,10 +21,10 @@ float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const
 
 } // namespace
 
-ReuseRoulette::ReuseRoulette(const RenderSettings& settings, const PathReuse& reuse,
+ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
                              std::span<const BasePath* const> set)
     : q_min_(settings.q_min) {
-    switch (settings.roulette) {
+    switch (kind) {
     case RouletteKind::relative:
         threshold_ = settings.rr_scale * standard_deviation(reuse, set);
         break;

@@ -16,16 +16,16 @@ namespace tessera {
 /// these. As q stands on nothing but the base paths at hand, and survivors weigh 1/q, the estimate stays unbiased.
 class ReuseRoulette {
 public:
-    /// Every path is reused.
-    ReuseRoulette() = default;
-    ReuseRoulette(const RenderSettings& settings, const PathReuse& reuse, std::span<const BasePath* const> set);
+    /// @param settings  has the thresholds; its own kind is not looked at
+    ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
+                  std::span<const BasePath* const> set);
 
     /// Probability that a path with this light (PathReuse::shared_light) is reused.
     float survival(Rgb light) const;
 
 private:
     float threshold_ = 0; // luminance
-    float q_min_ = 1;
+    float q_min_;
 };
 
 } // namespace tessera

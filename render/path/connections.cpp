@@ -47,7 +47,7 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
     }
 }
 
-void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Lanes3& direction, glm::vec3 point,
+void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction, glm::vec3 point,
                     glm::vec3 normal, SegmentLanes& segments) {
     const Intersector& intersector = tracer.scene.intersector();
     for (int m = 0; m < padded(y.count()); ++m) {
@@ -57,7 +57,7 @@ void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Lanes3&
     }
 }
 
-void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Lanes3& direction,
+void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction,
                     const LightPoint& light, SegmentLanes& segments) {
     if (!light.is_at_infinity())
         return edges_to_point(tracer, y, direction, light.position, light.normal, segments);

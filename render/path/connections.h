@@ -2,15 +2,15 @@
 
 #include "render/path/offset_vertices.h"
 #include "render/path/tracer.h"
-#include "render/trace/lanes.h"
+#include "render/trace/pixel_lanes.h"
 
 namespace tessera {
 
 /// How the vertices of offset paths see one point that they are joined to, a lane a pixel.
 struct ConnectionLanes {
-    LaneMask valid;   ///< asked for, and the point is to be seen from the right side
-    Lanes3 direction; ///< unit, world, toward the point
-    Lanes geometry;   ///< |cos| at the point over the squared distance: solid angle over area
+    LaneMask valid;      ///< asked for, and the point is to be seen from the right side
+    Vec3Lanes direction; ///< unit, world, toward the point
+    FloatLanes geometry; ///< |cos| at the point over the squared distance: solid angle over area
 };
 
 /// Joins vertices to a point on a surface.
@@ -20,8 +20,8 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 
 
 /// What arrives at the vertices from a point on a light, a lane a pixel.
 struct LightLanes {
-    Lanes3 radiance;
-    Lanes pdf_w; ///< of emitter sampling there (LightRay::pdf_w)
+    Vec3Lanes radiance;
+    FloatLanes pdf_w; ///< of emitter sampling there (LightRay::pdf_w)
 };
 
 /// Joins vertices to a point on a light, or at infinity to a direction.
@@ -29,10 +29,10 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
                       ConnectionLanes& seen, LightLanes& arriving);
 
 /// The stretches from vertices to a point on a surface, ...
-void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Lanes3& direction, glm::vec3 point,
+void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction, glm::vec3 point,
                     glm::vec3 normal, SegmentLanes& segments);
 /// ... and to a light, which may be at infinity.
-void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Lanes3& direction,
+void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction,
                     const LightPoint& light, SegmentLanes& segments);
 
 } // namespace tessera

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/trace/lanes.h"
+#include "render/trace/pixel_lanes.h"
 
 #include <memory>
 #include <vector>
@@ -15,8 +15,8 @@ namespace tessera {
 ///             survival of the roulette on path length
 /// [Bekaert 2002, 4; Bauszat 2017, eq. 8].
 struct OffsetRow {
-    Lanes density;
-    Lanes3 value;
+    FloatLanes density;
+    Vec3Lanes value;
 
     /// A path that carries nothing counts as failed: the same is said of base paths, so that both sides agree. So
     /// does one that is beyond what floats hold.

@@ -33,7 +33,7 @@ void OffsetVertices::set(int lane, const Vertex& v) {
         others_.push_back(lane);
 }
 
-void OffsetVertices::evaluate(const Lanes3& to_next, const LaneMask& asked, BsdfLanes& values) const {
+void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, BsdfLanes& values) const {
     for (int m = 0; m < padded(count_); ++m) { // Diffuse::evaluate
         const float z = to_next.x[m] * normal_.x[m] + to_next.y[m] * normal_.y[m] + to_next.z[m] * normal_.z[m];
         const float pdf_w = to_previous_z_[m] > 0 && z > 0 ? z * inv_pi : 0.0f;
@@ -52,7 +52,7 @@ void OffsetVertices::evaluate(const Lanes3& to_next, const LaneMask& asked, Bsdf
     }
 }
 
-void evaluate(const Bsdf& bsdf, const Lanes3& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
               BsdfLanes& values) {
     if (const Diffuse* diffuse = plain_diffuse(bsdf)) {
         const BsdfValue lit = diffuse->evaluate({0, 0, 1}, to_next); // the same from everywhere above

@@ -33,8 +33,8 @@ private:
     /// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single
     /// number (never products of densities, which underflow).
     struct Prefix {
-        Lanes density; ///< pdf of the offset with its Jacobians over the base's
-        Lanes3 value;  ///< f of the offset with its Jacobians over the base's pdf
+        FloatLanes density; ///< pdf of the offset with its Jacobians over the base's
+        Vec3Lanes value;    ///< f of the offset with its Jacobians over the base's pdf
     };
 
     const BaseVertex& base(int i) const { return (*base_)[i]; }
@@ -89,7 +89,7 @@ private:
     LightLanes arriving_;
     BsdfLanes bsdf_;
     Prefix joined_;
-    Lanes3 to_previous_; ///< from x_{i+1} to y_i, in its frame
+    Vec3Lanes to_previous_; ///< from x_{i+1} to y_i, in its frame
 };
 
 } // namespace tessera

@@ -19,6 +19,10 @@ double thread_cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+FilmBuffers buffers_of(const RenderSettings& s) {
+    return {has_gradients(s.method), s.method != Method::pt, reuses_paths(s.method) && s.adapt_tile};
+}
+
 /// Throws where one edge of an image is outside its limits.
 int checked(const char* name, int pixels) {
     if (pixels < 1 || pixels > 32768)
@@ -31,7 +35,7 @@ int checked(const char* name, int pixels) {
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
                const RenderSettings& settings)
     : scene_(std::move(scene)), camera_(camera), size_(size), settings_(settings),
-      film_(checked("image width", size.x), checked("image height", size.y), settings.method),
+      film_(checked("image width", size.x), checked("image height", size.y), buffers_of(settings)),
       plan_(size, settings_) {
     check(settings);
 }

@@ -41,8 +41,25 @@ struct Session::Pane {
     double share = 0;         ///< seconds had, for the panes to take turns by; not lost by a restart
     std::uint64_t served = 0; ///< turn in which it was last chosen
 
+    // Used by the reconstruction thread alone: where the solver stands, and with what.
+    Reconstructor reconstructor;
+    std::uint64_t solved_generation = 0;
+    bool solved_coarse = false;
+    ReconstructionSettings solved_with;
+
     bool needs_reconstruction() const {
         return latest && (latest->images != reconstructed || !(reconstructed_with == reconstruction));
+    }
+
+    /// Starts warm from the last snapshot of the same render, and else anew.
+    Reconstructor& solver_for(const Snapshot& snapshot, const ReconstructionSettings& settings) {
+        if (solved_generation != snapshot.generation || solved_coarse != snapshot.coarse ||
+            solved_with != settings)
+            reconstructor.forget();
+        solved_generation = snapshot.generation;
+        solved_coarse = snapshot.coarse;
+        solved_with = settings;
+        return reconstructor;
     }
 };
 
@@ -301,7 +318,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
     auto result = std::make_shared<Reconstruction>();
     std::string failure;
     try {
-        *result = reconstruct(*snapshot.images, settings, serial_for, stop);
+        *result = pane.solver_for(snapshot, settings).reconstruct(*snapshot.images, settings, serial_for, stop);
     } catch (const std::exception& error) {
         failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, error.what());
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/scene/mesh.h"
-#include "render/trace/lanes.h"
+#include "render/trace/pixel_lanes.h"
 #include "render/trace/ray.h"
 
 #include <cmath>

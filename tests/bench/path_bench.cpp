@@ -148,7 +148,9 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
     std::vector<BaseBlock> tiles(stage.blocks.size());
     std::vector<SamplingSet> sets(stage.blocks.size());
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const PixelRect tile = squares(stage.blocks[i], stage.settings.tile).front();
+        PixelRect tile = stage.blocks[i];
+        tile.x1 = tile.x0 + stage.settings.tile;
+        tile.y1 = tile.y0 + stage.settings.tile;
         const PixelRect pixels = stage.traced(tile);
         tiles[i].trace(stage.pass, worker.tracer, pixels);
         sets[i].add(pixels);
@@ -179,7 +181,7 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
             for_each_part(stage.pass, stage.blocks[i], [&](PixelRect part) {
                 worker.set.clear();
                 worker.set.add(stage.traced(part));
-                tessera::share_light(stage.pass, true, worker);
+                tessera::share_light(stage.pass, roulette, worker);
             });
             std::swap(worker.base, base[i]);
         }

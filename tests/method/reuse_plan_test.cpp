@@ -70,12 +70,12 @@ TEST(ReusePlan, CanBeSwitchedOff) {
 }
 
 TEST(Squares, FillARectangleOnce) {
-    const std::vector<PixelRect> list = squares({-1, 2, 6, 5}, 3);
     Image<int> hits(16, 16);
-    for (PixelRect r : list)
+    for_each_square({-1, 2, 6, 5}, 3, [&](PixelRect r) {
         for (int y = r.y0; y < r.y1; ++y)
             for (int x = r.x0; x < r.x1; ++x)
                 ++hits(x + 4, y + 4);
+    });
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x)
             EXPECT_EQ(hits(x, y), x - 4 >= -1 && x - 4 < 6 && y - 4 >= 2 && y - 4 < 5);

@@ -30,7 +30,7 @@ public:
         std::vector<const BasePath*> set;
         for (const BasePath& path : paths_)
             set.push_back(&path);
-        return ReuseRoulette(settings_, reuse, set).survival(light);
+        return ReuseRoulette(settings_.roulette, settings_, reuse, set).survival(light);
     }
 
 private:
@@ -51,7 +51,6 @@ TEST(ReuseRoulette, WithoutOneEveryPathSurvives) {
     const Roulette roulette(settings_of(RouletteKind::none), lit_in_part);
     for (const float l : {0.0f, 1e-30f, 0.5f, 1e30f})
         EXPECT_EQ(roulette.survival(Rgb(l)), 1);
-    EXPECT_EQ(ReuseRoulette().survival(Rgb(1e-30f)), 1);
 }
 
 TEST(ReuseRoulette, AbsoluteIsLuminanceOverDelta) {

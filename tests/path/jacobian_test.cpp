@@ -125,26 +125,36 @@ TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
             }
 }
 
+/// Calls `visit(base, other)` for base paths of pixels of a scene and those of other pixels, `apart` from them,
+/// that take the same random numbers; both see something.
+template <class Visit>
+void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&& visit) {
+    const Projection projection(tracer.scene.camera(), {64, 48});
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Random random(seed, i, 0);
+        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
+        BasePath base, other;
+        trace_base_path(tracer, projection.ray(pixel), random, base);
+        trace_base_path(tracer, projection.ray(pixel + apart), random, other);
+        if (!base.empty() && !other.empty())
+            visit(base, other);
+    }
+}
+
 /// A diffuse vertex that sees another one, and a diffuse offset: then all that shift() makes of the ratio of
 /// densities but pdf_w(y_1) / pdf_w(x_1) is the Jacobian |cos' / cos| r^2 / r'^2.
 TEST(Jacobian, OfReconnectionIsThatOfDirections) {
     const auto scene = Room().build();
     Counters counters;
     const Tracer tracer{*scene, counters, {4, 1, 0}};
-    const Projection projection(scene->camera(), {64, 48});
     int count = 0;
-    for (std::uint32_t i = 0; i < 300; ++i) {
-        const Random random(3, i, 0);
-        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
+    for_pairs(tracer, 3, {3, 2}, [&](const BasePath& base, const BasePath& other) {
         for (const ShiftKind kind :
              {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay_reconnection}) {
             const ShiftSettings settings{kind};
-            BasePath base, other;
-            trace_base_path(tracer, projection.ray(pixel), random, base);
-            trace_base_path(tracer, projection.ray(pixel + glm::vec2(3, 2)), random, other);
             LightPaths light;
             light.reset(base, settings);
-            if (!light.has_join() || !light.is_alive(light.tail_slot()) || other.empty())
+            if (!light.has_join() || !light.is_alive(light.tail_slot()))
                 continue;
             OffsetPaths paths;
             const Vertex &x = base[0].vertex, &join = base[1].vertex, &y = other[0].vertex;
@@ -168,7 +178,7 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
             EXPECT_NEAR(density * base[0].pdf_w / pdf_w / *measured, 1, 1e-3);
             ++count;
         }
-    }
+    });
     EXPECT_GT(count, 200);
 }
 
@@ -178,19 +188,13 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
     Counters counters;
     const Tracer tracer{*scene, counters, {2, 1, 0}};
     const ShiftSettings settings;
-    const Projection projection(scene->camera(), {64, 48});
     int count = 0;
-    for (std::uint32_t i = 0; i < 300; ++i) {
-        const Random random(4, i, 0);
-        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
-        BasePath base, other;
-        trace_base_path(tracer, projection.ray(pixel), random, base);
-        trace_base_path(tracer, projection.ray(pixel + glm::vec2(3, 2)), random, other);
+    for_pairs(tracer, 4, {3, 2}, [&](const BasePath& base, const BasePath& other) {
         LightPaths light;
         light.reset(base, settings);
         const int slot = light.emitter_slot(0, 0);
-        if (base.empty() || other.empty() || !light.is_alive(slot))
-            continue;
+        if (!light.is_alive(slot))
+            return;
         OffsetPaths paths;
         const Vertex &x = base[0].vertex, &y = other[0].vertex;
         shift_to_one(tracer, settings, base, light, y, paths);
@@ -198,7 +202,7 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
         const glm::vec3 direction = glm::normalize(l.light.position - x.position);
         const auto seen = l.light.seen_from(y.position);
         if (!(paths.density(slot, 0) > 0) || !seen || glm::dot(direction, l.light.normal) > -0.15f)
-            continue;
+            return;
         const glm::dvec3 from(x.position), at(l.light.position), normal(l.light.normal), to(y.position);
         const auto measured = measured_jacobian(direction, [&](glm::vec3 d) {
             const glm::dvec3 ray(d);
@@ -208,7 +212,7 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
         const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(seen->direction)).pdf_w;
         EXPECT_NEAR(paths.density(slot, 0) * l.pdf_sum / (pdf_w + seen->pdf_w) / *measured, 1, 1e-3);
         ++count;
-    }
+    });
     EXPECT_GT(count, 100);
 }
 
@@ -223,16 +227,8 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
     Counters counters;
     const Tracer tracer{*scene, counters, {5, 1, 0}};
     const ShiftSettings settings{ShiftKind::replay_reconnection, 1};
-    const Projection projection(scene->camera(), {64, 48});
     int count = 0;
-    for (std::uint32_t i = 0; i < 300; ++i) {
-        const Random random(5, i, 0);
-        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
-        BasePath base, other;
-        trace_base_path(tracer, projection.ray(pixel), random, base);
-        trace_base_path(tracer, projection.ray(pixel + glm::vec2(1, 1)), random, other);
-        if (other.empty())
-            continue;
+    for_pairs(tracer, 5, {1, 1}, [&](const BasePath& base, const BasePath& other) {
         LightPaths light, own;
         light.reset(base, settings);
         own.reset(other, settings); // `other` has the base's numbers
@@ -245,7 +241,7 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
             EXPECT_NEAR(luminance(paths.value(slot, 0)) / luminance(own.carried(slot)), 1, 1e-3);
             ++count;
         }
-    }
+    });
     EXPECT_GT(count, 300);
 }
 

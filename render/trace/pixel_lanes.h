@@ -25,11 +25,11 @@ struct alignas(64) LaneArray {
     const T& operator[](int lane) const { return values[static_cast<std::size_t>(lane)]; }
 };
 
-using Lanes = LaneArray<float>;
+using FloatLanes = LaneArray<float>;
 using LaneMask = LaneArray<std::int32_t>; ///< -1: yes, 0: no
 
-struct Lanes3 {
-    Lanes x, y, z;
+struct Vec3Lanes {
+    FloatLanes x, y, z;
 
     glm::vec3 operator[](int lane) const { return {x[lane], y[lane], z[lane]}; }
     void set(int lane, glm::vec3 v) {
@@ -41,7 +41,7 @@ struct Lanes3 {
 
 /// Stretches of space that light must cross, open at both ends.
 struct SegmentLanes {
-    Lanes3 from, to;
+    Vec3Lanes from, to;
 };
 
 } // namespace tessera
