@@ -3,6 +3,7 @@
 #include "recon/metrics.h"
 #include "render/load/exr.h"
 
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +17,7 @@ namespace {
 struct Comparison {
     ErrorMetrics metrics;
     std::optional<FloorFreeError> floor_free;
+    std::optional<std::array<double, 4>> energy_change;
 };
 
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
@@ -48,6 +50,7 @@ Comparison compare(const CompareOptions& options) {
         const RgbImage second = read_reference(options.reference2, options.layer);
         check_size(options, image, options.reference2, second);
         result.floor_free = measure_floor_free_error(image, reference, second);
+        result.energy_change = measure_energy_change(image, reference, second);
         for (std::size_t i = 0; i < reference.size(); ++i)
             reference.data()[i] = 0.5f * (reference.data()[i] + second.data()[i]);
     }
@@ -65,6 +68,13 @@ void print_text(const Comparison& c) {
     if (c.floor_free)
         std::printf("relMSE, floor-free   %.6g +- %.2g   mean of (I - r1)(I - r2) / (r^2 + %g)\n",
                     c.floor_free->relative_mse, c.floor_free->standard_error, relative_mse_epsilon);
+    if (c.energy_change) {
+        const std::array<double, 4> change = *c.energy_change;
+        std::printf(
+            "energy               %+.2f %% %+.2f %% %+.2f %% %+.2f %%   by quarters of the pixels, from dark "
+            "to bright\n",
+            100 * change[0], 100 * change[1], 100 * change[2], 100 * change[3]);
+    }
     if (c.metrics.bad_pixels > 0)
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
@@ -86,6 +96,7 @@ void print_json(const CompareOptions& options, const Comparison& c) {
     if (c.floor_free) {
         out["relmse_floor_free"] = c.floor_free->relative_mse;
         out["relmse_floor_free_standard_error"] = c.floor_free->standard_error;
+        out["energy_change_by_quarter"] = *c.energy_change;
     }
     std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }

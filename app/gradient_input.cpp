@@ -6,6 +6,8 @@
 #include "render/load/pfm_file.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -23,19 +25,31 @@ struct NamedImage {
 /// In the order of the command line; very direct light may be missing.
 using Buffers = std::vector<NamedImage>;
 
-Buffers read_layers(const std::filesystem::path& path, std::map<std::string, std::string>& attributes) {
+ExrFile read_layers(const std::filesystem::path& path) {
     if (extension_of(path) != ".exr")
         throw BadInput(fmt::format("{}: a single input must be an EXR file with layers primal, dx and dy; or give "
                                    "three or four files: primal, dx, dy and very direct",
                                    path.string()));
-    const ExrFile file = read_exr(path);
+    return read_exr(path);
+}
+
+std::map<std::string, std::string> own_attributes(const ExrFile& file) {
+    std::map<std::string, std::string> attributes;
     for (const auto& [name, text] : file.attributes)
         if (name.starts_with("tessera:"))
             attributes[name] = text;
+    return attributes;
+}
+
+NamedImage named_layer(const ExrFile& file, const char* name, const std::filesystem::path& path) {
+    return {fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)};
+}
+
+Buffers buffers_of(const ExrFile& file, const std::filesystem::path& path) {
     Buffers buffers;
     for (const char* name : {"primal", "dx", "dy", "direct"})
         if (find_layer(file, name) || std::string(name) != "direct")
-            buffers.push_back({fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)});
+            buffers.push_back(named_layer(file, name, path));
     return buffers;
 }
 
@@ -81,6 +95,26 @@ std::size_t make_finite(NamedImage& buffer, bool repair) {
     return count;
 }
 
+/// A layer of variances. Repaired, a bad one is so large that it leaves its pixel no weight.
+Image<float> read_variance(const ExrFile& file, const char* name, const std::filesystem::path& path,
+                           const RgbImage& primal, bool repair, std::size_t& repaired) {
+    const NamedImage layer = named_layer(file, name, path);
+    if (layer.image.width() != primal.width() || layer.image.height() != primal.height())
+        throw BadInput(fmt::format("sizes differ: the primal is {}, {} is {}", text_of_size(primal), layer.name,
+                                   text_of_size(layer.image)));
+    Image<float> variance(primal.width(), primal.height());
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+        const float value = layer.image.data()[i].r;
+        const bool is_good = std::isfinite(value) && value >= 0;
+        if (!is_good && !repair)
+            throw BadInput(fmt::format("{}: {} is not a variance; --repair leaves such pixels without weight",
+                                       layer.name, value));
+        variance.data()[i] = is_good ? value : std::numeric_limits<float>::max();
+        repaired += !is_good;
+    }
+    return variance;
+}
+
 } // namespace
 
 std::string text_of_bad_pixel(const RgbImage& image) {
@@ -99,11 +133,15 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
                                    files.size()));
     GradientInput input;
     Buffers buffers;
-    if (files.size() == 1)
-        buffers = read_layers(files.front(), input.attributes);
-    else
+    ExrFile layers;
+    if (files.size() == 1) {
+        layers = read_layers(files.front());
+        input.attributes = own_attributes(layers);
+        buffers = buffers_of(layers, files.front());
+    } else {
         for (const std::filesystem::path& file : files)
             buffers.push_back({file.string(), read_image(file)});
+    }
     fit(buffers[1], buffers[0], 1, 0);
     fit(buffers[2], buffers[0], 0, 1);
     if (buffers.size() == 4)
@@ -115,6 +153,14 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     input.images.dy = std::move(buffers[2].image);
     if (buffers.size() == 4)
         input.images.very_direct = std::move(buffers[3].image);
+    if (find_layer(layers, "primal_variance")) {
+        const auto variance = [&](const char* name) {
+            return read_variance(layers, name, files.front(), input.images.primal, repair, input.repaired);
+        };
+        input.images.primal_variance = variance("primal_variance");
+        input.images.dx_variance = variance("dx_variance");
+        input.images.dy_variance = variance("dy_variance");
+    }
     return input;
 }
 

@@ -88,7 +88,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
         ->check(CLI::IsMember({"wall", "cpu"}))
         ->capture_default_str();
     command.add_option("--recon", words.norms,
-                       "none, l2, l1, mixed, or several: one layer each (default l2 with gradients)");
+                       "none, l2, l1, mixed, weighted, or several: one layer each (default l2 with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");

@@ -15,7 +15,7 @@ namespace tessera {
 namespace {
 
 /// Adds the image as a layer, if there is one.
-void add_layer(ExrFile& file, std::string name, RgbImage& image) {
+void add_layer(ExrFile& file, std::string name, RgbImage image) {
     if (!image.empty())
         file.layers.push_back({std::move(name), std::move(image)});
 }
@@ -45,10 +45,13 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
     if (wanted.buffers) {
-        add_layer(file, "primal", images.primal);
-        add_layer(file, "dx", images.dx);
-        add_layer(file, "dy", images.dy);
-        add_layer(file, "direct", images.very_direct);
+        add_layer(file, "primal", std::move(images.primal));
+        add_layer(file, "dx", std::move(images.dx));
+        add_layer(file, "dy", std::move(images.dy));
+        add_layer(file, "direct", std::move(images.very_direct));
+        add_layer(file, "primal_variance", grey(images.primal_variance));
+        add_layer(file, "dx_variance", grey(images.dx_variance));
+        add_layer(file, "dy_variance", grey(images.dy_variance));
     }
     return file;
 }

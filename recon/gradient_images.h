@@ -12,7 +12,11 @@ struct GradientImages {
     RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
     RgbImage very_direct; ///< emission seen by the camera itself; added after the reconstruction
 
+    /// Variances of these means, summed over the channels; empty if they are unknown.
+    Image<float> primal_variance{}, dx_variance{}, dy_variance{};
+
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
+    bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };
 
 } // namespace tessera

@@ -108,4 +108,26 @@ FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& r
     return error;
 }
 
+std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,
+                                            const RgbImage& reference2) {
+    check_sizes(image, reference1);
+    check_sizes(image, reference2);
+    std::array<double, 4> change{};
+    std::vector<std::size_t> order(image.size());
+    for (const auto& [sorter, judge] : {std::pair{&reference1, &reference2}, {&reference2, &reference1}}) {
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [sorter = sorter](std::size_t a, std::size_t b) {
+            return luminance(sorter->data()[a]) < luminance(sorter->data()[b]);
+        });
+        std::array<double, 4> found{}, expected{};
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            found[4 * i / order.size()] += luminance(image.data()[order[i]]);
+            expected[4 * i / order.size()] += luminance(judge->data()[order[i]]);
+        }
+        for (std::size_t q = 0; q < 4; ++q)
+            change[q] += (found[q] / expected[q] - 1) / 2;
+    }
+    return change;
+}
+
 } // namespace tessera

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 
+#include <array>
 #include <cstddef>
 
 namespace tessera {
@@ -37,5 +38,11 @@ struct FloorFreeError {
 /// order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as measure_error does.
 FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
                                         const RgbImage& reference2);
+
+/// By how much an image is too bright (positive) or too dark in each quarter of the pixels, from the darkest to
+/// the brightest: mean luminance of I over that of r, minus 1. Two independent references take turns to sort the
+/// pixels and to judge them, as what looks dark in the judge is dark by chance, too. Throws as measure_error does.
+std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,
+                                            const RgbImage& reference2);
 
 } // namespace tessera

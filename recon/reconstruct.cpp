@@ -2,6 +2,7 @@
 
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
+#include "recon/poisson_weighted.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -11,11 +12,15 @@ namespace tessera {
 namespace {
 
 void check_sizes(const GradientImages& images) {
-    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct}) {
-        const bool fits = image->width() == images.primal.width() && image->height() == images.primal.height();
-        if (!image->empty() && !fits)
+    const auto check = [&](const auto& image) {
+        const bool fits = image.width() == images.primal.width() && image.height() == images.primal.height();
+        if (!image.empty() && !fits)
             throw std::invalid_argument("the images to reconstruct from differ in size");
-    }
+    };
+    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct})
+        check(*image);
+    for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance})
+        check(*variance);
 }
 
 void add(RgbImage& sum, const RgbImage& image) {
@@ -30,14 +35,19 @@ struct Reconstructor::Solvers {
     int width, height;
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
+    std::optional<WeightedSolver> weighted;
+    RgbImage weighted_image; ///< its last answer; empty: none
 };
 
 Reconstructor::Reconstructor() = default;
 Reconstructor::~Reconstructor() = default;
 
 void Reconstructor::forget() {
-    if (solvers_ && solvers_->l1)
+    if (!solvers_)
+        return;
+    if (solvers_->l1)
         solvers_->l1->forget();
+    solvers_->weighted_image = {};
 }
 
 std::string_view to_string(Norm norm) {
@@ -50,6 +60,8 @@ std::string_view to_string(Norm norm) {
         return "l1";
     case Norm::mixed:
         return "mixed";
+    case Norm::weighted:
+        return "weighted";
     }
     return "?";
 }
@@ -69,7 +81,15 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         solvers_ = std::make_unique<Solvers>(width, height);
     const PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
     Reconstruction result;
-    if (settings.norm == Norm::l2) {
+    const bool is_weighted = settings.norm == Norm::weighted && images.has_variances();
+    if (is_weighted) {
+        if (!solvers_->weighted)
+            solvers_->weighted.emplace(width, height);
+        const EdgeWeights weights = weights_of_gradients(images, parallel_for);
+        result.iterations = solvers_->weighted->solve(problem, weights, {}, !solvers_->weighted_image.empty(),
+                                                      solvers_->weighted_image, parallel_for, stop);
+        result.image = solvers_->weighted_image;
+    } else if (settings.norm == Norm::l2 || settings.norm == Norm::weighted) {
         if (!solvers_->l2)
             solvers_->l2.emplace(width, height);
         solvers_->l2->solve(problem, result.image, parallel_for);

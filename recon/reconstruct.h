@@ -11,13 +11,14 @@
 
 namespace tessera {
 
-/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4].
-enum class Norm { none, l2, l1, mixed };
+/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4]. weighted: L2, where
+/// gradients count the less the noisier they are (weights_of_gradients); l2 if variances are unknown.
+enum class Norm { none, l2, l1, mixed, weighted };
 
 /// All of them, in the order above.
-inline constexpr std::array all_norms = {Norm::none, Norm::l2, Norm::l1, Norm::mixed};
+inline constexpr std::array all_norms = {Norm::none, Norm::l2, Norm::l1, Norm::mixed, Norm::weighted};
 
-/// "none", "l2", "l1", "mixed".
+/// "none", "l2", "l1", "mixed", "weighted".
 std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
@@ -44,7 +45,7 @@ public:
     Reconstructor();
     ~Reconstructor();
 
-    /// As the function below. If the last image was of this size, L1 and mixed start where it ended (a warm
+    /// As the function below. If the last image was of this size, all but L2 start where it ended (a warm
     /// start), which is right if it had the same scene and view and a few samples less.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});

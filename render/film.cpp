@@ -1,18 +1,37 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <utility>
+#include <limits>
 
 namespace tessera {
 
 namespace {
 
-RgbImage mean(const Image<glm::dvec3>& sums, int passes) {
-    RgbImage image(sums.width(), sums.height());
+constexpr double largest_variance = std::numeric_limits<float>::max();
+
+/// An image of sum / passes, where `sum_of` gives the sum of an entry.
+template <class Entry, class SumOf>
+RgbImage means_of(const Image<Entry>& entries, int passes, SumOf sum_of) {
+    RgbImage image(entries.width(), entries.height());
     const double scale = passes > 0 ? 1.0 / passes : 0.0;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        image.data()[i] = Rgb(sums.data()[i] * scale);
+    std::transform(entries.begin(), entries.end(), image.begin(),
+                   [&](const Entry& entry) { return Rgb(sum_of(entry) * scale); });
     return image;
+}
+
+/// The means and their variances, these from the sample variance (squares - |sum|^2 / n) / (n - 1).
+template <class Moments>
+void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<float>& variance) {
+    mean = means_of(moments, passes, [](const Moments& m) { return m.sum; });
+    variance = {};
+    if (passes < 2)
+        return;
+    variance = Image<float>(moments.width(), moments.height());
+    const double n = passes;
+    std::transform(moments.begin(), moments.end(), variance.begin(), [n](const Moments& m) {
+        const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // below 0 by rounding alone
+        return static_cast<float>(std::clamp(spread / (n * (n - 1)), 0.0, largest_variance));
+    });
 }
 
 } // namespace
@@ -20,8 +39,8 @@ RgbImage mean(const Image<glm::dvec3>& sums, int passes) {
 Film::Film(int width, int height, const FilmBuffers& buffers)
     : primal_(width, height), very_direct_(width, height) {
     if (buffers.gradients) {
-        dx_ = Sums(width, height);
-        dy_ = Sums(width, height);
+        dx_ = Image<Moments>(width, height);
+        dy_ = Image<Moments>(width, height);
     }
     if (buffers.shifts)
         shifts_ = Image<Shifts>(width, height);
@@ -65,14 +84,27 @@ ReuseMaps Film::reuse_maps(int passes) const {
 }
 
 GradientImages Film::means(int passes) const {
-    return {mean(primal_, passes), mean(dx_, passes), mean(dy_, passes), mean(very_direct_, passes)};
+    GradientImages images;
+    measure(primal_, passes, images.primal, images.primal_variance);
+    measure(dx_, passes, images.dx, images.dx_variance);
+    measure(dy_, passes, images.dy, images.dy_variance);
+    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    return images;
 }
 
 GradientImages Film::take_means(int passes) {
-    const auto take = [passes](Sums& sums) { return mean(std::exchange(sums, {}), passes); };
     shifts_ = {};
     base_luminance_ = {};
-    return {take(primal_), take(dx_), take(dy_), take(very_direct_)};
+    GradientImages images;
+    const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
+        measure(moments, passes, mean, variance);
+        moments = {};
+    };
+    take(primal_, images.primal, images.primal_variance);
+    take(dx_, images.dx, images.dx_variance);
+    take(dy_, images.dy, images.dy_variance);
+    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    return images;
 }
 
 } // namespace tessera

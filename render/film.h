@@ -3,6 +3,7 @@
 #include "recon/gradient_images.h"
 #include "render/path/counters.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -35,6 +36,16 @@ struct ReuseMaps {
 /// taken when they are asked for, and 10^5 passes neither drift nor overflow. Every pixel is written once a pass,
 /// by one worker, so the sums do not depend on the number of threads.
 class Film {
+    struct Moments {
+        glm::dvec3 sum;
+        double squares; ///< of the lengths of colours
+
+        void operator+=(Rgb value) {
+            const glm::dvec3 v(value);
+            sum += v;
+            squares += glm::dot(v, v);
+        }
+    };
     struct Shifts {
         std::uint32_t arrived, failed;
     };
@@ -48,7 +59,7 @@ public:
     /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
-    /// Means over `passes` complete passes.
+    /// Means over `passes` complete passes; of two or more passes, their variances, too.
     GradientImages means(int passes) const;
     /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
     /// means are never all there together. The film is then good for nothing more.
@@ -59,8 +70,8 @@ public:
     const Image<float>& base_luminance() const { return base_luminance_; }
 
 private:
-    using Sums = Image<glm::dvec3>;
-    Sums primal_, dx_, dy_, very_direct_;
+    Image<Moments> primal_, dx_, dy_;
+    Image<glm::dvec3> very_direct_;
     Image<Shifts> shifts_;
     Image<float> base_luminance_;
 };

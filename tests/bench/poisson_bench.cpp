@@ -56,8 +56,10 @@ void l2_solve(benchmark::State& state) {
 /// As in a viewer: plans and memory are kept; a warm start goes on from the last solve.
 void reconstruction(benchmark::State& state, Norm norm, bool warm) {
     const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
-    const GradientImages images{
-        noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
+    GradientImages images{noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
+    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(width, height, 0.1f);
+    for (std::size_t i = 0; i < images.primal.size(); i += 37)
+        images.dx_variance.data()[i] = images.dy_variance.data()[i] = 100;
     const ParallelFor parallel_for = threads_for(static_cast<int>(state.range(2)));
     Reconstructor reconstructor;
     reconstructor.reconstruct(images, {norm, 0.2f}, parallel_for);
@@ -87,6 +89,8 @@ BENCHMARK(l2_solve)->Apply(sizes);
 BENCHMARK_CAPTURE(reconstruction, l2, Norm::l2, false)->Apply(reconstruction_sizes);
 BENCHMARK_CAPTURE(reconstruction, l1_cold, Norm::l1, false)->Apply(reconstruction_sizes);
 BENCHMARK_CAPTURE(reconstruction, l1_warm, Norm::l1, true)->Apply(reconstruction_sizes);
+BENCHMARK_CAPTURE(reconstruction, weighted_cold, Norm::weighted, false)->Apply(reconstruction_sizes);
+BENCHMARK_CAPTURE(reconstruction, weighted_warm, Norm::weighted, true)->Apply(reconstruction_sizes);
 BENCHMARK_CAPTURE(reconstruction, mixed_cold, Norm::mixed, false)->Apply(reconstruction_sizes);
 BENCHMARK_CAPTURE(reconstruction, mixed_warm, Norm::mixed, true)->Apply(reconstruction_sizes);
 

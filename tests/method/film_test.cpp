@@ -67,6 +67,32 @@ TEST(Film, SumsOfManyPassesDoNotDrift) {
     }
 }
 
+/// Of a pixel's three samples by hand: the means' variances are sums over the channels of s^2 / n.
+TEST(Film, VariancesOfTheMeans) {
+    Film film(2, 2, {.gradients = true});
+    Counters counters;
+    const float values[] = {1, 2, 6}; // mean 3, s^2 = (4 + 1 + 9) / 2
+    for (int pass = 0; pass < 3; ++pass)
+        film.add(0, 0, pass, {Rgb(values[pass], 5, 0), Rgb(0, 2 * values[pass], 0), Rgb(0, 0, -values[pass])},
+                 counters);
+    EXPECT_TRUE(film.means(1).primal_variance.empty());
+    for (const GradientImages& images : {film.means(3), film.take_means(3)}) {
+        EXPECT_FLOAT_EQ(images.primal_variance(0, 0), 7.0f / 3);
+        EXPECT_FLOAT_EQ(images.dx_variance(0, 0), 28.0f / 3);
+        EXPECT_FLOAT_EQ(images.dy_variance(0, 0), 7.0f / 3);
+        EXPECT_EQ(images.primal_variance(1, 1), 0);
+        EXPECT_EQ(images.primal(0, 0), Rgb(3, 5, 0));
+    }
+}
+
+TEST(Film, VariancesStayFinite) {
+    Film film(1, 1, {});
+    Counters counters;
+    for (const float value : {std::numeric_limits<float>::max(), 0.0f})
+        film.add(0, 0, 0, {Rgb(value)}, counters);
+    EXPECT_EQ(film.means(2).primal_variance(0, 0), std::numeric_limits<float>::max());
+}
+
 /// Whoever counts, and in whatever order counts are added: the first is that of the earliest pass, then row, then
 /// column.
 TEST(Counters, RememberTheFirstRefusedSample) {

@@ -110,5 +110,39 @@ TEST(FloorFreeError, IsNilForTheTruthWithinItsStandardError) {
     EXPECT_LT(squares, 65);
 }
 
+/// References as noisy as the dark half is bright: sorted and judged by the same one, it would look too bright.
+TEST(EnergyChange, IsThatOfTheQuarters) {
+    constexpr int width = 128, height = 128;
+    RgbImage truth(width, height), image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int quarter = 4 * x / width;
+            truth(x, y) = Rgb(1 + 10.0f * static_cast<float>(quarter));
+            image(x, y) = truth(x, y) * (1 + 0.1f * static_cast<float>(quarter));
+        }
+    RgbImage r1 = truth, r2 = truth;
+    const RgbImage noise1 = test::random_image(width, height, 1), noise2 = test::random_image(width, height, 2);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        r1.data()[i] += noise1.data()[i];
+        r2.data()[i] += noise2.data()[i];
+    }
+    const std::array<double, 4> change = measure_energy_change(image, r1, r2);
+    for (int quarter = 0; quarter < 4; ++quarter)
+        EXPECT_NEAR(change[quarter], 0.1 * quarter, 0.02) << quarter;
+    const std::array<double, 4> none = measure_energy_change(
+        RgbImage(width, height, Rgb(5)), RgbImage(width, height, Rgb(5)), RgbImage(width, height, Rgb(5)));
+    for (const double c : none)
+        EXPECT_NEAR(c, 0, 1e-9);
+}
+
+/// All pixels alike but for the noise of the references: in no quarter is the image too bright or too dark.
+TEST(EnergyChange, TheNoiseOfTheReferencesIsNoChange) {
+    const RgbImage image(160, 160, Rgb(1));
+    RgbImage r1 = test::random_image(160, 160, 3, 1, 0.5f), r2 = test::random_image(160, 160, 4, 1, 0.5f);
+    for (const double c : measure_energy_change(image, r1, r2))
+        EXPECT_NEAR(c, 0, 0.03);
+    EXPECT_GT(measure_energy_change(image, r1, r1)[0], 0.3);
+}
+
 } // namespace
 } // namespace tessera

@@ -1,56 +1,17 @@
 #include "recon/poisson_direct.h"
+#include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>
 #include <cstring>
 #include <thread>
 
-#include <Eigen/Sparse>
 #include <gtest/gtest.h>
 
 namespace tessera {
 namespace {
 
 using namespace test;
-
-/// The same problem, solved in double with a sparse Cholesky factorisation.
-RgbImage solve_sparse(const PoissonProblem& p) {
-    const int width = p.primal.width(), height = p.primal.height(), count = width * height;
-    const double alpha_squared = static_cast<double>(p.alpha) * p.alpha;
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixXd right_side(count, 3);
-    for (int i = 0; i < count; ++i) {
-        entries.emplace_back(i, i, alpha_squared);
-        for (int c = 0; c < 3; ++c)
-            right_side(i, c) = alpha_squared * p.primal.data()[i][c];
-    }
-    const auto link = [&](int i, int j, Rgb difference) {
-        entries.emplace_back(i, i, 1);
-        entries.emplace_back(j, j, 1);
-        entries.emplace_back(i, j, -1);
-        entries.emplace_back(j, i, -1);
-        for (int c = 0; c < 3; ++c) {
-            right_side(i, c) -= difference[c];
-            right_side(j, c) += difference[c];
-        }
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const int i = y * width + x;
-            if (x + 1 < width)
-                link(i, i + 1, p.dx(x, y));
-            if (y + 1 < height)
-                link(i, i + width, p.dy(x, y));
-        }
-    Eigen::SparseMatrix<double> matrix(count, count);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factorised(matrix);
-    const Eigen::MatrixXd answer = factorised.solve(right_side);
-    RgbImage image(width, height);
-    for (int i = 0; i < count; ++i)
-        image.data()[i] = {answer(i, 0), answer(i, 1), answer(i, 2)};
-    return image;
-}
 
 struct Inputs {
     explicit Inputs(int width, int height, std::uint32_t seed = 1)

@@ -2,6 +2,7 @@
 #include "tests/recon/test_images.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@ namespace tessera {
 namespace {
 
 using namespace test;
+
+constexpr Norm solved[] = {Norm::l2, Norm::l1, Norm::mixed, Norm::weighted};
 
 TEST(Reconstruct, WithoutGradientsIsThePrimalPlusVeryDirectLight) {
     GradientImages images{RgbImage(5, 4, Rgb(1)), {}, {}, RgbImage(5, 4, Rgb(2))};
@@ -21,7 +24,7 @@ TEST(Reconstruct, WithoutGradientsIsThePrimalPlusVeryDirectLight) {
 
 TEST(Reconstruct, VeryDirectLightIsAddedAfterTheSolve) {
     GradientImages images = noisy_images(40, 30);
-    for (const Norm norm : {Norm::l2, Norm::l1, Norm::mixed}) {
+    for (const Norm norm : solved) {
         images.very_direct = {};
         const RgbImage without = reconstruct(images, {norm, 0.2f}).image;
         images.very_direct = RgbImage(40, 30);
@@ -41,6 +44,29 @@ TEST(Reconstruct, ExactGradientsGiveTheImageBack) {
     }
 }
 
+/// Variances of every kind make no difference, then.
+TEST(Reconstruct, ExactGradientsGiveTheImageBackWithAnyWeights) {
+    const RgbImage image = random_image(37, 23, 9, 2, 0.5f);
+    GradientImages images{image, x_differences(image), y_differences(image), {}};
+    const RgbImage noise = random_image(37, 23, 10);
+    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(37, 23);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        images.primal_variance.data()[i] = std::exp(2 * noise.data()[i].x);
+        images.dx_variance.data()[i] = i % 5 == 0 ? 0 : std::exp(4 * noise.data()[i].y);
+        images.dy_variance.data()[i] = i % 7 == 0 ? 1e30f : std::exp(4 * noise.data()[i].z);
+    }
+    EXPECT_LE(relative_rms_difference(reconstruct(images, {Norm::weighted, 0.2f}).image, image), 2e-2);
+}
+
+TEST(Reconstruct, WithoutVariancesNothingIsWeighted) {
+    GradientImages images = noisy_images(40, 30);
+    const RgbImage weighted = reconstruct(images, {Norm::weighted, 0.2f}).image;
+    images.dx_variance = {};
+    const RgbImage l2 = reconstruct(images, {Norm::l2, 0.2f}).image;
+    EXPECT_EQ(relative_difference(reconstruct(images, {Norm::weighted, 0.2f}).image, l2), 0);
+    EXPECT_GT(relative_difference(weighted, l2), 0.1);
+}
+
 TEST(Reconstruct, L2TellsItsResidual) {
     const Reconstruction result = reconstruct(noisy_images(61, 33), {Norm::l2, 0.2f});
     EXPECT_EQ(result.iterations, 1);
@@ -50,7 +76,7 @@ TEST(Reconstruct, L2TellsItsResidual) {
 
 TEST(Reconstruct, TheUnitOfRadianceDoesNotMatter) {
     const GradientImages images = noisy_images(50, 41);
-    for (const Norm norm : {Norm::l2, Norm::l1, Norm::mixed}) {
+    for (const Norm norm : solved) {
         const RgbImage expected = reconstruct(images, {norm, 0.2f}).image;
         for (const float scale : {1e-4f, 1e4f}) {
             RgbImage image = reconstruct(noisy_images(50, 41, scale), {norm, 0.2f}).image;
@@ -67,7 +93,10 @@ TEST(Reconstruct, OddInputsGiveFiniteImages) {
         for (const float spike : {0.0f, 1e6f}) {
             images.primal(width / 2, height / 2) = Rgb(spike);
             images.dx(0, 0) = Rgb(-spike);
-            for (const Norm norm : {Norm::l2, Norm::l1, Norm::mixed})
+            for (Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance})
+                *variance = Image<float>(width, height);
+            images.dx_variance(0, 0) = spike == 0 ? 0 : std::numeric_limits<float>::max();
+            for (const Norm norm : solved)
                 EXPECT_TRUE(std::isfinite(largest(reconstruct(images, {norm, 0.2f}).image)));
         }
     }
@@ -77,7 +106,7 @@ TEST(Reconstruct, StopsWhenAsked) {
     std::stop_source source;
     source.request_stop();
     const GradientImages images = noisy_images(20, 20);
-    for (const Norm norm : {Norm::l2, Norm::l1, Norm::mixed})
+    for (const Norm norm : solved)
         EXPECT_TRUE(reconstruct(images, {norm, 0.2f}, serial_for, source.get_token()).image.empty());
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include <glm/ext/vector_double3.hpp>
+#include <glm/geometric.hpp>
 
 namespace tessera::test {
 
@@ -60,7 +61,18 @@ inline double relative_difference(const RgbImage& image, const RgbImage& expecte
     return largest(difference) / largest(expected);
 }
 
-/// Steps and ramps with noise, and gradients with less noise but some outliers.
+/// The root mean square difference, relative to the root mean square of `expected`.
+inline double relative_rms_difference(const RgbImage& image, const RgbImage& expected) {
+    double difference = 0, square = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const glm::dvec3 e(expected.data()[i]), d = glm::dvec3(image.data()[i]) - e;
+        difference += glm::dot(d, d);
+        square += glm::dot(e, e);
+    }
+    return std::sqrt(difference / square);
+}
+
+/// Steps and ramps with noise, and gradients with less noise but some outliers; with variances that tell.
 inline GradientImages noisy_images(int width, int height, float scale = 1, std::uint32_t seed = 3) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
@@ -77,6 +89,10 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     for (RgbImage* image : {&images.primal, &images.dx, &images.dy})
         for (Rgb& c : *image)
             c *= scale;
+    images.primal_variance = Image<float>(width, height, 0.03f * scale * scale);
+    images.dx_variance = images.dy_variance = Image<float>(width, height, 0.0012f * scale * scale);
+    for (std::size_t i = 0; i < truth.size(); i += 97)
+        images.dx_variance.data()[i] = 3 * scale * scale;
     return images;
 }
 

@@ -69,14 +69,16 @@ std::vector<Variant> variants() {
     return list;
 }
 
-bool same_bits(const RgbImage& a, const RgbImage& b) {
+template <class Pixel>
+bool same_bits(const Image<Pixel>& a, const Image<Pixel>& b) {
     return a.width() == b.width() && a.height() == b.height() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
 }
 
 bool same_bits(const GradientImages& a, const GradientImages& b) {
     return same_bits(a.primal, b.primal) && same_bits(a.dx, b.dx) && same_bits(a.dy, b.dy) &&
-           same_bits(a.very_direct, b.very_direct);
+           same_bits(a.very_direct, b.very_direct) && same_bits(a.primal_variance, b.primal_variance) &&
+           same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance);
 }
 
 GradientImages render(const RenderSettings& settings, int threads) {

@@ -1,0 +1,224 @@
+#include "recon/poisson_weighted.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr int chunk_pixels = 64; // worked on at a time: their arrays stay in the L1 cache
+constexpr int chunk_values = 3 * chunk_pixels;
+
+// The preconditioner need not have the weight of the problem, and below this it would have to refine its answers.
+constexpr float least_alpha = 0.1f;
+
+/// A number for each channel.
+using Channels = std::array<double, 3>;
+
+const float* values(const RgbImage& image, int x, int y) {
+    return &image(x, y).x;
+}
+
+float* values(RgbImage& image, int x, int y) {
+    return &image(x, y).x;
+}
+
+/// Writes `count` weights three times each, once for each channel.
+void spread(const float* weights, int count, float* out) {
+    for (int i = 0; i < count; ++i)
+        out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = weights[i];
+}
+
+/// Writes row y of V + Dx^T w_x G_x + Dy^T w_y G_y to out. V, G_x and G_y are given by calls (x, y, count, to)
+/// that write 3 values for each of `count` pixels from (x, y) on.
+template <class V, class Gx, class Gy>
+void write_row(const EdgeWeights& weights, int y, const V& v, const Gx& g_x, const Gy& g_y, float* out) {
+    const int width = weights.x.width(), height = weights.x.height();
+    float weight[chunk_values], flux[chunk_values];
+    float to_right[3 + chunk_values] = {}; // flux from one pixel to the next, that into the chunk's first in front
+    for (int x = 0; x < width; x += chunk_pixels) {
+        const int count = std::min(chunk_pixels, width - x), right = std::min(count, width - 1 - x);
+        float* sum = out + 3 * x;
+        v(x, y, count, sum);
+        g_x(x, y, right, to_right + 3);
+        spread(weights.x.row(y) + x, right, weight);
+        for (int i = 0; i < 3 * right; ++i)
+            to_right[3 + i] *= weight[i];
+        std::fill(to_right + 3 + 3 * right, to_right + 3 + 3 * count, 0.0f);
+        for (int i = 0; i < 3 * count; ++i)
+            sum[i] += to_right[i] - to_right[3 + i];
+        std::copy_n(to_right + 3 * count, 3, to_right);
+        if (y > 0) {
+            g_y(x, y - 1, count, flux);
+            spread(weights.y.row(y - 1) + x, count, weight);
+            for (int i = 0; i < 3 * count; ++i)
+                sum[i] += weight[i] * flux[i];
+        }
+        if (y + 1 < height) {
+            g_y(x, y, count, flux);
+            spread(weights.y.row(y) + x, count, weight);
+            for (int i = 0; i < 3 * count; ++i)
+                sum[i] -= weight[i] * flux[i];
+        }
+    }
+}
+
+constexpr int period = 24; // values of all channels that fill whole vectors
+
+/// The sums of the products of `count` pixels, channel by channel.
+Channels products(const float* a, const float* b, int count) {
+    Channels sums{};
+    for (int first = 0; first < 3 * count; first += chunk_values) {
+        const int end = std::min(first + chunk_values, 3 * count);
+        float partial[period] = {};
+        int i = first;
+        for (; i + period <= end; i += period)
+            for (int j = 0; j < period; ++j)
+                partial[j] += a[i + j] * b[i + j];
+        for (int j = 0; i < end; ++i, ++j)
+            partial[j] += a[i] * b[i];
+        for (int j = 0; j < period; ++j)
+            sums[j % 3] += partial[j];
+    }
+    return sums;
+}
+
+Channels total(const std::vector<Channels>& rows) {
+    Channels sum{};
+    for (const Channels& row : rows)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += row[c];
+    return sum;
+}
+
+double total(const Channels& channels) {
+    return channels[0] + channels[1] + channels[2];
+}
+
+/// r = b - A I; returns the sum that is to be minimised, for I = 0.
+double residual(const PoissonProblem& problem, const EdgeWeights& weights, const RgbImage& image, RgbImage& r,
+                const ParallelFor& parallel_for) {
+    const int width = image.width(), height = image.height();
+    const float weight = problem.alpha * problem.alpha;
+    std::vector<double> squares(height);
+    parallel_for(height, [&](int y) {
+        const auto misfit = [&](int x, int row, int count, float* out) {
+            const float *given = values(problem.primal, x, row), *own = values(image, x, row);
+            for (int i = 0; i < 3 * count; ++i)
+                out[i] = weight * (given[i] - own[i]);
+        };
+        const auto misfit_of = [&](const RgbImage& gradient, int next) {
+            return [&gradient, &image, next](int x, int row, int count, float* out) {
+                const float *given = values(gradient, x, row), *own = values(image, x, row);
+                for (int i = 0; i < 3 * count; ++i)
+                    out[i] = given[i] - (own[i + next] - own[i]);
+            };
+        };
+        write_row(weights, y, misfit, misfit_of(problem.dx, 3), misfit_of(problem.dy, 3 * width), values(r, 0, y));
+        for (int x = 0; x < width; ++x) {
+            const Rgb p = problem.primal(x, y), dx = problem.dx(x, y), dy = problem.dy(x, y);
+            squares[y] +=
+                weight * glm::dot(p, p) + weights.x(x, y) * glm::dot(dx, dx) + weights.y(x, y) * glm::dot(dy, dy);
+        }
+    });
+    return std::accumulate(squares.begin(), squares.end(), 0.0);
+}
+
+/// w = A z; returns r z and w z.
+std::array<Channels, 2> apply(const EdgeWeights& weights, float alpha, const RgbImage& z, const RgbImage& r,
+                              RgbImage& w, const ParallelFor& parallel_for) {
+    const int width = z.width(), height = z.height();
+    std::vector<Channels> rz(height), wz(height);
+    parallel_for(height, [&](int y) {
+        const auto scaled = [&z, weight = alpha * alpha](int x, int row, int count, float* out) {
+            const float* own = values(z, x, row);
+            for (int i = 0; i < 3 * count; ++i)
+                out[i] = weight * own[i];
+        };
+        const auto difference = [&](int next) {
+            return [&z, next](int x, int row, int count, float* out) {
+                const float* own = values(z, x, row);
+                for (int i = 0; i < 3 * count; ++i)
+                    out[i] = own[i + next] - own[i];
+            };
+        };
+        write_row(weights, y, scaled, difference(3), difference(3 * width), values(w, 0, y));
+        rz[y] = products(values(r, 0, y), values(z, 0, y), width);
+        wz[y] = products(values(w, 0, y), values(z, 0, y), width);
+    });
+    return {total(rz), total(wz)};
+}
+
+/// A number for each channel, over and over: the factors of `period` values.
+struct Factors {
+    explicit Factors(const Channels& channels) {
+        for (int i = 0; i < period; ++i)
+            value[i] = static_cast<float>(channels[i % 3]);
+    }
+
+    float value[period];
+};
+
+/// The step of one row: p = z + turn p, s = w + turn s, I += step p, r -= step s, where w = A z and s = A p.
+void take_step(const Factors& turn, const Factors& step, int count, const float* __restrict z,
+               const float* __restrict w, float* __restrict p, float* __restrict s, float* __restrict image,
+               float* __restrict r) {
+    const auto update = [&](int i, int j) {
+        p[i] = z[i] + turn.value[j] * p[i];
+        s[i] = w[i] + turn.value[j] * s[i];
+        image[i] += step.value[j] * p[i];
+        r[i] -= step.value[j] * s[i];
+    };
+    int i = 0;
+    for (; i + period <= 3 * count; i += period)
+        for (int j = 0; j < period; ++j)
+            update(i + j, j);
+    for (int j = 0; i < 3 * count; ++i, ++j)
+        update(i, j);
+}
+
+} // namespace
+
+WeightedSolver::WeightedSolver(int width, int height) : solver_(width, height) {}
+
+int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
+                          const WeightedSettings& settings, bool is_warm, RgbImage& image,
+                          const ParallelFor& parallel_for, std::stop_token stop) {
+    const int width = solver_.width(), height = solver_.height();
+    if (!is_warm || image.width() != width || image.height() != height)
+        image = RgbImage(width, height);
+    for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_})
+        if (kept->width() != width || kept->height() != height)
+            *kept = RgbImage(width, height);
+    const double scale = residual(problem, weights, image, residual_, parallel_for);
+    const double enough = settings.tolerance * settings.tolerance * scale;
+    Channels last{}, step{}; // r z and the length of the step before
+    for (int i = 1; i <= settings.iterations; ++i) {
+        if (stop.stop_requested())
+            return 0;
+        solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
+        const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
+        if (!(total(rz) > enough))
+            return i;
+        Channels turn{};
+        for (int c = 0; c < 3; ++c) {
+            turn[c] = i > 1 && last[c] > 0 ? rz[c] / last[c] : 0;
+            const double curvature = wz[c] - (i > 1 && step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
+            step[c] = curvature > 0 ? rz[c] / curvature : 0;
+        }
+        const Factors turns(turn), steps(step);
+        parallel_for(height, [&](int y) {
+            take_step(turns, steps, width, values(solved_, 0, y), values(applied_, 0, y), values(direction_, 0, y),
+                      values(applied_step_, 0, y), values(image, 0, y), values(residual_, 0, y));
+        });
+        last = rz;
+    }
+    return settings.iterations;
+}
+
+} // namespace tessera

@@ -1,0 +1,132 @@
+#include "recon/poisson_weighted.h"
+#include "tests/recon/sparse_solver.h"
+#include "tests/recon/test_images.h"
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+constexpr WeightedSettings exact{.tolerance = 1e-7f, .iterations = 500};
+
+PoissonProblem problem_of(const GradientImages& images, float alpha = 0.2f) {
+    return {images.primal, images.dx, images.dy, alpha};
+}
+
+RgbImage solve(const PoissonProblem& problem, const EdgeWeights& weights, const WeightedSettings& settings) {
+    WeightedSolver solver(problem.primal.width(), problem.primal.height());
+    RgbImage image;
+    EXPECT_GT(solver.solve(problem, weights, settings, false, image), 0);
+    return image;
+}
+
+/// From 1 down to 1e-4, and some of 0.
+EdgeWeights random_weights(int width, int height) {
+    const RgbImage noise = random_image(width, height, 21);
+    EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Rgb n = noise(x, y);
+            if (x + 1 < width)
+                weights.x(x, y) = n.z > 2 ? 0 : std::exp(-3 * std::abs(n.x));
+            if (y + 1 < height)
+                weights.y(x, y) = n.z < -2 ? 0 : std::exp(-3 * std::abs(n.y));
+        }
+    return weights;
+}
+
+TEST(PoissonWeighted, EqualsASparseDirectSolve) {
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}, {37, 23}, {64, 48}, {67, 33}, {128, 95}})
+        for (const float alpha : {0.02f, 0.2f, 2.0f}) {
+            const GradientImages images = noisy_images(width, height);
+            const EdgeWeights weights = random_weights(width, height);
+            const PoissonProblem problem = problem_of(images, alpha);
+            EXPECT_LE(relative_difference(solve(problem, weights, exact), solve_sparse(problem, &weights)), 5e-5)
+                << width << "x" << height << " " << alpha;
+        }
+}
+
+TEST(PoissonWeighted, TheUsualToleranceIsNearTheAnswer) {
+    const GradientImages images = noisy_images(160, 90);
+    const EdgeWeights weights = weights_of_gradients(images);
+    const RgbImage expected = solve(problem_of(images), weights, exact);
+    EXPECT_LE(relative_rms_difference(solve(problem_of(images), weights, {}), expected), 0.01);
+}
+
+TEST(PoissonWeighted, AWarmStartTakesFewerSteps) {
+    const GradientImages images = noisy_images(160, 90);
+    const EdgeWeights weights = weights_of_gradients(images);
+    WeightedSolver solver(160, 90);
+    RgbImage image;
+    const int cold = solver.solve(problem_of(images), weights, {}, false, image);
+    GradientImages newer = images;
+    const RgbImage noise = random_image(160, 90, 5, 0, 0.01f);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        newer.primal.data()[i] += noise.data()[i];
+    const int warm = solver.solve(problem_of(newer), weights, {}, true, image);
+    EXPECT_LE(warm, cold / 2);
+    EXPECT_LE(relative_rms_difference(image, solve(problem_of(newer), weights, exact)), 0.01);
+}
+
+/// All columns of the matrix sum to alpha^2.
+TEST(PoissonWeighted, KeepsTheMeanOfThePrimal) {
+    const GradientImages images = noisy_images(120, 70);
+    const RgbImage image =
+        solve(problem_of(images), random_weights(120, 70), {.tolerance = 1e-5f, .iterations = 200});
+    EXPECT_LE(glm::length(mean_color(image) - mean_color(images.primal)), 1e-4 * glm::length(mean_color(image)));
+}
+
+TEST(PoissonWeighted, ThreadsDoNotMatter) {
+    const GradientImages images = noisy_images(79, 61);
+    const ParallelFor backwards = [](int count, const std::function<void(int)>& body) {
+        std::jthread other([&] {
+            for (int i = count - 1; i >= 0; i -= 2)
+                body(i);
+        });
+        for (int i = count - 2; i >= 0; i -= 2)
+            body(i);
+    };
+    const EdgeWeights weights = weights_of_gradients(images, backwards);
+    WeightedSolver solver(79, 61);
+    RgbImage image;
+    solver.solve(problem_of(images), weights, {}, false, image, backwards);
+    EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights_of_gradients(images), {})), 0);
+}
+
+TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
+    GradientImages images{RgbImage(30, 20), RgbImage(30, 20), RgbImage(30, 20), {}};
+    images.primal_variance = Image<float>(30, 20, 2);
+    images.dx_variance = images.dy_variance = Image<float>(30, 20, 0.2f);
+    images.dx_variance(15, 10) = 1e6f;
+    images.dy_variance(4, 4) = std::numeric_limits<float>::max();
+    const EdgeWeights weights = weights_of_gradients(images);
+    EXPECT_FLOAT_EQ(weights.x(3, 17), 0.5f); // 1 / (1 + 10 * 0.2 / 2)
+    EXPECT_FLOAT_EQ(weights.y(28, 3), 0.5f);
+    EXPECT_LT(weights.x(15, 10), 1e-6f);
+    EXPECT_LT(weights.x(16, 11), 1e-4f); // what is beside an outlier is not trusted, either
+    EXPECT_LT(weights.y(4, 4), 1e-20f);
+    EXPECT_FLOAT_EQ(weights.x(15, 14), 0.5f);
+    for (int y = 0; y < 20; ++y)
+        EXPECT_EQ(weights.x(29, y), 0);
+    for (int x = 0; x < 30; ++x)
+        EXPECT_EQ(weights.y(x, 19), 0);
+}
+
+TEST(EdgeWeights, WithoutNoiseAllGradientsAreTrusted) {
+    GradientImages images{RgbImage(8, 8), RgbImage(8, 8), RgbImage(8, 8), {}};
+    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(8, 8, 0);
+    EXPECT_EQ(weights_of_gradients(images).x(3, 3), 1);
+    images.dx_variance(3, 3) = 1; // of a primal without noise: the gradient is not needed
+    EXPECT_EQ(weights_of_gradients(images).x(3, 3), 0);
+}
+
+} // namespace
+} // namespace tessera
