@@ -1,11 +1,13 @@
 #include "app/gradient_input.h"
 
 #include "app/exit_codes.h"
+#include "app/reconstruction_layers.h"
 #include "render/load/exr.h"
 #include "render/load/image_files.h"
 #include "render/load/pfm_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,6 +41,19 @@ std::map<std::string, std::string> own_attributes(const ExrFile& file) {
         if (name.starts_with("tessera:"))
             attributes[name] = text;
     return attributes;
+}
+
+float patch_of(const std::map<std::string, std::string>& attributes, const std::filesystem::path& path) {
+    const auto found = attributes.find(patch_attribute);
+    if (found == attributes.end())
+        return 1;
+    float patch = 0;
+    const std::string& text = found->second;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), patch);
+    if (error != std::errc() || end != text.data() + text.size() || !(patch >= 1 && patch <= 1024))
+        throw BadInput(fmt::format("{}: attribute {} is \"{}\", but must be a number from 1 to 1024",
+                                   path.string(), patch_attribute, text));
+    return patch;
 }
 
 NamedImage named_layer(const ExrFile& file, const char* name, const std::filesystem::path& path) {
@@ -137,6 +152,7 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     if (files.size() == 1) {
         layers = read_layers(files.front());
         input.attributes = own_attributes(layers);
+        input.images.patch = patch_of(input.attributes, files.front());
         buffers = buffers_of(layers, files.front());
     } else {
         for (const std::filesystem::path& file : files)

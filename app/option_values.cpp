@@ -48,7 +48,7 @@ auto parse_list(const std::string& option, const std::string& text, const char* 
 } // namespace
 
 std::vector<Norm> parse_norms(const std::string& text) {
-    return parse_list("--recon", text, "none, l2, l1, mixed, weighted", norm_from_name);
+    return parse_list("--recon", text, "none, l2, l1, mixed, uniform, weighted", norm_from_name);
 }
 
 std::vector<Method> parse_methods(const std::string& text) {

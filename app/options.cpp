@@ -87,8 +87,9 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     command.add_option("--clock", words.clock, "what --time counts: wall or cpu")
         ->check(CLI::IsMember({"wall", "cpu"}))
         ->capture_default_str();
-    command.add_option("--recon", words.norms,
-                       "none, l2, l1, mixed, weighted, or several: one layer each (default l2 with gradients)");
+    command.add_option(
+        "--recon", words.norms,
+        "none, l2, l1, mixed, uniform, weighted, or several: one layer each (default weighted with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
@@ -146,8 +147,9 @@ void add_sweep(CLI::App& app, Words& words, SweepOptions& options) {
     command.add_option("--seeds", options.seeds, "renders of each point, each with another seed, in turn")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--recon", words.norms, "none, l2, l1 or mixed, where there are gradients")
-        ->default_str("l2");
+    command
+        .add_option("--recon", words.norms, "none, l2, l1, mixed, uniform or weighted, where there are gradients")
+        ->default_str("weighted");
     command.add_option("--reference", options.references, "folder of the references")->required();
     command.add_option("--reference-spp", options.reference_spp, "samples a pixel of references that are missing")
         ->check(CLI::Range(1, 100000000))

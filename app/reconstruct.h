@@ -10,7 +10,7 @@ namespace tessera {
 /// What `tessera reconstruct` is asked for.
 struct ReconstructOptions {
     std::vector<std::filesystem::path> inputs; ///< as read_gradients takes them
-    ReconstructionLayers layers{{Norm::l2}};
+    ReconstructionLayers layers{{Norm::weighted}};
     bool repair = false; ///< pixels that are not finite count as 0
     int threads = 0;     ///< 0: one a hardware thread
     std::filesystem::path output;

@@ -13,7 +13,7 @@ namespace tessera {
 struct ReconstructWords {
     std::vector<std::string> inputs;
     std::string primal, dx, dy, direct; ///< the inputs by their names instead
-    std::string norms = "l2";
+    std::string norms = "weighted";
     ReconstructOptions options; ///< all that is not above
 };
 

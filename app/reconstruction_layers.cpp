@@ -52,6 +52,7 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
         add_layer(file, "primal_variance", grey(images.primal_variance));
         add_layer(file, "dx_variance", grey(images.dx_variance));
         add_layer(file, "dy_variance", grey(images.dy_variance));
+        file.attributes[patch_attribute] = fmt::format("{}", images.patch);
     }
     return file;
 }

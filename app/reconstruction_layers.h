@@ -9,11 +9,14 @@
 
 namespace tessera {
 
+/// The EXR attribute with GradientImages::patch.
+inline constexpr const char* patch_attribute = "tessera:patch";
+
 /// The layers of a picture file that are made from gradients.
 struct ReconstructionLayers {
     std::vector<Norm> norms; ///< not empty; the first is the file's plain RGB
     float alpha = 0.2f;
-    bool buffers = false; ///< primal, dx, dy and direct, too
+    bool buffers = false; ///< primal, dx, dy, direct and variances, too
 };
 
 /// What one reconstruction cost: wall and CPU seconds.

@@ -71,7 +71,7 @@ bool ReferencePair::make(std::size_t i, const SceneSource& source, const std::sh
     }
     if (render.spp() < options_.spp)
         return false;
-    const ReconstructionSettings l2;
+    const ReconstructionSettings l2{.norm = Norm::l2};
     images_[i] = reconstruct(render.take_images(), l2).image;
     const std::string text = settings_json(source, settings, options_.size, options_.spp, l2.alpha).dump();
     write_exr(paths_[i],

@@ -32,7 +32,7 @@ Plan make_plan(const RenderOptions& options, const Scene& scene) {
     plan.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
     plan.spp = options.spp.value_or(options.time ? 0 : 16);
     if (plan.norms.empty())
-        plan.norms = {has_gradients(plan.settings.method) ? Norm::l2 : Norm::none};
+        plan.norms = {has_gradients(plan.settings.method) ? Norm::weighted : Norm::none};
     return plan;
 }
 
@@ -92,7 +92,8 @@ int run_render(const RenderOptions& options) {
     ExrFile file = assemble({plan.norms, options.alpha, options.buffers}, render, recon, pool);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
-    file.attributes = {{"tessera:version", TESSERA_VERSION}, {"tessera:settings", settings.dump()}};
+    file.attributes["tessera:version"] = TESSERA_VERSION;
+    file.attributes["tessera:settings"] = settings.dump();
     write_picture(options.output, file);
     if (!options.stats.empty())
         write_text(options.stats,

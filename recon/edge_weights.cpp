@@ -9,7 +9,7 @@ namespace {
 
 // The best of what was tried on Veach, Ajar and Country Kitchen, G-PT and G-PR, 32 samples a pixel; half or twice
 // as much of any costs some percent.
-constexpr float reuse_factor = 10; // c
+constexpr float noise_factor = 0.4f; // k
 constexpr int gradient_radius = 2, primal_radius = 4;
 constexpr float own_share = 0.5f; // of a gradient's own variance against the mean around
 
@@ -36,15 +36,16 @@ Image<float> mean_around(const Image<float>& values, int radius, const ParallelF
     return means;
 }
 
-float weight(float own_variance, float variance_around, float primal_variance) {
+float weight(float alpha, float own_variance, float variance_around, float primal_variance) {
+    const float least = alpha * alpha * primal_variance;
     const float variance =
         own_share * std::min(own_variance, largest_variance) + (1 - own_share) * variance_around;
-    return variance > 0 ? primal_variance / (primal_variance + reuse_factor * variance) : 1;
+    return variance > 0 ? least / (least + noise_factor * variance) : 1;
 }
 
 } // namespace
 
-EdgeWeights weights_of_gradients(const GradientImages& images, const ParallelFor& parallel_for) {
+EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     const int width = images.primal.width(), height = images.primal.height();
     const Image<float> primal = mean_around(images.primal_variance, primal_radius, parallel_for);
     const Image<float> dx = mean_around(images.dx_variance, gradient_radius, parallel_for);
@@ -52,11 +53,12 @@ EdgeWeights weights_of_gradients(const GradientImages& images, const ParallelFor
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
     parallel_for(height, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)
-            weights.x(x, y) = weight(images.dx_variance(x, y), dx(x, y), (primal(x, y) + primal(x + 1, y)) / 2);
+            weights.x(x, y) =
+                weight(alpha, images.dx_variance(x, y), dx(x, y), (primal(x, y) + primal(x + 1, y)) / 2);
         if (y + 1 < height)
             for (int x = 0; x < width; ++x)
                 weights.y(x, y) =
-                    weight(images.dy_variance(x, y), dy(x, y), (primal(x, y) + primal(x, y + 1)) / 2);
+                    weight(alpha, images.dy_variance(x, y), dy(x, y), (primal(x, y) + primal(x, y + 1)) / 2);
     });
     return weights;
 }

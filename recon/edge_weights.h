@@ -11,16 +11,20 @@ struct EdgeWeights {
     Image<float> x, y;
 };
 
-/// Weights from the variances of `images`, which has them. Where nothing is noisy, they are 1.
+/// Weights from the variances V of `images`, which has them, for a primal of weight alpha^2. Where nothing is
+/// noisy, they are 1.
 ///
 /// Image-space control variates [Rousselle 2016]: a pixel's neighbour, with the gradient between the two added, is
-/// one more estimate of the pixel. If reuse has brought the variance of the pixels down to V_primal / c, the best
-/// share of that estimate falls with the variance of the gradient as 1 / (1 + c V / V_primal). With one weight for
-/// both sides of a gradient, what one pixel gets from it is what the other loses: no light is lost.
+/// one more estimate of the pixel, which counts with the inverse of its variance. Against the primal this is
+/// V_primal / V_gradient, but nobody should trust a gradient without limit, as rare paths that matter may not have
+/// been seen yet: alpha^2 is the least ratio V_gradient / V_primal that is believed,
+///     w / alpha^2 = 1 / (alpha^2 + k V_gradient / V_primal) .
+/// With one weight for both sides of a gradient, what one pixel gets from it is what the other loses: no light is
+/// lost.
 ///
-/// Sample variances are noisy, and too low where the rare paths that matter have not been seen yet, so they are
-/// blended with those around; primal variances more so, since nobody should trust a gradient for the sake of a
-/// firefly beside it.
-EdgeWeights weights_of_gradients(const GradientImages& images, const ParallelFor& parallel_for = serial_for);
+/// Sample variances are noisy, too, so they are blended with those around; primal variances more so, since nobody
+/// should trust a gradient for the sake of a firefly beside it.
+EdgeWeights weights_of_gradients(const GradientImages& images, float alpha,
+                                 const ParallelFor& parallel_for = serial_for);
 
 } // namespace tessera

@@ -15,6 +15,10 @@ struct GradientImages {
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
+    /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
+    /// it; 1: every pixel has its own.
+    float patch = 1;
+
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
     bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };

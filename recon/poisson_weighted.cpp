@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
-
-#include <glm/geometric.hpp>
 
 namespace tessera {
 
@@ -14,8 +11,11 @@ namespace {
 constexpr int chunk_pixels = 64; // worked on at a time: their arrays stay in the L1 cache
 constexpr int chunk_values = 3 * chunk_pixels;
 
-// The preconditioner need not have the weight of the problem, and below this it would have to refine its answers.
+// Start and preconditioner need not have the weight of the problem: where gradients are trusted less, a larger one
+// is nearer to it, and does not need to refine its answers.
 constexpr float least_alpha = 0.1f;
+
+constexpr double rounding = 1e-13; // of the squared error: the square of a float's
 
 /// A number for each channel.
 using Channels = std::array<double, 3>;
@@ -88,6 +88,10 @@ Channels products(const float* a, const float* b, int count) {
     return sums;
 }
 
+double total(const Channels& channels) {
+    return channels[0] + channels[1] + channels[2];
+}
+
 Channels total(const std::vector<Channels>& rows) {
     Channels sum{};
     for (const Channels& row : rows)
@@ -96,16 +100,11 @@ Channels total(const std::vector<Channels>& rows) {
     return sum;
 }
 
-double total(const Channels& channels) {
-    return channels[0] + channels[1] + channels[2];
-}
-
-/// r = b - A I; returns the sum that is to be minimised, for I = 0.
-double residual(const PoissonProblem& problem, const EdgeWeights& weights, const RgbImage& image, RgbImage& r,
-                const ParallelFor& parallel_for) {
+/// r = b - A I.
+void residual(const PoissonProblem& problem, const EdgeWeights& weights, const RgbImage& image, RgbImage& r,
+              const ParallelFor& parallel_for) {
     const int width = image.width(), height = image.height();
     const float weight = problem.alpha * problem.alpha;
-    std::vector<double> squares(height);
     parallel_for(height, [&](int y) {
         const auto misfit = [&](int x, int row, int count, float* out) {
             const float *given = values(problem.primal, x, row), *own = values(image, x, row);
@@ -120,13 +119,7 @@ double residual(const PoissonProblem& problem, const EdgeWeights& weights, const
             };
         };
         write_row(weights, y, misfit, misfit_of(problem.dx, 3), misfit_of(problem.dy, 3 * width), values(r, 0, y));
-        for (int x = 0; x < width; ++x) {
-            const Rgb p = problem.primal(x, y), dx = problem.dx(x, y), dy = problem.dy(x, y);
-            squares[y] +=
-                weight * glm::dot(p, p) + weights.x(x, y) * glm::dot(dx, dx) + weights.y(x, y) * glm::dot(dy, dy);
-        }
     });
-    return std::accumulate(squares.begin(), squares.end(), 0.0);
 }
 
 /// w = A z; returns r z and w z.
@@ -186,39 +179,50 @@ void take_step(const Factors& turn, const Factors& step, int count, const float*
 
 WeightedSolver::WeightedSolver(int width, int height) : solver_(width, height) {}
 
-int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
-                          const WeightedSettings& settings, bool is_warm, RgbImage& image,
-                          const ParallelFor& parallel_for, std::stop_token stop) {
+void WeightedSolver::start(const PoissonProblem& problem, const ParallelFor& parallel_for) {
     const int width = solver_.width(), height = solver_.height();
-    if (!is_warm || image.width() != width || image.height() != height)
-        image = RgbImage(width, height);
     for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_})
-        if (kept->width() != width || kept->height() != height)
+        if (kept->empty())
             *kept = RgbImage(width, height);
-    const double scale = residual(problem, weights, image, residual_, parallel_for);
-    const double enough = settings.tolerance * settings.tolerance * scale;
-    Channels last{}, step{}; // r z and the length of the step before
-    for (int i = 1; i <= settings.iterations; ++i) {
+    const float alpha = std::max(problem.alpha, least_alpha);
+    solver_.solve(PoissonProblem{problem.primal, problem.dx, problem.dy, alpha}, last_, parallel_for);
+}
+
+int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
+                          const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
+                          std::stop_token stop) {
+    const bool is_warm = !last_.empty();
+    if (!is_warm)
+        start(problem, parallel_for);
+    residual(problem, weights, last_, residual_, parallel_for);
+    const int iterations = is_warm ? settings.warm_iterations : settings.cold_iterations;
+    Channels rz_before{}, step{};
+    double first = 0;
+    for (int i = 0; i < iterations; ++i) {
         if (stop.stop_requested())
             return 0;
         solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
         const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
-        if (!(total(rz) > enough))
-            return i;
+        if (i == 0)
+            first = total(rz);
+        if (!(total(rz) > rounding * first))
+            break; // solved, as far as floats can tell
         Channels turn{};
         for (int c = 0; c < 3; ++c) {
-            turn[c] = i > 1 && last[c] > 0 ? rz[c] / last[c] : 0;
-            const double curvature = wz[c] - (i > 1 && step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
+            turn[c] = i > 0 && rz_before[c] > 0 ? rz[c] / rz_before[c] : 0;
+            const double curvature = wz[c] - (step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
             step[c] = curvature > 0 ? rz[c] / curvature : 0;
         }
         const Factors turns(turn), steps(step);
-        parallel_for(height, [&](int y) {
-            take_step(turns, steps, width, values(solved_, 0, y), values(applied_, 0, y), values(direction_, 0, y),
-                      values(applied_step_, 0, y), values(image, 0, y), values(residual_, 0, y));
+        parallel_for(solver_.height(), [&](int y) {
+            take_step(turns, steps, solver_.width(), values(solved_, 0, y), values(applied_, 0, y),
+                      values(direction_, 0, y), values(applied_step_, 0, y), values(last_, 0, y),
+                      values(residual_, 0, y));
         });
-        last = rz;
+        rz_before = rz;
     }
-    return settings.iterations;
+    image = last_;
+    return iterations + (is_warm ? 0 : 1);
 }
 
 } // namespace tessera

@@ -3,13 +3,17 @@
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
+#include "recon/uniform_control_variates.h"
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 namespace tessera {
 
 namespace {
+
+constexpr int uniform_iterations = 50;
 
 void check_sizes(const GradientImages& images) {
     const auto check = [&](const auto& image) {
@@ -28,15 +32,29 @@ void add(RgbImage& sum, const RgbImage& image) {
         sum.data()[i] += image.data()[i];
 }
 
+/// Where noise is alike in squares of pixels, each pixel says less on its own, and the picture must be smoothed
+/// over the squares. The square root has been tried out on tiles of 6 pixels: 1 leaves blobs, the edge itself too
+/// little.
+float alpha_of_patches(float alpha, float patch) {
+    return alpha / std::sqrt(patch);
+}
+
 } // namespace
 
-/// The solvers of one size; each is made when it is first asked for.
+/// The solvers of one size; each is made when it is first asked for. Solves return the number of inner solves.
 struct Reconstructor::Solvers {
+    template <class Solver>
+    Solver& made(std::optional<Solver>& solver) {
+        if (!solver)
+            solver.emplace(width, height);
+        return *solver;
+    }
+
     int width, height;
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
-    RgbImage weighted_image; ///< its last answer; empty: none
+    RgbImage scratch; ///< of uniform control variates
 };
 
 Reconstructor::Reconstructor() = default;
@@ -47,7 +65,8 @@ void Reconstructor::forget() {
         return;
     if (solvers_->l1)
         solvers_->l1->forget();
-    solvers_->weighted_image = {};
+    if (solvers_->weighted)
+        solvers_->weighted->forget();
 }
 
 std::string_view to_string(Norm norm) {
@@ -60,6 +79,8 @@ std::string_view to_string(Norm norm) {
         return "l1";
     case Norm::mixed:
         return "mixed";
+    case Norm::uniform:
+        return "uniform";
     case Norm::weighted:
         return "weighted";
     }
@@ -79,27 +100,35 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     const int width = images.primal.width(), height = images.primal.height();
     if (!solvers_ || solvers_->width != width || solvers_->height != height)
         solvers_ = std::make_unique<Solvers>(width, height);
-    const PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
+    const bool is_blind = settings.norm == Norm::weighted && !images.has_variances();
+    PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
     Reconstruction result;
-    const bool is_weighted = settings.norm == Norm::weighted && images.has_variances();
-    if (is_weighted) {
-        if (!solvers_->weighted)
-            solvers_->weighted.emplace(width, height);
-        const EdgeWeights weights = weights_of_gradients(images, parallel_for);
-        result.iterations = solvers_->weighted->solve(problem, weights, {}, !solvers_->weighted_image.empty(),
-                                                      solvers_->weighted_image, parallel_for, stop);
-        result.image = solvers_->weighted_image;
-    } else if (settings.norm == Norm::l2 || settings.norm == Norm::weighted) {
-        if (!solvers_->l2)
-            solvers_->l2.emplace(width, height);
-        solvers_->l2->solve(problem, result.image, parallel_for);
+    switch (is_blind ? Norm::l2 : settings.norm) {
+    case Norm::none:
+        result.image = images.primal;
+        break;
+    case Norm::l2:
+        solvers_->made(solvers_->l2).solve(problem, result.image, parallel_for);
         result.residual = poisson_residual(problem, result.image, parallel_for);
         result.iterations = 1;
-    } else {
-        if (!solvers_->l1)
-            solvers_->l1.emplace(width, height);
+        break;
+    case Norm::l1:
+    case Norm::mixed: {
         const L1Settings l1{.square_primal = settings.norm == Norm::mixed, .joint_colour = settings.joint_colour};
-        result.iterations = solvers_->l1->solve(problem, l1, result.image, parallel_for, stop);
+        result.iterations = solvers_->made(solvers_->l1).solve(problem, l1, result.image, parallel_for, stop);
+        break;
+    }
+    case Norm::uniform:
+        result.iterations =
+            average_neighbours(problem, uniform_iterations, result.image, solvers_->scratch, parallel_for, stop);
+        break;
+    case Norm::weighted: {
+        problem.alpha = alpha_of_patches(settings.alpha, images.patch);
+        const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
+        result.iterations =
+            solvers_->made(solvers_->weighted).solve(problem, weights, {}, result.image, parallel_for, stop);
+        break;
+    }
     }
     if (stop.stop_requested())
         result.image = {};

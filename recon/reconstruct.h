@@ -11,20 +11,22 @@
 
 namespace tessera {
 
-/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4]. weighted: L2, where
-/// gradients count the less the noisier they are (weights_of_gradients); l2 if variances are unknown.
-enum class Norm { none, l2, l1, mixed, weighted };
+/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4]. uniform:
+/// averages of neighbours (average_neighbours; alpha does not matter). weighted: L2, where gradients count the
+/// less the noisier they are (weights_of_gradients); l2 if variances are unknown.
+enum class Norm { none, l2, l1, mixed, uniform, weighted };
 
 /// All of them, in the order above.
-inline constexpr std::array all_norms = {Norm::none, Norm::l2, Norm::l1, Norm::mixed, Norm::weighted};
+inline constexpr std::array all_norms = {Norm::none,  Norm::l2,      Norm::l1,
+                                         Norm::mixed, Norm::uniform, Norm::weighted};
 
-/// "none", "l2", "l1", "mixed", "weighted".
+/// "none", "l2", "l1", "mixed", "uniform", "weighted".
 std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
 
 struct ReconstructionSettings {
-    Norm norm = Norm::l2;
+    Norm norm = Norm::weighted;
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
     bool joint_colour = true; ///< L1 and mixed: lengths of colours, not absolute values of each channel
 

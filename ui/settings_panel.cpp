@@ -56,7 +56,7 @@ bool draw_method_settings(Controls& controls, const ViewerState& state, bool rar
 }
 
 bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& settings) {
-    static const std::array<ChoiceItem, 4> norms = {{
+    static const std::array<ChoiceItem, 6> norms = {{
         {"none", "none", "The primal picture as it is."},
         {"l2", "L2", "Least squares: quick and unbiased; outliers leave blobs."},
         {"l1", "L1",
@@ -64,6 +64,12 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
         {"mixed", "mixed",
          "Least absolute differences of the gradients, least squares of the primal: few outliers, and as bright "
          "as the primal."},
+        {"uniform", "uniform",
+         "Fifty times the mean of a pixel and its neighbours with the gradients added (uniform control "
+         "variates)."},
+        {"weighted", "weighted",
+         "Least squares, where gradients count the less the noisier they are (control variates weighted by "
+         "variances): few outliers, and as bright as the primal."},
     }};
     int index = static_cast<int>(settings.norm);
     bool changed = controls.choice("norm", "Norm", norms, index,

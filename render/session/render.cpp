@@ -40,6 +40,13 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
     check(settings);
 }
 
+/// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile.
+GradientImages Render::with_patch(GradientImages images) const {
+    if (reuses_paths(settings_.method) && settings_.primal == PrimalSource::reuse)
+        images.patch = static_cast<float>(settings_.tile);
+    return images;
+}
+
 bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     const auto start = std::chrono::steady_clock::now();
     const Pass pass(*scene_, camera_, size_, settings_, plan_, spp_);

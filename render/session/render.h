@@ -25,13 +25,15 @@ public:
     double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
-    GradientImages images() const { return film_.means(spp_); }
+    GradientImages images() const { return with_patch(film_.means(spp_)); }
     /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
     /// counts stay.
-    GradientImages take_images() { return film_.take_means(spp_); }
+    GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
 
 private:
+    GradientImages with_patch(GradientImages images) const;
+
     std::shared_ptr<const Scene> scene_;
     Camera camera_;
     glm::ivec2 size_;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-constexpr Norm solved[] = {Norm::l2, Norm::l1, Norm::mixed, Norm::weighted};
+constexpr Norm solved[] = {Norm::l2, Norm::l1, Norm::mixed, Norm::uniform, Norm::weighted};
 
 TEST(Reconstruct, WithoutGradientsIsThePrimalPlusVeryDirectLight) {
     GradientImages images{RgbImage(5, 4, Rgb(1)), {}, {}, RgbImage(5, 4, Rgb(2))};
