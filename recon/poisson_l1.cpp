@@ -16,7 +16,7 @@ constexpr int chunk_values = 3 * chunk_pixels;
 
 // Thresholds in units of a typical pixel: a high one moves far, and in the end falling ones settle. Measured over
 // noisy renders; a factor of 2 in any makes a difference of a few iterations.
-constexpr float first_threshold = 0.5f, warm_threshold = 0.2f, least_threshold = 0.1f, decay = 0.9f;
+constexpr float first_threshold = 0.5f, warm_threshold = 0.05f, least_threshold = 0.1f, decay = 0.9f;
 constexpr float settling_decay = 0.6f;
 constexpr int settling_iterations = 6;
 constexpr float over_relaxation = 1.7f; // [Boyd et al. 2011, 3.4.3]: 1.5 to 1.8
