@@ -102,7 +102,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
     const GradientImages images = gpr.images();
     const std::vector<Picture> pictures = {
         {label(pt, "picture"), reconstruct(pt.images(), {}).image},
-        {label(gpr, "reconstruction (L2)"), reconstruct(images, {}).image},
+        {label(gpr, "reconstruction"), reconstruct(images, {}).image},
         {label(gpr, "primal"), images.primal},
         {label(gpr, "dx about grey"), around_grey(images.dx)},
     };

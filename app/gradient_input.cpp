@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -110,23 +111,28 @@ std::size_t make_finite(NamedImage& buffer, bool repair) {
     return count;
 }
 
-/// A layer of variances. Repaired, a bad one is so large that it leaves its pixel no weight.
+/// A layer of variances, of which the last `columns` and `rows` mean nothing. A bad one is repaired with
+/// `careful`.
 Image<float> read_variance(const ExrFile& file, const char* name, const std::filesystem::path& path,
-                           const RgbImage& primal, bool repair, std::size_t& repaired) {
+                           const RgbImage& primal, int columns, int rows, std::optional<float> careful,
+                           std::size_t& repaired) {
     const NamedImage layer = named_layer(file, name, path);
     if (layer.image.width() != primal.width() || layer.image.height() != primal.height())
         throw BadInput(fmt::format("sizes differ: the primal is {}, {} is {}", text_of_size(primal), layer.name,
                                    text_of_size(layer.image)));
     Image<float> variance(primal.width(), primal.height());
-    for (std::size_t i = 0; i < variance.size(); ++i) {
-        const float value = layer.image.data()[i].r;
-        const bool is_good = std::isfinite(value) && value >= 0;
-        if (!is_good && !repair)
-            throw BadInput(fmt::format("{}: {} is not a variance; --repair leaves such pixels without weight",
-                                       layer.name, value));
-        variance.data()[i] = is_good ? value : std::numeric_limits<float>::max();
-        repaired += !is_good;
-    }
+    for (int y = 0; y < primal.height() - rows; ++y)
+        for (int x = 0; x < primal.width() - columns; ++x) {
+            const float value = layer.image(x, y).r;
+            const bool is_good = std::isfinite(value) && value >= 0;
+            if (!is_good && !careful)
+                throw BadInput(
+                    fmt::format("{}: pixel ({}, {}) is {}, which is not a variance; with --repair gradients "
+                                "are trusted least there",
+                                layer.name, x, y, value));
+            variance(x, y) = is_good ? value : *careful;
+            repaired += !is_good;
+        }
     return variance;
 }
 
@@ -170,12 +176,15 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     if (buffers.size() == 4)
         input.images.very_direct = std::move(buffers[3].image);
     if (find_layer(layers, "primal_variance")) {
-        const auto variance = [&](const char* name) {
-            return read_variance(layers, name, files.front(), input.images.primal, repair, input.repaired);
+        // Gradients are trusted least where they are noisy and the primal is not.
+        const auto variance = [&](const char* name, int columns, int rows, float careful) {
+            return read_variance(layers, name, files.front(), input.images.primal, columns, rows,
+                                 repair ? std::optional(careful) : std::nullopt, input.repaired);
         };
-        input.images.primal_variance = variance("primal_variance");
-        input.images.dx_variance = variance("dx_variance");
-        input.images.dy_variance = variance("dy_variance");
+        constexpr float largest = std::numeric_limits<float>::max();
+        input.images.primal_variance = variance("primal_variance", 0, 0, 0);
+        input.images.dx_variance = variance("dx_variance", 1, 0, largest);
+        input.images.dy_variance = variance("dy_variance", 0, 1, largest);
     }
     return input;
 }

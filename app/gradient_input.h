@@ -14,7 +14,7 @@ namespace tessera {
 struct GradientInput {
     GradientImages images;                         ///< all finite
     std::map<std::string, std::string> attributes; ///< those that this program wrote into an EXR header
-    std::size_t repaired = 0;                      ///< pixels that were not finite, now 0
+    std::size_t repaired = 0;                      ///< values that were no numbers, now 0 or without trust
 };
 
 /// Reads one EXR file with layers primal, dx, dy and perhaps direct, or three or four files, EXR (plain RGB) or

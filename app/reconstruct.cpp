@@ -59,7 +59,8 @@ int run_reconstruct(const ReconstructOptions& options) {
     const double load_cpu = process_cpu_seconds() - start_cpu;
     const double load_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (input.repaired > 0)
-        fmt::print(stderr, "warning: pixels that were not finite, taken as 0: {}\n", input.repaired);
+        fmt::print(stderr, "warning: values that were not finite, or no variances, repaired: {}\n",
+                   input.repaired);
 
     const json settings = reconstruction_json(options, input);
     ThreadPool pool(options.threads);

@@ -41,7 +41,8 @@ FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& r
 
 /// By how much an image is too bright (positive) or too dark in each quarter of the pixels, from the darkest to
 /// the brightest: mean luminance of I over that of r, minus 1. Two independent references take turns to sort the
-/// pixels and to judge them, as what looks dark in the judge is dark by chance, too. Throws as measure_error does.
+/// pixels and to judge them, as what looks dark in the judge is dark by chance, too. Not finite for
+/// a quarter that is black in a reference, or empty. Throws as measure_error does.
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,
                                             const RgbImage& reference2);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace tessera {
@@ -157,14 +158,14 @@ struct Factors {
     float value[period];
 };
 
-/// The step of one row: p = z + turn p, s = w + turn s, I += step p, r -= step s, where w = A z and s = A p.
+/// The step of one row: p = z + turn p, s = w + turn s, c += step p, r -= step s, where w = A z and s = A p.
 void take_step(const Factors& turn, const Factors& step, int count, const float* __restrict z,
-               const float* __restrict w, float* __restrict p, float* __restrict s, float* __restrict image,
+               const float* __restrict w, float* __restrict p, float* __restrict s, float* __restrict correction,
                float* __restrict r) {
     const auto update = [&](int i, int j) {
         p[i] = z[i] + turn.value[j] * p[i];
         s[i] = w[i] + turn.value[j] * s[i];
-        image[i] += step.value[j] * p[i];
+        correction[i] += step.value[j] * p[i];
         r[i] -= step.value[j] * s[i];
     };
     int i = 0;
@@ -179,50 +180,81 @@ void take_step(const Factors& turn, const Factors& step, int count, const float*
 
 WeightedSolver::WeightedSolver(int width, int height) : solver_(width, height) {}
 
-void WeightedSolver::start(const PoissonProblem& problem, const ParallelFor& parallel_for) {
-    const int width = solver_.width(), height = solver_.height();
-    for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_})
+void WeightedSolver::make_room() {
+    for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_, &correction_})
         if (kept->empty())
-            *kept = RgbImage(width, height);
-    const float alpha = std::max(problem.alpha, least_alpha);
-    solver_.solve(PoissonProblem{problem.primal, problem.dx, problem.dy, alpha}, last_, parallel_for);
+            *kept = RgbImage(solver_.width(), solver_.height());
+}
+
+/// By as much as brings the answer nearest to the optimum: a line search in each channel.
+void WeightedSolver::try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
+                                         const ParallelFor& parallel_for) {
+    const auto [rc, cc] = apply(weights, problem.alpha, correction_, residual_, applied_, parallel_for);
+    Rgb length(0);
+    for (int c = 0; c < 3; ++c)
+        length[c] = cc[c] > 0 ? static_cast<float>(rc[c] / cc[c]) : 0;
+    parallel_for(solver_.height(), [&](int y) {
+        for (int x = 0; x < solver_.width(); ++x) {
+            correction_(x, y) *= length;
+            residual_(x, y) -= length * applied_(x, y);
+        }
+    });
+}
+
+/// Adds steps to the correction; returns their number. What is not finite empties all that is kept.
+int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
+                            const ParallelFor& parallel_for, std::stop_token stop) {
+    Channels rz_before{}, step{};
+    double first = 0;
+    for (int i = 0; i < iterations; ++i) {
+        if (stop.stop_requested())
+            return i;
+        solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
+        const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
+        if (!std::isfinite(total(rz) + total(wz))) {
+            correction_ = direction_ = applied_step_ = {};
+            return i;
+        }
+        if (i == 0)
+            first = total(rz);
+        if (!(total(rz) > rounding * first))
+            return i; // solved, as far as floats can tell
+        Channels turn{};
+        for (int c = 0; c < 3; ++c) {
+            turn[c] = step[c] > 0 ? rz[c] / rz_before[c] : 0;
+            const double curvature = wz[c] - (step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
+            step[c] = rz[c] > 0 && curvature > 0 ? rz[c] / curvature : 0;
+        }
+        const Factors turns(turn), steps(step);
+        parallel_for(solver_.height(), [&](int y) {
+            take_step(turns, steps, solver_.width(), values(solved_, 0, y), values(applied_, 0, y),
+                      values(direction_, 0, y), values(applied_step_, 0, y), values(correction_, 0, y),
+                      values(residual_, 0, y));
+        });
+        rz_before = rz;
+    }
+    return iterations;
 }
 
 int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
                           const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
                           std::stop_token stop) {
-    const bool is_warm = !last_.empty();
-    if (!is_warm)
-        start(problem, parallel_for);
-    residual(problem, weights, last_, residual_, parallel_for);
-    const int iterations = is_warm ? settings.warm_iterations : settings.cold_iterations;
-    Channels rz_before{}, step{};
-    double first = 0;
-    for (int i = 0; i < iterations; ++i) {
-        if (stop.stop_requested())
-            return 0;
-        solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
-        const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
-        if (i == 0)
-            first = total(rz);
-        if (!(total(rz) > rounding * first))
-            break; // solved, as far as floats can tell
-        Channels turn{};
-        for (int c = 0; c < 3; ++c) {
-            turn[c] = i > 0 && rz_before[c] > 0 ? rz[c] / rz_before[c] : 0;
-            const double curvature = wz[c] - (step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
-            step[c] = curvature > 0 ? rz[c] / curvature : 0;
-        }
-        const Factors turns(turn), steps(step);
-        parallel_for(solver_.height(), [&](int y) {
-            take_step(turns, steps, solver_.width(), values(solved_, 0, y), values(applied_, 0, y),
-                      values(direction_, 0, y), values(applied_step_, 0, y), values(last_, 0, y),
-                      values(residual_, 0, y));
-        });
-        rz_before = rz;
+    const bool is_warm = !correction_.empty();
+    make_room();
+    const float alpha = std::max(problem.alpha, least_alpha);
+    solver_.solve(PoissonProblem{problem.primal, problem.dx, problem.dy, alpha}, image, parallel_for);
+    residual(problem, weights, image, residual_, parallel_for);
+    if (is_warm)
+        try_last_correction(problem, weights, parallel_for);
+    const int steps = descend(problem, weights, is_warm ? settings.warm_iterations : settings.cold_iterations,
+                              parallel_for, stop);
+    if (stop.stop_requested()) {
+        forget();
+        return 0;
     }
-    image = last_;
-    return iterations + (is_warm ? 0 : 1);
+    for (std::size_t i = 0; i < correction_.size(); ++i)
+        image.data()[i] += correction_.data()[i];
+    return steps + 1;
 }
 
 } // namespace tessera

@@ -32,9 +32,16 @@ void add(RgbImage& sum, const RgbImage& image) {
         sum.data()[i] += image.data()[i];
 }
 
-/// Where noise is alike in squares of pixels, each pixel says less on its own, and the picture must be smoothed
-/// over the squares. The square root has been tried out on tiles of 6 pixels: 1 leaves blobs, the edge itself too
-/// little.
+/// What can be done with what is there.
+Norm norm_for(const GradientImages& images, Norm wanted) {
+    if (!images.has_gradients())
+        return Norm::none;
+    return wanted == Norm::weighted && !images.has_variances() ? Norm::l2 : wanted;
+}
+
+/// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
+/// smoothed over the squares. The square root has been tried out on tiles of 6 pixels: 1 leaves blobs, the edge
+/// itself too little.
 float alpha_of_patches(float alpha, float patch) {
     return alpha / std::sqrt(patch);
 }
@@ -54,7 +61,6 @@ struct Reconstructor::Solvers {
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
-    RgbImage scratch; ///< of uniform control variates
 };
 
 Reconstructor::Reconstructor() = default;
@@ -100,10 +106,9 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     const int width = images.primal.width(), height = images.primal.height();
     if (!solvers_ || solvers_->width != width || solvers_->height != height)
         solvers_ = std::make_unique<Solvers>(width, height);
-    const bool is_blind = settings.norm == Norm::weighted && !images.has_variances();
     PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
     Reconstruction result;
-    switch (is_blind ? Norm::l2 : settings.norm) {
+    switch (norm_for(images, settings.norm)) {
     case Norm::none:
         result.image = images.primal;
         break;
@@ -119,8 +124,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         break;
     }
     case Norm::uniform:
-        result.iterations =
-            average_neighbours(problem, uniform_iterations, result.image, solvers_->scratch, parallel_for, stop);
+        result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, stop);
         break;
     case Norm::weighted: {
         problem.alpha = alpha_of_patches(settings.alpha, images.patch);
@@ -141,11 +145,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     check_sizes(images);
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    Reconstruction result;
-    if (settings.norm == Norm::none || !images.has_gradients())
-        result.image = images.primal;
-    else
-        result = solve(images, settings, parallel_for, stop);
+    Reconstruction result = solve(images, settings, parallel_for, stop);
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

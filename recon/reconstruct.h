@@ -36,19 +36,20 @@ struct ReconstructionSettings {
 struct Reconstruction {
     RgbImage image;      ///< radiance, very direct light included; empty when stopped
     double residual = 0; ///< relative residual of the normal equations (L2)
-    int iterations = 0;  ///< inner solves; 1 for L2, 0 for none
+    int iterations = 0;  ///< inner solves, or sweeps of uniform; 1 for L2, 0 for none
     double seconds = 0;  ///< wall time
 };
 
-/// Reconstructs one image after the other, and keeps what the next can use: plans, memory, and where the L1 solver
+/// Reconstructs one image after the other, and keeps what the next can use: plans, memory, and where its solvers
 /// stood. One call at a time.
 class Reconstructor {
 public:
     Reconstructor();
     ~Reconstructor();
 
-    /// As the function below. If the last image was of this size, all but L2 start where it ended (a warm
-    /// start), which is right if it had the same scene and view and a few samples less.
+    /// As the function below. If the last image was of this size, L1, mixed and weighted go on from
+    /// where they last ended (a warm start), which is right if it had the same scene and view and a few samples
+    /// less.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
 

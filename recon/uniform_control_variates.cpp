@@ -4,22 +4,22 @@
 
 namespace tessera {
 
-int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image, RgbImage& scratch,
+int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
                        const ParallelFor& parallel_for, std::stop_token stop) {
     constexpr float share = 0.2f; // of each of four neighbours and the pixel itself
     const int width = problem.primal.width(), height = problem.primal.height();
     const PoissonProblem gradients{problem.primal, problem.dx, problem.dy, 0};
     image = problem.primal;
-    scratch = RgbImage(width, height);
+    RgbImage next(width, height);
     for (int i = 0; i < iterations; ++i) {
         if (stop.stop_requested())
             return 0;
         parallel_for(height, [&](int y) {
-            poisson_defect(gradients, image, y, 0, width, &scratch.row(y)->x);
+            poisson_defect(gradients, image, y, 0, width, &next.row(y)->x);
             for (int x = 0; x < width; ++x)
-                scratch(x, y) = image(x, y) + share * scratch(x, y);
+                next(x, y) = image(x, y) + share * next(x, y);
         });
-        std::swap(image, scratch);
+        std::swap(image, next);
     }
     return iterations;
 }

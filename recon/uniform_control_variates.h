@@ -13,9 +13,9 @@ namespace tessera {
 /// screened Poisson problem's alpha. A border stands for a neighbour like the pixel itself, so that no light is
 /// lost.
 ///
-/// Writes the answer to `image`, which is none of the problem's, whose alpha does not matter; `scratch` is
-/// overwritten. Returns `iterations`, or 0 if stopped, which is looked at between them.
-int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image, RgbImage& scratch,
+/// Writes the answer to `image`, which is none of the problem's, whose alpha does not matter. Returns
+/// `iterations`, or 0 if stopped, which is looked at between them.
+int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
                        const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
 
 } // namespace tessera

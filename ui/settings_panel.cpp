@@ -75,7 +75,7 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
     bool changed = controls.choice("norm", "Norm", norms, index,
                                    "How the picture is made from primal and gradients (screened Poisson).");
     settings.norm = static_cast<Norm>(index);
-    ImGui::BeginDisabled(settings.norm == Norm::none);
+    ImGui::BeginDisabled(settings.norm == Norm::none || settings.norm == Norm::uniform);
     changed |= controls.log_slider("alpha", "Alpha", settings.alpha, 0.001f, 10,
                                    "Weight of the primal against the gradients (no unit). Small: gradients alone "
                                    "decide on all but the mean.");

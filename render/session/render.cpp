@@ -40,7 +40,8 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
     check(settings);
 }
 
-/// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile.
+/// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
+/// it is so in smaller squares: this is the most.
 GradientImages Render::with_patch(GradientImages images) const {
     if (reuses_paths(settings_.method) && settings_.primal == PrimalSource::reuse)
         images.patch = static_cast<float>(settings_.tile);

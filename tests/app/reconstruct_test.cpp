@@ -191,6 +191,17 @@ TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
     write_exr(file("plain.exr"), {{{"", image}}, {}});
     write_exr(file("primal.exr"), {{{"primal", image}, {"direct", image}}, {}});
     write_exr(file("layers.exr"), {{{"primal", image}, {"dx", hole}, {"dy", dy}}, {}});
+    RgbImage variance(width, height, Rgb(1));
+    write_exr(file("few.exr"), {{{"primal", image}, {"dx", dx}, {"dy", dy}, {"primal_variance", variance}}, {}});
+    variance(5, 1) = Rgb(-1);
+    write_exr(file("variance.exr"), {{{"primal", image},
+                                      {"dx", dx},
+                                      {"dy", dy},
+                                      {"primal_variance", RgbImage(width, height, Rgb(1))},
+                                      {"dx_variance", variance},
+                                      {"dy_variance", variance}},
+                                     {}});
+    write_exr(file("patch.exr"), {{{"primal", image}, {"dx", dx}, {"dy", dy}}, {{"tessera:patch", "many"}}});
     fs::create_directories(file("folder.pfm"));
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"", "0 inputs"},
@@ -202,6 +213,9 @@ TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
         {"plain.exr", "plain.exr has no layer \"primal\", only: \"\""},
         {"primal.exr", "primal.exr has no layer \"dx\""},
         {"layers.exr", "layers.exr, layer dx: pixel (5, 1)"},
+        {"variance.exr", "variance.exr, layer dx_variance: pixel (5, 1) is -1, which is not a variance"},
+        {"few.exr", "few.exr has no layer \"dx_variance\""},
+        {"patch.exr", "patch.exr: attribute tessera:patch is \"many\""},
         {"primal.exr dx.pfm dy.pfm", "primal.exr has no layer \"\""},
         {"missing.pfm dx.pfm dy.pfm", "missing.pfm"},
         {"p.pfm text.pfm dy.pfm", "text.pfm: it is not a PFM file"},
