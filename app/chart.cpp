@@ -1,5 +1,7 @@
 #include "app/chart.h"
 
+#include "app/html.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -18,22 +20,7 @@ constexpr double key_line = 22, key_sample = 34, letter_width = 7.2;
 
 /// Okabe and Ito's: told apart by those who do not see red or green, too.
 constexpr std::string_view colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                       "#e69f00", "#56b4e9", "#000000"};
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else
-            out += static_cast<unsigned char>(c) < ' ' ? ' ' : c; // XML has no control characters
-    }
-    return out;
-}
+                                       "#e69f00", "#56b4e9", "#000000", "#8c510a"};
 
 class SvgWriter {
 public:

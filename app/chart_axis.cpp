@@ -74,8 +74,10 @@ std::string chart_number(double value) {
     const double size = std::abs(value);
     if (size == 0)
         return "0"; // of either sign
-    if (size >= 0.9999e-4 && size < 0.99995e5)
+    if (size >= 0.9999e-4 && size < 0.99995e4)
         return fmt::format("{:.4g}", value);
+    if (size >= 0.99995e4 && size < 0.99995e5)
+        return fmt::format("{:.0f}", std::round(value / 10) * 10);
     const std::string text = fmt::format("{:.3e}", value); // such as -3.000e-05
     const std::size_t e = text.find('e');
     const double mantissa = std::stod(text.substr(0, e));

@@ -1,6 +1,8 @@
 #include "app/compare.h"
 
+#include "app/reference_image.h"
 #include "recon/metrics.h"
+#include "recon/tile_spectrum.h"
 #include "render/load/exr.h"
 
 #include <array>
@@ -18,16 +20,33 @@ struct Comparison {
     ErrorMetrics metrics;
     std::optional<FloorFreeError> floor_free;
     std::optional<std::array<double, 4>> energy_change;
+    std::optional<TileSpectrum> tiles;
 };
 
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
     return require_layer(read_exr(path), name, path);
 }
 
-RgbImage read_reference(const std::filesystem::path& path, const std::string& layer) {
+RgbImage read_plain(const std::filesystem::path& path, const std::string& layer) {
     const ExrFile file = read_exr(path);
     const RgbImage* plain = find_layer(file, "");
     return plain ? *plain : read_layer(path, layer);
+}
+
+/// One image, or two that are independent of each other.
+struct References {
+    RgbImage first;
+    std::optional<RgbImage> second;
+};
+
+References read_references(const CompareOptions& options) {
+    if (!options.reference2.empty())
+        return {read_plain(options.reference, options.layer), read_plain(options.reference2, options.layer)};
+    if (is_reference(options.reference)) {
+        ReferenceImage reference = read_reference(options.reference);
+        return {std::move(reference.halves[0]), std::move(reference.halves[1])};
+    }
+    return {read_plain(options.reference, options.layer), {}};
 }
 
 void check_size(const CompareOptions& options, const RgbImage& image, const std::filesystem::path& path,
@@ -43,18 +62,18 @@ void check_size(const CompareOptions& options, const RgbImage& image, const std:
 
 Comparison compare(const CompareOptions& options) {
     const RgbImage image = read_layer(options.image, options.layer);
-    RgbImage reference = read_reference(options.reference, options.layer);
-    check_size(options, image, options.reference, reference);
+    References references = read_references(options);
+    check_size(options, image, options.reference, references.first);
     Comparison result;
-    if (!options.reference2.empty()) {
-        const RgbImage second = read_reference(options.reference2, options.layer);
-        check_size(options, image, options.reference2, second);
-        result.floor_free = measure_floor_free_error(image, reference, second);
-        result.energy_change = measure_energy_change(image, reference, second);
-        for (std::size_t i = 0; i < reference.size(); ++i)
-            reference.data()[i] = 0.5f * (reference.data()[i] + second.data()[i]);
+    if (references.second) {
+        check_size(options, image, options.reference2, *references.second);
+        result.floor_free = measure_floor_free_error(image, references.first, *references.second);
+        result.energy_change = measure_energy_change(image, references.first, *references.second);
+        references.first = mean_of(references.first, *references.second);
     }
-    result.metrics = measure_error(image, reference);
+    result.metrics = measure_error(image, references.first);
+    if (options.tile > 0)
+        result.tiles = measure_tile_spectrum(image, references.first, options.tile);
     return result;
 }
 
@@ -75,6 +94,14 @@ void print_text(const Comparison& c) {
             "to bright\n",
             100 * change[0], 100 * change[1], 100 * change[2], 100 * change[3]);
     }
+    if (c.tiles) {
+        std::printf("tiles, in error      %.4g   power at multiples of their frequency, over that about them\n",
+                    c.tiles->error);
+        std::printf("tiles, in edges      %.4g   the same of squared steps, as means over columns and rows\n",
+                    c.tiles->edges);
+        std::printf("tiles, edge ratio    %.4g   squared steps where tiles meet, over those elsewhere\n",
+                    c.tiles->edge_ratio);
+    }
     if (c.metrics.bad_pixels > 0)
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
@@ -85,7 +112,7 @@ void print_json(const CompareOptions& options, const Comparison& c) {
     out["image"] = options.image.string();
     out["layer"] = options.layer;
     out["reference"] = options.reference.string();
-    if (c.floor_free)
+    if (!options.reference2.empty())
         out["reference2"] = options.reference2.string();
     out["relmse"] = c.metrics.relative_mse;
     out["relmse_trimmed"] = c.metrics.relative_mse_trimmed;
@@ -98,6 +125,8 @@ void print_json(const CompareOptions& options, const Comparison& c) {
         out["relmse_floor_free_standard_error"] = c.floor_free->standard_error;
         out["energy_change_by_quarter"] = *c.energy_change;
     }
+    if (c.tiles)
+        out["tiles"] = {{"error", c.tiles->error}, {"edges", c.tiles->edges}, {"edge_ratio", c.tiles->edge_ratio}};
     std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 

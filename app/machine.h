@@ -7,4 +7,7 @@ namespace tessera {
 /// "Intel(R) Xeon(R) CPU @ 2.20GHz": what the system calls its processor; "unknown" where it does not say.
 std::string cpu_model();
 
+/// "0.1.0 5f3a0c11": the program's version, and a checksum of its file, so that two builds are told apart.
+const std::string& program_identity();
+
 } // namespace tessera

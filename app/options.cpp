@@ -1,12 +1,15 @@
 #include "app/options.h"
 
+#include "app/bench.h"
 #include "app/compare.h"
 #include "app/contact_sheet.h"
 #include "app/exit_codes.h"
+#include "app/experiment_options.h"
 #include "app/info.h"
 #include "app/load_notes.h"
 #include "app/option_values.h"
 #include "app/reconstruct_options.h"
+#include "app/reference_options.h"
 #include "app/render.h"
 #include "app/setting_options.h"
 #include "app/sweep.h"
@@ -30,7 +33,6 @@ struct Words {
     int spp = 0;
     double time = 0;
     double seconds = 5;
-    std::vector<std::string> scenes, variations;
     float alpha = 0.2f;
     int threads = 0;
     RenderSettings settings;
@@ -45,14 +47,7 @@ void add_scene(CLI::App& command, Words& words, bool required) {
 }
 
 void add_settings(CLI::App& command, Words& words) {
-    RenderSettings& s = words.settings;
-    command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
-    add_setting_options(command, s);
-    command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
-        ->check(CLI::Range(1e-4, 1e3))
-        ->capture_default_str();
-    command.add_option("--seed", s.seed, "of the random numbers")->capture_default_str();
-    command.add_option("--threads", words.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+    add_picture_options(command, {words.size, words.settings, words.alpha, words.threads});
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
@@ -100,8 +95,14 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     CLI::App& command = *app.add_subcommand("compare", "errors of an image against one or two references");
     command.add_option("image", options.image, "EXR file")->required();
     command.add_option("reference", options.reference, "EXR file")->required();
-    command.add_option("reference2", options.reference2, "an independent second one: errors without its noise");
+    command.add_option(
+        "reference2", options.reference2,
+        "an independent second one, where the first has no halves of its own: errors without its noise");
     command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
+    command
+        .add_option("--tile", options.tile,
+                    "edge of tiles, pixels: says how much their grid shows in the error (1: not at all)")
+        ->check(CLI::Range(2, 64));
     command.add_flag("--json", options.json, "print JSON");
 }
 
@@ -117,69 +118,6 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
-}
-
-void add_sweep(CLI::App& app, Words& words, SweepOptions& options) {
-    CLI::App& command = *app.add_subcommand(
-        "sweep", "error, time and efficiency by the values of settings, on scenes with references");
-    command.footer(
-        "Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, anew after each "
-        "render. What is there of an earlier sweep is not continued, but replaced.\n"
-        "References are REFERENCE/SCENE-WxH-dDEPTH-1.exr and -2.exr; missing ones are rendered first.");
-    command.add_option("scenes", words.scenes, "Mitsuba scenes, XML")->required()->take_all();
-    add_settings(command, words);
-    command.get_option("--size")->description("WIDTHxHEIGHT of the images, pixels")->default_str("640x360");
-    command.get_option("--max-depth")->default_str(std::to_string(words.settings.max_depth));
-    command.get_option("--seed")->description("of the first render of each point");
-    command
-        .add_option("--vary", words.variations,
-                    "SETTING=VALUE,VALUE,...: a setting and its values, such as tile=2,4,8; given twice: all "
-                    "combinations")
-        ->take_all()
-        ->allow_extra_args(false);
-    command.add_option("-m,--method", words.method, "pt, pr, gpt, gpr or several: gpr,pr")->capture_default_str();
-    CLI::Option* spp = command.add_option("--spp", options.spp, "samples a pixel")
-                           ->check(CLI::Range(1, 100000000))
-                           ->capture_default_str();
-    command.add_option("--time", words.time, "CPU seconds of rendering, instead of --spp")
-        ->check(CLI::PositiveNumber)
-        ->excludes(spp);
-    command.add_option("--seeds", options.seeds, "renders of each point, each with another seed, in turn")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    command
-        .add_option("--recon", words.norms, "none, l2, l1, mixed, uniform or weighted, where there are gradients")
-        ->default_str("weighted");
-    command.add_option("--reference", options.references, "folder of the references")->required();
-    command.add_option("--reference-spp", options.reference_spp, "samples a pixel of references that are missing")
-        ->check(CLI::Range(1, 100000000))
-        ->capture_default_str();
-    command.add_option("-o,--output", options.output, "folder to write to")->required();
-}
-
-int sweep(const CLI::App& command, const Words& words, SweepOptions options) {
-    options.scenes.assign(words.scenes.begin(), words.scenes.end());
-    options.methods = parse_methods(words.method);
-    if (words.variations.size() > 2)
-        throw BadInput("--vary: two settings at the most");
-    for (const std::string& text : words.variations)
-        options.variations.push_back(parse_variation(text));
-    if (options.variations.size() == 2 && options.variations[0].setting == options.variations[1].setting)
-        throw BadInput(fmt::format("--vary {}: the setting is varied twice", words.variations[1]));
-    options.settings = words.settings;
-    if (command.count("--time"))
-        options.time = words.time;
-    if (!words.size.empty())
-        options.size = parse_size("--size", words.size);
-    if (command.count("--recon")) {
-        const std::vector<Norm> norms = parse_norms(words.norms);
-        if (norms.size() != 1)
-            throw BadInput(fmt::format("--recon {}: one for all renders", words.norms));
-        options.reconstruction.norm = norms.front();
-    }
-    options.reconstruction.alpha = words.alpha;
-    options.threads = words.threads;
-    return run_sweep(options);
 }
 
 /// Makes the scene of `source`, with `threads` threads, whenever it is called.
@@ -239,15 +177,18 @@ int run_command_line(int argc, char** argv) {
     app.set_version_flag("--version", TESSERA_VERSION);
     // The last of a repeated option counts.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    Words render_words, sweep_words, view_words, info_words;
+    Words render_words, view_words, info_words;
     RenderOptions render_options;
-    SweepOptions sweep_options;
+    ExperimentWords sweep_words, bench_words;
+    ReferenceWords reference_words;
     CompareOptions compare_options;
     ViewOptions view_options;
     ReconstructWords reconstruct_words;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
-    add_sweep(app, sweep_words, sweep_options);
+    add_reference(app, reference_words);
+    add_sweep(app, sweep_words);
+    add_bench(app, bench_words);
     add_reconstruct(app, reconstruct_words);
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
@@ -258,13 +199,18 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
     if (app.get_subcommands().empty())
-        throw BadInput("no command was given: view, render, reconstruct, sweep, compare or info (tessera --help)");
+        throw BadInput("no command was given: view, render, reconstruct, reference, sweep, bench, compare or info "
+                       "(tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("reconstruct"))
         return run_reconstruct(parse_reconstruct(reconstruct_words));
     if (app.got_subcommand("sweep"))
-        return sweep(*app.get_subcommand("sweep"), sweep_words, sweep_options);
+        return run_sweep(parse_experiment(*app.get_subcommand("sweep"), sweep_words));
+    if (app.got_subcommand("bench"))
+        return run_bench(parse_experiment(*app.get_subcommand("bench"), bench_words));
+    if (app.got_subcommand("reference"))
+        return run_reference(parse_reference(*app.get_subcommand("reference"), reference_words));
     if (app.got_subcommand("view"))
         return view(*app.get_subcommand("view"), view_words, view_options);
     if (app.got_subcommand("compare"))

@@ -53,4 +53,14 @@ void add_setting_options(CLI::App& command, RenderSettings& settings) {
         add_setting(command, setting, settings);
 }
 
+void add_picture_options(CLI::App& command, PictureWords words) {
+    command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
+    add_setting_options(command, words.settings);
+    command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
+        ->check(CLI::Range(1e-4, 1e3))
+        ->capture_default_str();
+    command.add_option("--seed", words.settings.seed, "of the random numbers")->capture_default_str();
+    command.add_option("--threads", words.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+}
+
 } // namespace tessera

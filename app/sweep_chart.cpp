@@ -1,6 +1,9 @@
 #include "app/sweep_chart.h"
 
+#include "app/result_files.h"
+
 #include <algorithm>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -8,23 +11,23 @@ namespace tessera {
 
 namespace {
 
-std::string title(const SweepOptions& options, const std::string& scene) {
-    const std::string effort =
-        options.time ? fmt::format("{:g} CPU s", *options.time) : fmt::format("{} spp", options.spp);
-    return fmt::format("{}: {}x{}, {}{}", scene, options.size.x, options.size.y, effort,
+std::string title(const ExperimentOptions& options, const std::string& scene) {
+    const auto is_size = [](const Variation& v) { return v.variable.id == "size"; };
+    const bool has_sizes = std::any_of(options.variations.begin(), options.variations.end(), is_size);
+    const glm::ivec2 size = options.settings.size;
+    return fmt::format("{}: {}{}{}", scene, has_sizes ? "" : fmt::format("{}x{}, ", size.x, size.y),
+                       to_string(options.effort),
                        options.seeds > 1 ? fmt::format(", {} seeds", options.seeds) : "");
 }
 
 /// The numbers of a variation; empty if it is one of words.
 std::vector<double> numbers_of(const Variation& variation) {
     std::vector<double> numbers;
-    RenderSettings settings;
+    PictureSettings settings;
     for (const std::string& value : variation.values) {
-        variation.setting->set_text(settings, value);
-        if (const auto* whole = std::get_if<Setting::Whole>(&variation.setting->kind))
-            numbers.push_back(settings.*whole->member);
-        else if (const auto* real = std::get_if<Setting::Real>(&variation.setting->kind))
-            numbers.push_back(settings.*real->member);
+        variation.variable.set_text(settings, value);
+        if (const std::optional<double> number = variation.variable.number(settings))
+            numbers.push_back(*number);
     }
     return numbers;
 }
@@ -43,7 +46,7 @@ struct Abscissa {
     }
 };
 
-Abscissa abscissa_of(const SweepOptions& options) {
+Abscissa abscissa_of(const ExperimentOptions& options) {
     Abscissa x;
     if (options.variations.empty()) {
         x.label = "method";
@@ -51,13 +54,13 @@ Abscissa abscissa_of(const SweepOptions& options) {
             x.values.emplace_back(short_name(method));
     } else {
         const Variation& first = options.variations.front();
-        x.label = first.setting->label;
+        x.label = first.variable.label;
         x.values = first.values;
         x.numbers = numbers_of(first);
     }
     if (!x.numbers.empty()) {
         const auto [least, most] = std::minmax_element(x.numbers.begin(), x.numbers.end());
-        const bool is_wide = *most > 20 * *least; // such as 0, 0.01, 0.1, 1: then zero has no place on any scale
+        const bool is_wide = *most >= 8 * *least; // such as 0, 0.01, 0.1, 1: then zero has no place on any scale
         x.scale = is_wide && *least > 0 ? ChartAxis::Scale::log : ChartAxis::Scale::linear;
         x.has_names = is_wide && *least <= 0;
     }
@@ -78,15 +81,15 @@ ChartSeries& series_named(std::vector<ChartSeries>& all, const std::string& labe
 }
 
 template <typename Point>
-ChartPlot plot_of(const SweepOptions& options, const std::vector<SweepResult>& results, const std::string& y_label,
+ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& results, const std::string& y_label,
                   Point point) {
     const Abscissa x = abscissa_of(options);
     ChartPlot plot{x.label, y_label, x.scale, ChartAxis::Scale::log, {}, {}};
     if (x.has_names)
         plot.x_names = x.values;
-    for (const SweepResult& result : results) {
+    for (const Result& result : results) {
         const std::string value = options.variations.empty()
-                                      ? std::string(short_name(result.point.settings.method))
+                                      ? std::string(short_name(result.point.settings.render.method))
                                       : result.point.values.front();
         ChartSeries& series = series_named(plot.series, line_label(options, result));
         series.is_level = value.empty();
@@ -97,23 +100,18 @@ ChartPlot plot_of(const SweepOptions& options, const std::vector<SweepResult>& r
 
 } // namespace
 
-std::string line_label(const SweepOptions& options, const SweepResult& result) {
-    std::string label(short_name(result.point.settings.method));
-    for (std::size_t i = 1; i < options.variations.size(); ++i)
-        if (!result.point.values[i].empty())
-            label += fmt::format(", {} {}", options.variations[i].setting->id, result.point.values[i]);
-    return label;
-}
-
-Chart sweep_chart(const SweepOptions& options, const std::vector<SweepResult>& results) {
-    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "standard error";
-    const auto error = [&](double x, const SweepResult& r) {
-        return ChartPoint{x, error_of(r), options.seeds > 1 ? error_deviation(r) : error_standard_error(r)};
+Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results) {
+    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    const auto error = [&](double x, const Result& r) {
+        const double certain = is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN();
+        return ChartPoint{x, certain, options.seeds > 1 ? error_deviation(r) : error_uncertainty(r)};
     };
-    const auto efficiency = [](double x, const SweepResult& r) { return ChartPoint{x, efficiency_of(r), 0}; };
+    const auto efficiency = [](double x, const Result& r) { return ChartPoint{x, efficiency_of(r), 0}; };
+    const auto speed = [](double x, const Result& r) { return ChartPoint{x, speed_of(r), 0}; };
     return {title(options, results.front().scene),
             {plot_of(options, results, fmt::format("relMSE, floor-free (bars: {})", bars), error),
-             plot_of(options, results, "efficiency, 1 / (relMSE × CPU seconds)", efficiency)}};
+             plot_of(options, results, "efficiency, 1 / (relMSE × CPU seconds)", efficiency),
+             plot_of(options, results, "millions of samples a wall second", speed)}};
 }
 
 } // namespace tessera

@@ -57,6 +57,23 @@ std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
     return pieces;
 }
 
+/// The mean of a map of errors, and its standard error. Pixels near each other err alike, blocks hardly: the
+/// variance of a mean over pieces of unequal size [Cochran 1977, 6.4].
+FloorFreeError mean_of_blocks(const Image<double>& errors) {
+    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
+    const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : block_edge);
+    const auto count = static_cast<double>(errors.size());
+    const auto piece_count = static_cast<double>(pieces.size());
+    FloorFreeError mean;
+    for (const Piece& piece : pieces)
+        mean.relative_mse += piece.sum / count;
+    double variance = 0;
+    for (const Piece& piece : pieces)
+        variance += std::pow((piece.sum - piece.pixels * mean.relative_mse) / count, 2);
+    mean.standard_error = piece_count > 1 ? std::sqrt(variance * piece_count / (piece_count - 1)) : 0;
+    return mean;
+}
+
 } // namespace
 
 ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference) {
@@ -92,20 +109,18 @@ FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& r
         const glm::dvec3 r = (r1 + r2) / 2.0;
         products.data()[i] = mean_channel((value - r1) * (value - r2) / (r * r + relative_mse_epsilon));
     }
-    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
-    const std::vector<Piece> pieces = pieces_of(products, image.size() < few_pixels ? 1 : block_edge);
-    const auto count = static_cast<double>(image.size());
-    const auto piece_count = static_cast<double>(pieces.size());
-    FloorFreeError error;
-    for (const Piece& piece : pieces)
-        error.relative_mse += piece.sum / count;
-    // Pixels near each other err alike, blocks hardly. The variance of a mean over pieces of unequal size
-    // [Cochran 1977, 6.4].
-    double variance = 0;
-    for (const Piece& piece : pieces)
-        variance += std::pow((piece.sum - piece.pixels * error.relative_mse) / count, 2);
-    error.standard_error = piece_count > 1 ? std::sqrt(variance * piece_count / (piece_count - 1)) : 0;
-    return error;
+    return mean_of_blocks(products);
+}
+
+FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2) {
+    check_sizes(reference1, reference2);
+    Image<double> squares(reference1.width(), reference1.height());
+    for (std::size_t i = 0; i < reference1.size(); ++i) {
+        const glm::dvec3 r1 = reference1.data()[i], r2 = reference2.data()[i];
+        const glm::dvec3 r = (r1 + r2) / 2.0, half = (r1 - r2) / 2.0;
+        squares.data()[i] = mean_channel(half * half / (r * r + relative_mse_epsilon));
+    }
+    return mean_of_blocks(squares);
 }
 
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,

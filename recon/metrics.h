@@ -46,4 +46,9 @@ FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& r
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,
                                             const RgbImage& reference2);
 
+/// How far the mean r of two independent references is from the truth, by their difference:
+///   mean of ((r1 - r2) / 2)^2 / (r^2 + epsilon).
+/// What both err alike, as a biased reconstruction does, is not in it. Throws as measure_error does.
+FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2);
+
 } // namespace tessera

@@ -107,4 +107,9 @@ GradientImages Film::take_means(int passes) {
     return images;
 }
 
+Memory Film::memory() {
+    return {memory_of(primal_), memory_of(very_direct_), memory_of(dx_),
+            memory_of(dy_),     memory_of(shifts_),      memory_of(base_luminance_)};
+}
+
 } // namespace tessera

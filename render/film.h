@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/gradient_images.h"
+#include "render/memory.h"
 #include "render/path/counters.h"
 
 #include <glm/geometric.hpp>
@@ -68,6 +69,8 @@ public:
     ReuseMaps reuse_maps(int passes) const;
     /// Of the last pass; empty where it is not kept.
     const Image<float>& base_luminance() const { return base_luminance_; }
+    /// All that it has summed.
+    Memory memory();
 
 private:
     Image<Moments> primal_, dx_, dy_;

@@ -46,6 +46,20 @@ std::uint8_t srgb_byte(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
+namespace {
+
+std::vector<std::uint8_t> srgb_bytes(const RgbImage& image, float exposure) {
+    const float scale = std::exp2(exposure);
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(3 * image.size());
+    for (const Rgb& c : image)
+        for (int channel = 0; channel < 3; ++channel)
+            rgb.push_back(srgb_byte(scale * c[channel]));
+    return rgb;
+}
+
+} // namespace
+
 void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {
     try {
         const std::vector<char> bytes = encode_png(size, rgb);
@@ -62,13 +76,11 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
 }
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
-    const float scale = std::exp2(exposure);
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(3 * image.size());
-    for (const Rgb& c : image)
-        for (int channel = 0; channel < 3; ++channel)
-            rgb.push_back(srgb_byte(scale * c[channel]));
-    write_png(path, {image.width(), image.height()}, rgb);
+    write_png(path, {image.width(), image.height()}, srgb_bytes(image, exposure));
+}
+
+std::vector<char> encode_png(const RgbImage& image, float exposure) {
+    return encode_png({image.width(), image.height()}, srgb_bytes(image, exposure));
 }
 
 } // namespace tessera

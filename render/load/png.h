@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -20,5 +21,8 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
 
 /// The same for the image, times 2^exposure, in sRGB.
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure = 0);
+
+/// The file's bytes of the same. Throws std::runtime_error.
+std::vector<char> encode_png(const RgbImage& image, float exposure = 0);
 
 } // namespace tessera

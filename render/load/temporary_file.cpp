@@ -1,6 +1,9 @@
 #include "render/load/temporary_file.h"
 
 #include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -9,7 +12,31 @@
 
 namespace tessera {
 
+namespace {
+
+/// The process that made "NAME.PID-COUNT.tmp" for this NAME; 0: it is no such file.
+int maker_of(const std::string& file, const std::string& name) {
+    int process = 0, count = 0, used = 0;
+    if (file.rfind(name + ".", 0) != 0 ||
+        std::sscanf(file.c_str() + name.size(), ".%d-%d.tmp%n", &process, &count, &used) != 2)
+        return 0;
+    return name.size() + static_cast<std::size_t>(used) == file.size() ? process : 0;
+}
+
+void remove_leftovers(const std::filesystem::path& final_path) {
+    std::error_code ignored;
+    const std::filesystem::path folder = final_path.has_parent_path() ? final_path.parent_path() : ".";
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const int process = maker_of(entry.path().filename().string(), final_path.filename().string());
+        if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+} // namespace
+
 TemporaryFile::TemporaryFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
+    remove_leftovers(final_);
     static std::atomic<int> count = 0;
     temporary_ = final_;
     temporary_ += "." + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";

@@ -8,6 +8,7 @@ namespace tessera {
 /// So whatever happens, there is never half a file under that name.
 class TemporaryFile {
 public:
+    /// Removes what killed processes of this machine have left of the same file.
     explicit TemporaryFile(std::filesystem::path final_path);
     ~TemporaryFile(); ///< removes the file unless it was committed
     TemporaryFile(const TemporaryFile&) = delete;

@@ -16,6 +16,8 @@ glm::vec2 subpixel_of(std::uint64_t seed, int index) {
 }
 
 glm::ivec2 tile_origin_of(const RenderSettings& settings, int index) {
+    if (!settings.jitter)
+        return {0, 0};
     const Random random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(index));
     return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
 }

@@ -23,7 +23,8 @@ public:
     const glm::ivec2 size;
     const int index;
 
-    /// Where the tile grid begins, in (-tile, 0]: moved every pass, so that no pixel is always at a tile's edge.
+    /// Where the tile grid begins, in (-tile, 0]: with jitter, moved every pass, so that no pixel is always at a
+    /// tile's edge.
     const glm::ivec2 tile_origin;
 
     /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/memory.h"
 #include "render/method/pixel_rect.h"
 #include "render/method/settings.h"
 
@@ -30,6 +31,9 @@ public:
     /// Learns from a whole pass.
     /// @param luminance  of what each pixel's base path has to share; negative: it sees nothing
     void learn(const Image<float>& luminance);
+
+    /// All that it has learnt.
+    Memory memory() { return {memory_of(cells_)}; }
 
 private:
     static constexpr int cell_edge = 16; // pixels

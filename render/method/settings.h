@@ -43,6 +43,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
     int tile = 6;           ///< pixels along a tile's edge [1, 16]
     bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_plan.h)
+    bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
     float rr_scale = 1;         ///< relative roulette's threshold, in standard deviations of the sampling set

@@ -69,6 +69,10 @@ const Setting table[] = {
      [](const RenderSettings& s) {
          return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
      }},
+    {"jitter", "Jitter",
+     "Moves the grid of tiles every pass, so that no pixel is always at a tile's edge. Off, edges stay in the "
+     "picture.",
+     Setting::Switch{&RenderSettings::jitter}, shares, true},
     {"pattern", "Pattern", "Which pixels share their paths.", one_of<&RenderSettings::pattern>(patterns),
      [](const RenderSettings& s) { return s.method == Method::pr; }},
     {"roulette", "Roulette", "How it is decided which base paths are reused.",

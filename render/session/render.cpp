@@ -78,4 +78,11 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     return true;
 }
 
+Memory Render::memory() {
+    Memory memory = film_.memory();
+    append(memory, plan_.memory());
+    append(memory, {memory_of(counters_), memory_of(spp_), memory_of(seconds_), memory_of(cpu_seconds_)});
+    return memory;
+}
+
 } // namespace tessera

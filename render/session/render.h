@@ -30,6 +30,9 @@ public:
     /// counts stay.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
+    /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
+    /// filled with this goes on with the same bits.
+    Memory memory();
 
 private:
     GradientImages with_patch(GradientImages images) const;

@@ -87,6 +87,7 @@ TEST(ChartNumber, IsShort) {
     EXPECT_EQ(chart_number(0.0005), "0.0005");
     EXPECT_EQ(chart_number(12), "12");
     EXPECT_EQ(chart_number(-2.5e-12), "-2.5·10⁻¹²");
+    EXPECT_EQ(chart_number(16000), "16000");
     EXPECT_EQ(chart_number(1e5), "10⁵");
 }
 

@@ -1,4 +1,5 @@
 #include "app/compare.h"
+#include "app/reference_image.h"
 #include "render/load/exr.h"
 #include "tests/recon/test_images.h"
 
@@ -47,6 +48,32 @@ TEST_F(Compare, PrintsJson) {
     EXPECT_NEAR(json["mape"].get<double>(), 1 / 2.01, 1e-6);
     EXPECT_NEAR(json["mean_ratio"].get<double>(), 1.5, 1e-6);
     EXPECT_FALSE(json.contains("relmse_floor_free"));
+}
+
+TEST_F(Compare, AReferenceWithTwoHalvesIsEnough) {
+    const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2))), reference = folder_ / "r.exr";
+    const RgbImage low(8, 6, Rgb(1)), high(8, 6, Rgb(3));
+    write_reference(reference, {mean_of(low, high), {low, high}, {1, 2}, ""});
+    ASSERT_EQ(run({image, reference, {}, {}, true}), 0) << err_;
+    const auto json = nlohmann::json::parse(out_);
+    EXPECT_NEAR(json["relmse_floor_free"].get<double>(), -1 / 4.001, 1e-6);
+    EXPECT_EQ(json["relmse"].get<double>(), 0);
+}
+
+TEST_F(Compare, LooksForAGridOfTiles) {
+    RgbImage tiled(64, 48, Rgb(1));
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x)
+            tiled(x, y) += Rgb(0.01f * static_cast<float>((x / 4 * 7 + y / 4 * 5) % 11) +
+                               1e-4f * static_cast<float>(x * y % 3));
+    const fs::path image = write("i.exr", tiled), reference = write("r.exr", RgbImage(64, 48, Rgb(1)));
+    ASSERT_EQ(run({image, reference, {}, {}, true, 4}), 0) << err_;
+    EXPECT_GT(nlohmann::json::parse(out_)["tiles"]["edge_ratio"], 1000);
+    ASSERT_EQ(run({image, reference, {}, {}, false, 4}), 0);
+    EXPECT_NE(out_.find("tiles, in edges"), std::string::npos);
+    EXPECT_EQ(run({image, reference, {}, {}, false, 16}), 2) << "there are not enough of them";
+    ASSERT_EQ(run({image, reference, {}, {}, true}), 0);
+    EXPECT_FALSE(nlohmann::json::parse(out_).contains("tiles"));
 }
 
 TEST_F(Compare, TwoReferencesGiveTheFloorFreeError) {

@@ -1,9 +1,11 @@
 // `tessera sweep`: what it renders, what it writes, and what it refuses.
-#include "app/sweep_result.h"
+#include "app/reference_image.h"
+#include "app/result.h"
 #include "render/load/exr.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -36,8 +38,8 @@ protected:
     }
 
     const fs::path& folder() const { return folder_.path(); }
-    fs::path reference(int i, const std::string& scene = "box", int depth = 8) const {
-        return folder() / "refs" / (scene + "-32x18-d" + std::to_string(depth) + "-" + std::to_string(i) + ".exr");
+    fs::path reference(const std::string& scene = "box", int depth = 8) const {
+        return folder() / "refs" / (scene + "-32x18-d" + std::to_string(depth) + ".exr");
     }
     std::string text(const fs::path& name) const {
         std::ostringstream out;
@@ -64,17 +66,19 @@ protected:
 TEST_F(SweepCommand, WritesTablesAndAChart) {
     const Outcome o = run(folder(), "sweep box/scene.xml --vary tile=2,3 --seeds 2 --seed 7" + small_);
     ASSERT_EQ(o.exit_code, 0) << o.output;
-    EXPECT_THAT(o.output, HasSubstr("refs/box-32x18-d8-1.exr is missing: rendering it"));
+    EXPECT_THAT(o.output, HasSubstr("refs/box-32x18-d8.exr is missing: rendering it"));
 
     const auto rows = csv();
     ASSERT_EQ(rows.size(), 3u);
-    EXPECT_EQ(rows[0].size(), 3 + sweep_figures().size());
+    EXPECT_EQ(rows[0].size(), 5 + all_figures().size());
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_EQ(rows[i].size(), rows[0].size());
-    EXPECT_THAT(std::vector(rows[0].begin(), rows[0].begin() + 5),
-                ElementsAre("scene", "method", "tile", "spp", "seeds"));
-    EXPECT_THAT(std::vector(rows[1].begin(), rows[1].begin() + 5), ElementsAre("box", "gpr", "2", "2", "2"));
-    EXPECT_THAT(std::vector(rows[2].begin(), rows[2].begin() + 5), ElementsAre("box", "gpr", "3", "2", "2"));
+    EXPECT_THAT(std::vector(rows[0].begin(), rows[0].begin() + 7),
+                ElementsAre("scene", "method", "recon", "tile", "effort", "spp", "seeds"));
+    EXPECT_THAT(std::vector(rows[1].begin(), rows[1].begin() + 7),
+                ElementsAre("box", "gpr", "weighted", "2", "2 spp", "2", "2"));
+    EXPECT_THAT(std::vector(rows[2].begin(), rows[2].begin() + 7),
+                ElementsAre("box", "gpr", "weighted", "3", "2 spp", "2", "2"));
 
     const json all = results();
     EXPECT_EQ(all["version"], "0.1.0");
@@ -97,7 +101,8 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
     EXPECT_THAT(text("out/sweep.md"), HasSubstr("| scene | method | tile 2 | tile 3 |"));
     pugi::xml_document chart;
     EXPECT_TRUE(chart.load_file((folder() / "out/sweep-box.svg").c_str()));
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "out"), fs::directory_iterator()), 4);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "out"), fs::directory_iterator()), 5)
+        << "tables, chart, journal";
 }
 
 TEST_F(SweepCommand, MakesReferencesOnce) {
@@ -106,19 +111,18 @@ TEST_F(SweepCommand, MakesReferencesOnce) {
     std::vector<std::pair<fs::path, fs::file_time_type>> made;
     for (const char* scene : {"box", "other"})
         for (int depth : {2, 3})
-            for (int i : {1, 2})
-                made.emplace_back(reference(i, scene, depth), fs::last_write_time(reference(i, scene, depth)));
-    fs::remove(reference(2, "other", 3));
+            made.emplace_back(reference(scene, depth), fs::last_write_time(reference(scene, depth)));
+    fs::remove(reference("other", 3));
     const Outcome again = run(folder(), sweep);
     EXPECT_EQ(again.exit_code, 0) << again.output;
-    EXPECT_THAT(again.output, HasSubstr("other-32x18-d3-2.exr is missing"));
+    EXPECT_THAT(again.output, HasSubstr("other-32x18-d3.exr is missing"));
     for (const auto& [file, time] : made) {
-        if (file != reference(2, "other", 3)) {
+        if (file != reference("other", 3)) {
             EXPECT_EQ(fs::last_write_time(file), time) << file;
         }
     }
-    const json settings = json::parse(read_exr(reference(2, "other", 3)).attributes.at("tessera:settings"));
-    EXPECT_EQ(settings["seed"], 1002);
+    const json settings = json::parse(read_exr(reference("other", 3)).attributes.at("tessera:settings"));
+    EXPECT_EQ(settings["seed"], 1001);
     EXPECT_EQ(settings["tile"], 8);
     EXPECT_EQ(settings["max_depth"], 3);
     EXPECT_EQ(csv().size(), 5u);
@@ -135,19 +139,19 @@ TEST_F(SweepCommand, MeasuresWhatRenderAndCompareDo) {
                                     " --tile 3 --seed 5 --size 32x18 --spp 2 --max-depth 8 -o image.exr")
                       .exit_code,
                   0);
-        const Outcome o =
-            run(folder(), "compare image.exr refs/box-32x18-d8-1.exr refs/box-32x18-d8-2.exr --json");
+        const Outcome o = run(folder(), "compare image.exr refs/box-32x18-d8.exr --json");
         const json errors = json::parse(o.output);
         EXPECT_NEAR(row["relmse"], errors["relmse"], 1e-5 * errors["relmse"].get<double>());
-        EXPECT_NEAR(row["relmse_floor_free"], errors["relmse_floor_free"], 1e-5 * errors["relmse"].get<double>());
-        EXPECT_NEAR(row["relmse_floor_free_standard_error"], errors["relmse_floor_free_standard_error"],
+        EXPECT_NEAR(row["runs"][0]["relmse_floor_free"], errors["relmse_floor_free"],
+                    1e-5 * errors["relmse"].get<double>());
+        EXPECT_NEAR(row["relmse_floor_free_uncertainty"], errors["relmse_floor_free_standard_error"],
                     1e-5 * errors["relmse"].get<double>());
     }
 }
 
 TEST_F(SweepCommand, TimeEndsARender) {
     const Outcome o = run(folder(), "sweep box/scene.xml -m pt --time 0.1 --size 32x18 --reference refs "
-                                    "--reference-spp 1 -o out");
+                                    "--reference-spp 2 -o out");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     const json row = results()["results"][0];
     EXPECT_GE(row["cpu_seconds"], 0.1);
@@ -159,7 +163,10 @@ TEST_F(SweepCommand, TimeEndsARender) {
 TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
     folder_.write("file", "");
     fs::create_directories(folder() / "wrong");
-    write_exr(folder() / "wrong/box-32x18-d8-2.exr", {{{"", RgbImage(8, 4, Rgb(1))}}, {}});
+    const RgbImage grey(8, 4, Rgb(1));
+    write_reference(folder() / "wrong/box-32x18-d8.exr", {grey, {grey, grey}, {1, 2}, ""});
+    fs::create_directories(folder() / "plain");
+    write_exr(folder() / "plain/box-32x18-d8.exr", {{{"", RgbImage(32, 18, Rgb(1))}}, {}});
     const std::string sweep = "sweep box/scene.xml" + small_;
     const std::vector<std::pair<std::string, std::string>> cases = {
         {sweep + "--vary tiles=2,3", "there is no setting \"tiles\", only: tile,"},
@@ -175,11 +182,13 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "--vary tile=2 --vary q_min=1 --vary primal=base", "two settings at the most"},
         {sweep + "-m gpr,bdpt", "-m bdpt"},
         {sweep + "-m ''", "-m"},
-        {sweep + "--recon l2,l1", "--recon l2,l1"},
+        {sweep + "--vary threads=0", "threads is \"0\": must be a number from 1 to 1024"},
+        {sweep + "--vary size=32", "must be WIDTHxHEIGHT"},
+        {sweep + "--vary seed=1,2", "there is no setting \"seed\""},
         {sweep + "--recon l3", "l3"},
         {sweep + "--time 1", "excludes"},
         {sweep + "--seeds 0", "--seeds"},
-        {sweep + "--seed 1000 --seeds 2", "seed 1001 is a reference's"},
+        {sweep + "--seed 1000 --seeds 2", "seed 1001 is that of refs/box-32x18-d8.exr"},
         {sweep + "--reference-spp 0", "--reference-spp"},
         {sweep + "missing.xml", "missing.xml: there is no such scene file"},
         {sweep + "box", "box: there is no such scene file"},
@@ -188,7 +197,8 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "-o file", "file: the folder cannot be made"},
         {sweep + "-o file/out", "file/out: the folder cannot be made"},
         {sweep + "--reference file", "file: the folder cannot be made"},
-        {sweep + "--reference wrong", "wrong/box-32x18-d8-2.exr is 8x4, but 32x18 is to be rendered"},
+        {sweep + "--reference wrong", "wrong/box-32x18-d8.exr is 8x4, but 32x18 is to be rendered"},
+        {sweep + "--reference plain", "plain/box-32x18-d8.exr has no layer \"half1\""},
         {"sweep --vary tile=2 --reference refs -o out", "scenes"},
         {"sweep box/scene.xml -o out", "--reference"},
         {"sweep box/scene.xml --reference refs", "--output"},
@@ -199,7 +209,7 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         EXPECT_THAT(o.output, HasSubstr(expected)) << arguments;
         EXPECT_THAT(o.output, Not(HasSubstr("rendering"))) << arguments;
         EXPECT_FALSE(fs::exists(folder() / "out/sweep.csv")) << arguments;
-        EXPECT_FALSE(fs::exists(reference(1))) << arguments;
+        EXPECT_FALSE(fs::exists(reference())) << arguments;
     }
 }
 
@@ -207,6 +217,49 @@ TEST_F(SweepCommand, OptionsMayComeBeforeScenes) {
     const Outcome o = run(folder(), "sweep --vary primal=reuse,base -m gpr" + small_ + "box/scene.xml");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     EXPECT_EQ(csv().size(), 3u);
+}
+
+TEST_F(SweepCommand, VariesWhatIsNoSettingOfTheRender) {
+    const Outcome o = run(folder(), "sweep box/scene.xml -m gpr,pt --recon l2,l1 --vary size=16x9,32x18 --vary "
+                                    "threads=1,2 --spp 2 --reference refs --reference-spp 2 -o out");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_EQ(csv().size(), 1u + 4 * 3);
+    EXPECT_TRUE(fs::exists(folder() / "refs/box-16x9-d8.exr"));
+    EXPECT_TRUE(fs::exists(reference()));
+    ASSERT_EQ(run(folder(), "sweep box/scene.xml --vary alpha=0.1,0.2,0.4" + small_).exit_code, 0);
+    EXPECT_EQ(csv().size(), 4u);
+}
+
+/// What is finished is not rendered again; what is asked for beside it is.
+TEST_F(SweepCommand, GoesOnFromItsJournal) {
+    const std::string sweep = "sweep box/scene.xml --vary tile=2,3" + small_;
+    ASSERT_EQ(run(folder(), sweep).exit_code, 0);
+    const json first = results()["results"];
+    const auto lines = [this] {
+        const std::string journal = text("out/journal.jsonl");
+        return std::count(journal.begin(), journal.end(), '\n');
+    };
+    EXPECT_EQ(lines(), 2);
+    ASSERT_EQ(run(folder(), sweep).exit_code, 0);
+    EXPECT_EQ(results()["results"], first) << "the same seconds, too";
+    EXPECT_EQ(lines(), 2);
+    ASSERT_EQ(run(folder(), sweep + "--seeds 2").exit_code, 0);
+    EXPECT_EQ(lines(), 4);
+    EXPECT_EQ(results()["results"][1]["runs"][0], first[1]["runs"][0]);
+    ASSERT_EQ(run(folder(), sweep + "--alpha 0.3").exit_code, 0);
+    EXPECT_EQ(lines(), 6) << "other settings are other runs";
+    std::string journal = text("out/journal.jsonl");
+    const std::string mine = "\"program\":\"0.1.0 ", other = "\"program\":\"0.0.9 ";
+    for (std::size_t at; (at = journal.find(mine)) != journal.npos;)
+        journal.replace(at, mine.size(), other);
+    folder_.write("out/journal.jsonl", journal);
+    ASSERT_EQ(run(folder(), sweep + "--any-build").exit_code, 0);
+    EXPECT_EQ(lines(), 6);
+    ASSERT_EQ(run(folder(), sweep).exit_code, 0);
+    EXPECT_EQ(lines(), 8) << "another build may be faster";
+    fs::remove(reference());
+    ASSERT_EQ(run(folder(), sweep + "--reference-spp 4").exit_code, 0);
+    EXPECT_EQ(lines(), 10) << "to another reference there are other errors";
 }
 
 TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {

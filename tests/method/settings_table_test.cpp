@@ -27,11 +27,17 @@ std::string refusal(std::string_view id, std::string_view text) {
 
 TEST(SettingsTable, SetTextUndoesText) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-        {"tile", {"1", "16"}},           {"adapt_tile", {"on", "off"}},
-        {"pattern", {"tile", "rooks"}},  {"roulette", {"relative", "absolute", "none"}},
-        {"rr_scale", {"0", "0.25"}},     {"rr_delta", {"1e+30", "0.001"}},
-        {"primal", {"reuse", "base"}},   {"shift", {"half-vector", "replay-reconnection"}},
-        {"max_depth", {"1", "64"}},      {"q_min", {"0.0001", "1"}},
+        {"tile", {"1", "16"}},
+        {"adapt_tile", {"on", "off"}},
+        {"jitter", {"off", "on"}},
+        {"pattern", {"tile", "rooks"}},
+        {"roulette", {"relative", "absolute", "none"}},
+        {"rr_scale", {"0", "0.25"}},
+        {"rr_delta", {"1e+30", "0.001"}},
+        {"primal", {"reuse", "base"}},
+        {"shift", {"half-vector", "replay-reconnection"}},
+        {"max_depth", {"1", "64"}},
+        {"q_min", {"0.0001", "1"}},
         {"roulette_depth", {"0", "12"}},
     };
     for (const auto& [id, values] : cases) {

@@ -144,5 +144,19 @@ TEST(EnergyChange, TheNoiseOfTheReferencesIsNoChange) {
     EXPECT_GT(measure_energy_change(image, r1, r1)[0], 0.3);
 }
 
+TEST(ReferenceError, IsThatOfTheMeanOfTwo) {
+    const RgbImage truth(160, 120, Rgb(1));
+    const RgbImage r1 = plus(truth, random_image(160, 120, 1, 0, 0.1f));
+    const RgbImage r2 = plus(truth, random_image(160, 120, 2, 0, 0.1f));
+    RgbImage mean(160, 120);
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        mean.data()[i] = 0.5f * (r1.data()[i] + r2.data()[i]);
+    const FloorFreeError known = measure_reference_error(r1, r2);
+    EXPECT_NEAR(known.relative_mse, measure_error(mean, truth).relative_mse, 5 * known.standard_error);
+    EXPECT_NEAR(known.relative_mse, 0.005, 0.0003);
+    // Measured by its own halves the mean has minus its error.
+    EXPECT_NEAR(known.relative_mse, -measure_floor_free_error(mean, r1, r2).relative_mse, 1e-7);
+}
+
 } // namespace
 } // namespace tessera

@@ -1,0 +1,71 @@
+#include "app/measured_run.h"
+
+#include "app/process_usage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+/// Empty where no tiles can show.
+std::optional<TileSpectrum> tiles_of(const RgbImage& image, const RgbImage& reference, const RenderSettings& s) {
+    const bool is_large = std::min(image.width(), image.height()) >= 4 * s.tile;
+    if (!reuses_paths(s.method) || s.tile < 2 || !is_large)
+        return {};
+    return measure_tile_spectrum(image, reference, s.tile);
+}
+
+} // namespace
+
+MeasuredRun::MeasuredRun(Render render, const Effort& effort, int halvings,
+                         std::vector<ReconstructionSettings> reconstructions, const ReferenceImage& reference,
+                         ThreadPool& pool)
+    : render_(std::move(render)), effort_(effort), next_halvings_(halvings),
+      reconstructions_(std::move(reconstructions)), reference_(reference), pool_(pool),
+      measurements_(reconstructions_.size()), images_(reconstructions_.size()) {}
+
+double MeasuredRun::done() const {
+    switch (effort_.unit) {
+    case Effort::Unit::spp:
+        return render_.spp() / effort_.amount;
+    case Effort::Unit::cpu_seconds:
+        return render_.cpu_seconds() / effort_.amount;
+    case Effort::Unit::wall_seconds:
+        return render_.seconds() / effort_.amount;
+    }
+    return 1;
+}
+
+void MeasuredRun::pass() {
+    render_.pass(pool_);
+    int reached = next_halvings_ + 1; // that is: none
+    while (reached > 0 && done() >= std::ldexp(1, 1 - reached))
+        --reached;
+    if (reached > next_halvings_)
+        return;
+    measure(reached);
+    next_halvings_ = reached - 1;
+}
+
+void MeasuredRun::measure(int halvings) {
+    const ParallelFor parallel_for = [this](int count, const std::function<void(int)>& body) {
+        pool_.parallel_for(count, [&body](int i, int) { body(i); });
+    };
+    const GradientImages buffers = render_.images();
+    for (std::size_t i = 0; i < reconstructions_.size(); ++i) {
+        const double cpu = process_cpu_seconds();
+        Reconstruction r = reconstruct(buffers, reconstructions_[i], parallel_for);
+        const double reconstruction_cpu = process_cpu_seconds() - cpu;
+        measurements_[i].push_back({halvings, render_.settings().seed, render_.spp(),
+                                    render_.cpu_seconds() + reconstruction_cpu, render_.seconds() + r.seconds,
+                                    reconstruction_cpu, measure_error(r.image, reference_.mean).relative_mse,
+                                    measure_floor_free_error(r.image, reference_.halves[0], reference_.halves[1]),
+                                    tiles_of(r.image, reference_.mean, render_.settings()), render_.counters()});
+        images_[i] = std::move(r.image);
+    }
+}
+
+} // namespace tessera

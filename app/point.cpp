@@ -1,0 +1,97 @@
+#include "app/point.h"
+
+#include "app/exit_codes.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// As the setting itself spells it: "0.10" is "0.1".
+std::string spelled(const Variable& variable, std::string_view value) {
+    PictureSettings settings;
+    variable.set_text(settings, value);
+    return variable.text(settings);
+}
+
+/// Every setting in turn, each time with all values of the variation.
+std::vector<PictureSettings> varied(const std::vector<PictureSettings>& all, const Variation& variation) {
+    std::vector<PictureSettings> result;
+    for (PictureSettings settings : all) {
+        for (const std::string& value : variation.values) {
+            variation.variable.set_text(settings, value);
+            result.push_back(settings);
+        }
+    }
+    return result;
+}
+
+/// Without gradients there is nothing to reconstruct from: all settings of that are one.
+PictureSettings plain(PictureSettings settings) {
+    if (!has_gradients(settings.render.method))
+        settings.reconstruction = {.norm = Norm::none};
+    return settings;
+}
+
+} // namespace
+
+Variation parse_variation(std::string_view text) {
+    try {
+        const std::size_t equals = text.find('=');
+        if (equals == text.npos)
+            throw std::invalid_argument("must be SETTING=VALUE,VALUE,... such as tile=2,4,8");
+        Variation variation{variable_named(text.substr(0, equals)), {}};
+        std::string_view rest = text.substr(equals + 1);
+        for (bool more = true; more;) {
+            const std::size_t comma = rest.find(',');
+            variation.values.push_back(spelled(variation.variable, rest.substr(0, comma)));
+            more = comma != rest.npos;
+            rest.remove_prefix(more ? comma + 1 : rest.size());
+        }
+        return variation;
+    } catch (const std::runtime_error& error) {
+        throw BadInput(fmt::format("--vary {}: {}", text, error.what()));
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(fmt::format("--vary {}: {}", text, error.what()));
+    }
+}
+
+std::vector<Point> points_of(const PictureSettings& base, const std::vector<Method>& methods,
+                             const std::vector<Norm>& norms, const std::vector<Variation>& variations) {
+    std::vector<PictureSettings> all;
+    for (Method method : methods) {
+        for (Norm norm : norms) {
+            all.push_back(base);
+            all.back().render.method = method;
+            all.back().reconstruction.norm = norm;
+        }
+    }
+    for (const Variation& variation : variations)
+        all = varied(all, variation);
+
+    std::vector<Point> points;
+    for (const PictureSettings& settings : all) {
+        Point point{plain(settings), {}};
+        for (const Variation& v : variations)
+            point.values.push_back(v.variable.matters(settings) ? v.variable.text(settings) : "");
+        const auto is_same = [&](const Point& p) {
+            return name_of(p) == name_of(point) && p.values == point.values;
+        };
+        if (std::none_of(points.begin(), points.end(), is_same))
+            points.push_back(point);
+    }
+    return points;
+}
+
+std::string name_of(const Point& point) {
+    std::string name(short_name(point.settings.render.method));
+    if (has_gradients(point.settings.render.method))
+        name += fmt::format("-{}", to_string(point.settings.reconstruction.norm));
+    return name;
+}
+
+} // namespace tessera

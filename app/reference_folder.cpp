@@ -1,0 +1,45 @@
+#include "app/reference_folder.h"
+
+#include "app/exit_codes.h"
+#include "app/output_file.h"
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+FolderReference::FolderReference(const std::filesystem::path& folder, const std::string& scene_name,
+                                 ReferenceRecipe recipe)
+    : path_(folder /
+            fmt::format("{}-{}x{}-d{}.exr", scene_name, recipe.size.x, recipe.size.y, recipe.settings.max_depth)),
+      recipe_(std::move(recipe)) {
+    if (!std::filesystem::exists(path_))
+        return;
+    image_ = read_reference(path_);
+    const glm::ivec2 size(image_->mean.width(), image_->mean.height());
+    if (size != recipe_.size)
+        throw BadInput(fmt::format("{} is {}x{}, but {}x{} is to be rendered", path_.string(), size.x, size.y,
+                                   recipe_.size.x, recipe_.size.y));
+}
+
+void FolderReference::check_writable() const {
+    if (is_complete())
+        return;
+    make_folder(path_.parent_path());
+    tessera::check_writable(path_);
+}
+
+std::array<std::uint64_t, 2> FolderReference::seeds() const {
+    const std::uint64_t first = recipe_.settings.seed;
+    return is_complete() ? image_->seeds : std::array{first, first + 1};
+}
+
+bool FolderReference::make(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
+                           ThreadPool& pool) {
+    if (is_complete())
+        return true;
+    fmt::print(stderr, "{} is missing: rendering it\n", path_.string());
+    image_ = render_reference(path_, source, scene, recipe_, pool);
+    return is_complete();
+}
+
+} // namespace tessera

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "app/reference_render.h"
+
+#include <string>
+
+namespace tessera {
+
+/// A reference in a folder of many: of one scene, in one size and to one depth.
+class FolderReference {
+public:
+    /// Its file is FOLDER/SCENE-WxH-dDEPTH.exr; what is there is read. Throws BadInput for a picture of another
+    /// size, std::runtime_error for a file that is no reference.
+    FolderReference(const std::filesystem::path& folder, const std::string& scene_name, ReferenceRecipe recipe);
+
+    bool is_complete() const { return image_.has_value(); }
+    /// Makes the folder. Throws BadInput where the reference cannot be written.
+    void check_writable() const;
+    /// Renders it if it is missing. False: Ctrl-C ended it.
+    bool make(const SceneSource& source, const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
+
+    const ReferenceImage& image() const { return *image_; } ///< once it is complete
+    std::array<std::uint64_t, 2> seeds() const;             ///< those it has, or will have
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    ReferenceRecipe recipe_;
+    std::optional<ReferenceImage> image_;
+};
+
+} // namespace tessera

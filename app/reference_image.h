@@ -1,0 +1,41 @@
+#pragma once
+
+#include "recon/metrics.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace tessera {
+
+/// What pictures are measured by: two renders of a scene that are independent of each other and alike in all
+/// else, and their mean. The difference of the halves tells how far the mean is from the truth, whatever method
+/// and reconstruction made them; and against both, an error has no floor (recon/metrics.h).
+struct ReferenceImage {
+    RgbImage mean;
+    std::array<RgbImage, 2> halves;
+    std::array<std::uint64_t, 2> seeds; ///< of the halves: no picture to be measured may have one of them
+    std::string settings;               ///< JSON: how it was made
+};
+
+/// Of the mean.
+FloorFreeError error_of(const ReferenceImage& reference);
+
+/// The mean of two images of one size.
+RgbImage mean_of(const RgbImage& a, const RgbImage& b);
+
+/// Of the halves' pixels.
+std::uint32_t checksum_of(const ReferenceImage& reference);
+
+/// An EXR file: the mean as plain RGB, the layers half1 and half2, and the mean's error in its header. Throws
+/// std::runtime_error that names the file.
+void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
+
+/// Whether the file is one of these. Throws std::runtime_error that names a file that is no EXR.
+bool is_reference(const std::filesystem::path& path);
+
+/// Throws std::runtime_error that names the file if it is none that write_reference wrote.
+ReferenceImage read_reference(const std::filesystem::path& path);
+
+} // namespace tessera

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "app/measurement.h"
+#include "app/point.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+/// What is known of one point on one scene after one share of its time or samples.
+struct Result {
+    std::string scene; ///< its name
+    std::filesystem::path file;
+    Point point;
+    int halvings = 0;
+    std::size_t triangles = 0;     ///< of the scene
+    std::vector<Measurement> runs; ///< one a seed
+};
+
+/// A figure of a result with at least one run; not a number where there is none.
+struct Figure {
+    std::string_view id; ///< column of a CSV file, field of a JSON file
+    double (*value)(const Result&);
+};
+
+/// All figures, in the order of the columns.
+std::span<const Figure> all_figures();
+/// The value of the figure of that id, which must be one of them.
+double figure(std::string_view id, const Result& result);
+
+// Means over the runs, and their standard deviations, which take two runs.
+double error_of(const Result& result); ///< relMSE without the references' noise
+double error_deviation(const Result& result);
+/// Of the error: what is larger, one run's standard error, from how the picture's blocks differ (the references'
+/// noise is the same for all seeds), or that of the mean over the seeds.
+double error_uncertainty(const Result& result);
+/// Whether the error is above its uncertainty, and so can be told from nothing.
+bool is_certain(const Result& result);
+double spp_of(const Result& result);
+double cpu_seconds_of(const Result& result);
+double cpu_seconds_deviation(const Result& result);
+double wall_seconds_of(const Result& result);
+/// 1 / (error x CPU seconds) [Bauszat 2017]; not a number where the error is not certain.
+double efficiency_of(const Result& result);
+/// Millions of samples of pixels a wall second.
+double speed_of(const Result& result);
+
+// Shares of the base paths of all sampling sets, in [0, 1].
+double reused_share(const Result& result);
+double skipped_share(const Result& result); ///< by the reuse roulette
+double dark_share(const Result& result);    ///< they carry nothing to reuse
+
+} // namespace tessera

@@ -1,0 +1,139 @@
+// `tessera bench`: its files, and that a kill costs no finished run.
+#include "app/reference_image.h"
+#include "render/load/exr.h"
+#include "tests/app/program.h"
+#include "tests/load/temporary_folder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class BenchCommand : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", folder() / "box.xml");
+    }
+    const fs::path& folder() const { return folder_.path(); }
+    std::string text(const fs::path& name) const {
+        std::ostringstream out;
+        out << std::ifstream(folder() / name, std::ios::binary).rdbuf();
+        return out.str();
+    }
+    std::ptrdiff_t lines(const fs::path& name) const {
+        const std::string all = text(name);
+        return std::count(all.begin(), all.end(), '\n');
+    }
+
+    const std::string small_ =
+        " --size 32x18 --spp 8 --halvings 2 --reference refs --reference-spp 64 --threads 1 -o out ";
+    TemporaryFolder folder_;
+};
+
+TEST_F(BenchCommand, WritesAPageWithCharts) {
+    const Outcome o = run(folder(), "bench box.xml --methods pt,gpr --recon l2,l1 --seeds 2" + small_);
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_EQ(lines("out/bench.csv"), 1 + 3 * 3) << "three curves of three measurements";
+    EXPECT_THAT(text("out/bench.csv"), HasSubstr("\nbox,pt,none,2 spp,2,2,"));
+    EXPECT_THAT(text("out/bench.csv"), HasSubstr("\nbox,gpr,l1,8 spp,8,2,"));
+    EXPECT_EQ(lines("out/bench-speedup.csv"), 1 + 2);
+    const json all = json::parse(text("out/bench.json"));
+    EXPECT_EQ(all["results"].size(), 9u);
+    EXPECT_EQ(all["results"][0]["runs"].size(), 2u);
+    pugi::xml_document chart;
+    EXPECT_TRUE(chart.load_file((folder() / "out/bench-box.svg").c_str()));
+
+    const std::string page = text("out/bench.html");
+    for (const char* part : {"<svg xmlns", "data:image/png;base64,", "PT over G-PR", "gpr l1", "max_depth",
+                             "seed 0", "itself at relMSE", "</html>"})
+        EXPECT_THAT(page, HasSubstr(part));
+    for (const char* part : {"src=\"http", "href=", "<script", "src=\"out"})
+        EXPECT_THAT(page, Not(HasSubstr(part))) << "it needs no other file";
+}
+
+TEST_F(BenchCommand, TimeIsTakenOfBothClocks) {
+    ASSERT_EQ(run(folder(),
+                  "bench box.xml --methods pt --seeds 1 --time 0.2 --halvings 1 --size 32x18 --reference "
+                  "refs --reference-spp 16 --threads 1 -o out")
+                  .exit_code,
+              0);
+    const json results = json::parse(text("out/bench.json"))["results"];
+    ASSERT_EQ(results.size(), 2u);
+    EXPECT_EQ(results[0]["effort"], "0.1 CPU s");
+    EXPECT_GE(results[0]["cpu_seconds"], 0.1);
+    EXPECT_LT(results[0]["cpu_seconds"], results[1]["cpu_seconds"]);
+    EXPECT_GE(results[1]["cpu_seconds"], 0.2);
+    EXPECT_GT(results[1]["wall_seconds"], 0);
+}
+
+TEST_F(BenchCommand, GoesOnAfterAKill) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder().c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
+            _exit(100);
+        execl(TESSERA_BINARY, "tessera", "bench", "box.xml", "--methods", "pt,gpr", "--recon", "l2,l1", "--size",
+              "32x18", "--spp", "8", "--halvings", "2", "--reference", "refs", "--reference-spp", "64",
+              "--threads", "1", "--seeds", "900", "-o", "out", static_cast<char*>(nullptr));
+        _exit(101);
+    }
+    for (int i = 0; i < 1200 && lines("out/journal.jsonl") < 6; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const std::string before = text("out/journal.jsonl");
+    ASSERT_GE(lines("out/journal.jsonl"), 6);
+    EXPECT_FALSE(fs::exists(folder() / "out/bench.html") &&
+                 text("out/bench.html").find("</html>") == std::string::npos);
+
+    const Outcome o = run(folder(), "bench box.xml --methods pt,gpr --recon l2,l1 --seeds 2" + small_);
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_EQ(text("out/journal.jsonl").substr(0, before.size()), before) << "nothing is rendered again";
+    EXPECT_EQ(json::parse(text("out/bench.json"))["results"][0]["runs"].size(), 2u);
+    fs::remove(folder() / "out/images/box-pt.exr");
+    ASSERT_EQ(run(folder(), "bench box.xml --methods pt,gpr --recon l2,l1 --seeds 2" + small_).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder() / "out/images/box-pt.exr"));
+}
+
+TEST_F(BenchCommand, AnErrorBelowItsUncertaintyIsNoNumber) {
+    // Halves that lie on both sides of the very picture that is rendered.
+    ASSERT_EQ(run(folder(), "render box.xml -m gpr --size 32x18 --max-depth 8 --spp 4 -o box.exr").exit_code, 0);
+    const RgbImage picture = read_exr(folder() / "box.exr").layers[0].image;
+    RgbImage low = picture, high = picture;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        low.data()[i] *= 0.9f;
+        high.data()[i] *= 1.1f;
+    }
+    fs::create_directories(folder() / "refs");
+    write_reference(folder() / "refs/box-32x18-d8.exr", {picture, {low, high}, {77, 78}, ""});
+    ASSERT_EQ(run(folder(), "bench box.xml --methods gpr --recon l2 --seeds 1 --size 32x18 --spp 4 --halvings 0 "
+                            "--reference refs -o out")
+                  .exit_code,
+              0);
+    const json row = json::parse(text("out/bench.json"))["results"][0];
+    EXPECT_EQ(row["below_uncertainty"], 1);
+    EXPECT_EQ(row["relmse_floor_free"], json());
+    EXPECT_GT(row["relmse_floor_free_uncertainty"], 0);
+    EXPECT_THAT(text("out/bench.html"), HasSubstr("<td>&lt; "));
+}
+
+} // namespace
+
+} // namespace tessera::test

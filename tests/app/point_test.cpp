@@ -1,0 +1,128 @@
+// What a sweep renders, and the figures it draws from that.
+#include "app/exit_codes.h"
+#include "app/point.h"
+#include "app/result.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+using testing::ElementsAre;
+
+std::string label(const Point& point) {
+    std::string text = name_of(point);
+    for (const std::string& value : point.values)
+        text += " " + value;
+    return text;
+}
+
+std::vector<std::string> labels(const std::vector<Method>& methods, const std::vector<Norm>& norms,
+                                const std::vector<std::string>& variations) {
+    std::vector<Variation> parsed;
+    for (const std::string& text : variations)
+        parsed.push_back(parse_variation(text));
+    std::vector<std::string> result;
+    for (const Point& point : points_of({}, methods, norms, parsed))
+        result.push_back(label(point));
+    return result;
+}
+
+TEST(Points, AreAllCombinations) {
+    EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {}), ElementsAre("gpr-l2"));
+    EXPECT_THAT(labels({Method::gpr, Method::pr}, {Norm::l2}, {"tile=2,4"}),
+                ElementsAre("gpr-l2 2", "gpr-l2 4", "pr 2", "pr 4"));
+    EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {"tile=2,4", "roulette=relative,none"}),
+                ElementsAre("gpr-l2 2 relative", "gpr-l2 2 none", "gpr-l2 4 relative", "gpr-l2 4 none"));
+}
+
+TEST(Points, HaveEveryReconstructionWhereThereAreGradients) {
+    EXPECT_THAT(labels({Method::pt, Method::gpt}, {Norm::l2, Norm::l1}, {}),
+                ElementsAre("pt", "gpt-l2", "gpt-l1"));
+    EXPECT_THAT(labels({Method::pr, Method::gpr}, {Norm::l2}, {"recon=none,mixed", "alpha=0.1,0.2"}),
+                ElementsAre("pr  ", "gpr-none none ", "gpr-mixed mixed 0.1", "gpr-mixed mixed 0.2"));
+}
+
+TEST(Points, WhatMakesNoDifferenceIsOnePoint) {
+    EXPECT_THAT(labels({Method::pt, Method::pt}, {Norm::l2}, {"tile=2,4"}), ElementsAre("pt "));
+    EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {"rr_delta=0.1,0.10,1", "roulette=absolute,none"}),
+                ElementsAre("gpr-l2 0.1 absolute", "gpr-l2  none", "gpr-l2 1 absolute"));
+}
+
+TEST(Points, CarryTheirSettings) {
+    PictureSettings base;
+    base.render.light_samples = 3;
+    const auto points =
+        points_of(base, {Method::pr}, {Norm::l2}, {parse_variation("tile=5"), parse_variation("q-min=0.5")});
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_EQ(points[0].settings.render.tile, 5);
+    EXPECT_EQ(points[0].settings.render.q_min, 0.5f);
+    EXPECT_EQ(points[0].settings.render.light_samples, 3);
+}
+
+TEST(Variable, OthersThanRenderSettingsCanBeVaried) {
+    PictureSettings s;
+    variable_named("size").set_text(s, "160x90");
+    variable_named("threads").set_text(s, "3");
+    variable_named("alpha").set_text(s, "0.5");
+    variable_named("recon").set_text(s, "l1");
+    variable_named("max-depth").set_text(s, "4");
+    variable_named("rr-delta").set_text(s, "0.25");
+    EXPECT_EQ(s.size, glm::ivec2(160, 90));
+    EXPECT_EQ(s.threads, 3);
+    EXPECT_EQ(s.reconstruction.alpha, 0.5f);
+    EXPECT_EQ(s.reconstruction.norm, Norm::l1);
+    EXPECT_EQ(s.render.max_depth, 4);
+    EXPECT_EQ(variable_named("size").text(s), "160x90");
+    EXPECT_EQ(variable_named("size").number(s), 14400);
+    EXPECT_EQ(variable_named("rr-delta").number(s), 0.25);
+    EXPECT_EQ(variable_named("recon").number(s), std::nullopt);
+}
+
+TEST(Variable, RefusesWhatItMayNotBe) {
+    for (const char* text : {"size=0x3", "size=3", "threads=0", "threads=1.5", "alpha=0", "alpha=nan", "recon=l3",
+                             "threads=2000", "alpha=", "seed=1,2"})
+        EXPECT_THROW(parse_variation(text), BadInput) << text;
+}
+
+TEST(Result, TakesMeansAndDeviationsOverTheSeeds) {
+    Result result;
+    for (double x : {1.0, 3.0}) {
+        Measurement run;
+        run.cpu_seconds = x;
+        run.floor_free = {0.1 * x, 0.01 * x};
+        run.counters.reused_paths = 6;
+        run.counters.skipped_paths = 3;
+        run.counters.dark_paths = 1;
+        run.counters.shifts[0] = 8;
+        run.counters.shifts[1] = 2;
+        result.runs.push_back(run);
+    }
+    EXPECT_DOUBLE_EQ(figure("cpu_seconds", result), 2);
+    EXPECT_DOUBLE_EQ(figure("cpu_seconds_deviation", result), std::sqrt(2));
+    EXPECT_DOUBLE_EQ(figure("relmse_floor_free", result), 0.2);
+    EXPECT_DOUBLE_EQ(figure("relmse_floor_free_uncertainty", result), 0.1) << "that of the two seeds";
+    EXPECT_DOUBLE_EQ(figure("relmse_floor_free_deviation", result), std::sqrt(0.02));
+    EXPECT_DOUBLE_EQ(figure("efficiency", result), 2.5);
+    EXPECT_DOUBLE_EQ(figure("reused_share", result), 0.6);
+    EXPECT_DOUBLE_EQ(figure("skipped_share", result), 0.3);
+    EXPECT_DOUBLE_EQ(figure("dark_share", result), 0.1);
+    EXPECT_DOUBLE_EQ(figure("shift_attempts", result), 10);
+    EXPECT_DOUBLE_EQ(figure("shift_success_share", result), 0.8);
+    result.runs.resize(1);
+    EXPECT_TRUE(std::isnan(figure("relmse_floor_free_deviation", result)));
+    result.runs[0].floor_free.relative_mse = -1e-6;
+    EXPECT_TRUE(std::isnan(figure("efficiency", result))) << "the error is below its noise";
+    result.runs[0].floor_free = {0.01, 0.02};
+    EXPECT_TRUE(std::isnan(figure("relmse_floor_free", result))) << "and is not reported as a number";
+    EXPECT_EQ(figure("relmse_floor_free_uncertainty", result), 0.02);
+    EXPECT_EQ(figure("below_uncertainty", result), 1);
+}
+
+} // namespace
+
+} // namespace tessera::test
