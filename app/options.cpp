@@ -15,6 +15,7 @@
 #include "app/sweep.h"
 #include "app/view.h"
 #include "render/session/thread_pool.h"
+#include "ui/script.h"
 
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct Words {
     double seconds = 5;
     float alpha = 0.2f;
     int threads = 0;
+    int panes = 2;
     RenderSettings settings;
 
     SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
@@ -111,8 +113,14 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     add_scene(command, words, false);
     add_settings(command, words);
     command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
+    command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
+        ->check(CLI::IsMember({1, 2, 4}))
+        ->capture_default_str();
+    command.add_option("--reference", options.reference, "EXR file to show errors against");
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
+    command.add_option("--script", options.script, "file with steps to play, a line each");
+    command.footer("Steps of a script:\n" + script_help());
     command.add_option("--window", words.window, "WIDTHxHEIGHT of the window, pixels");
     command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display")
         ->check(CLI::PositiveNumber)
@@ -140,6 +148,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
         return loader_of(same ? source : SceneSource{file, {}, {}}, threads);
     };
+    options.panes = default_panes(words.panes);
     for (PaneSettings& pane : options.panes) {
         const Method method = pane.render.method;
         pane.render = words.settings;

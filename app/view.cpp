@@ -2,6 +2,7 @@
 
 #include "render/load/png.h"
 #include "ui/screenshot.h"
+#include "ui/script_player.h"
 #include "ui/surface.h"
 #include "ui/viewer.h"
 
@@ -98,7 +99,7 @@ private:
             if (message.kind == Message::Kind::error)
                 return fail(message.text);
         }
-        if (!viewer_.settled(viewer_.state().spp_limit))
+        if (!viewer_.settled(viewer_.state().pace.spp_limit))
             return true;
         try {
             const ScreenPixels screen = read_screen(surface_.pixels());
@@ -128,10 +129,10 @@ private:
 
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
     const SurfaceOptions wanted{title(options.scene.name), options.window_size, options.ui_scale,
-                                !options.screenshot.empty()};
+                                !options.screenshot.empty() || !options.script.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
-    if (!surface && !options.screenshot.empty())
+    if (!surface && wanted.exact_size)
         surface = open_offscreen(wanted, error);
     return surface;
 }
@@ -146,30 +147,57 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     if (options.log_actions)
         result.log = print_line;
     result.log_controls = options.log_actions;
+    result.reference = options.reference;
     result.open = options.open;
     result.wake = [&surface] { surface.wake(); };
     return result;
 }
 
-} // namespace
-
-std::vector<PaneSettings> ViewOptions::default_panes() {
-    std::vector<PaneSettings> panes(2);
-    panes[0].render.method = Method::pt;
-    panes[1].render.method = Method::gpr;
-    return panes;
+/// Runs the viewer with a script: 0, or bad_input with a message on stderr.
+int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& surface, Viewer& viewer,
+         FrameWatch& watch) {
+    const auto screenshot = [&](const std::filesystem::path& file) {
+        const ScreenPixels screen = read_screen(surface.pixels());
+        write_png(file, screen.size, screen.rgb);
+    };
+    ScriptPlayer player(std::move(steps), options.script.string(), viewer, {print_line, screenshot});
+    try {
+        surface.run(viewer, {[&](double seconds) { player.before_frame(seconds); },
+                             [&] {
+                                 player.after_frame();
+                                 if (player.wants_frame())
+                                     surface.wake();
+                                 return watch.after_frame();
+                             }});
+    } catch (const ScriptError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return bad_input;
+    }
+    return watch.exit_code();
 }
+
+} // namespace
 
 int run_view(const ViewOptions& options) {
     const Clock::time_point start = Clock::now();
+    std::vector<ScriptStep> steps;
+    try {
+        if (!options.script.empty())
+            steps = read_script(options.script);
+    } catch (const ScriptError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return bad_input;
+    }
     const std::unique_ptr<Surface> surface = open_surface(options);
     if (!surface)
         return view_needs_display;
-    Session session(static_cast<int>(options.panes.size()), options.threads, [&] { surface->wake(); });
+    Session session(most_panes, options.threads, [&] { surface->wake(); });
     Viewer viewer(session, viewer_options(options, *surface));
     viewer.load(options.scene.name, options.scene.loader, options.scene.file);
     FrameWatch watch(options, *surface, viewer, start);
-    surface->run(viewer, [&] { return watch.after_frame(); });
+    if (!steps.empty())
+        return play(std::move(steps), options, *surface, viewer, watch);
+    surface->run(viewer, {{}, [&] { return watch.after_frame(); }});
     return watch.exit_code();
 }
 

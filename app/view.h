@@ -21,7 +21,7 @@ inline constexpr int view_needs_display = -1;
 struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
     SceneOpener open;  ///< for scenes dropped on the window
-    std::vector<PaneSettings> panes = default_panes();
+    std::vector<PaneSettings> panes = default_panes(2);
     std::optional<int> max_depth; ///< otherwise the scene decides
     SizeChoice render_size;
     int threads = 0; ///< of the renderer; 0: one a hardware thread
@@ -29,11 +29,10 @@ struct ViewOptions {
     float ui_scale = 0; ///< of text and controls; 0: as the display says
     int spp = 0;        ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
     bool show_panel = true;
+    std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
     std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end
+    std::filesystem::path script;     ///< if not empty: steps to be played
     bool log_actions = false;         ///< a line on stdout for every change of state, and where controls lie
-
-    /// PT and G-PR.
-    static std::vector<PaneSettings> default_panes();
 };
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a

@@ -1,14 +1,21 @@
 #version 330 core
-// Shows an image of radiance (exposure, then sRGB), of gradients (+/- colours), or of numbers (false colours) in a
-// pane.
+// Shows an image of radiance (exposure, then a tone curve), of gradients and differences (+/- colours), or of numbers
+// (false colours) in a pane.
 
 uniform sampler2D image;
 uniform ivec2 pane_size;    // pixels
 uniform vec2 image_origin;  // top left corner of the image in the pane, pixels from the pane's top left
 uniform vec2 image_extent;  // size of the image in the pane, pixels
-uniform float gain;         // 2^exposure; false colours: 1 / top value
+uniform sampler2D subtrahend; // what a difference takes off, stretched over the image
+uniform bool is_difference;
+uniform float gain;         // 2^exposure
+uniform int tone_curve;     // 0: sRGB, or one of those below
+uniform float gamma;        // of the tone curve of that name
 uniform int colour_map;     // 0: radiance, or one of those below
-uniform vec3 false_colours[9]; // display colours of 0 to the top value, evenly spaced
+uniform vec2 range;         // the values that false colours begin and end with
+uniform bool is_logarithmic; // false colours stand for powers
+uniform vec3 false_colours[9]; // display colours of the range, evenly spaced
+uniform bool marks_negative;
 uniform bool is_coarse;     // a first look at a fraction of the size: interpolate
 uniform vec3 background;    // display colour around the image
 
@@ -16,14 +23,26 @@ out vec4 colour;
 
 const int signed_difference = 1; // gradients: the luminance's sign becomes a hue
 const int false_colour = 2;      // numbers: red alone counts
+const int direction = 3;         // -1 to 1 in each channel
+const int gamma_curve = 1;
+const int filmic_curve = 2;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
 const vec3 infinity_colour = vec3(0.0, 1.0, 1.0);
+const vec3 negative_colour = vec3(0.15, 0.25, 1.0);
 const vec3 zero_colour = vec3(0.10, 0.10, 0.11);
 const vec3 plus_colour = vec3(1.00, 0.66, 0.20);
 const vec3 minus_colour = vec3(0.26, 0.62, 1.00);
 const int most_taps = 6; // an axis, where a pane's pixel covers several of the image
 
 float srgb(float c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055; }
+
+// ACES' reference transform, fitted by a fraction [Narkowicz 2015].
+vec3 filmic(vec3 c) {
+    c = max(c, 0.0);
+    return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
+}
+
+float encoded(float c) { return tone_curve == gamma_curve ? pow(c, 1.0 / gamma) : srgb(c); }
 
 // By bits: compilers may take isnan() to be false.
 bool is_nan(float v) { return (floatBitsToUint(v) & 0x7fffffffu) > 0x7f800000u; }
@@ -36,8 +55,16 @@ float luminance(vec3 c) { return dot(c, vec3(0.212671, 0.715160, 0.072169)); }
 // What is shown of a value before the display's curve: in [0, 1], signed in [-1, 1]. Averages are taken of this,
 // so that one bright pixel does not outshine its neighbours when the image is shrunk.
 vec3 exposed(vec3 value) {
-    return colour_map == signed_difference ? vec3(clamp(luminance(value) * gain, -1.0, 1.0))
-                                           : clamp(value * gain, 0.0, 1.0);
+    if (colour_map == false_colour) {
+        float v = value.r;
+        return vec3(clamp(is_logarithmic ? log(max(v, 1e-30) / range.x) / log(range.y / range.x)
+                                         : (v - range.x) / (range.y - range.x), 0.0, 1.0));
+    }
+    if (colour_map == signed_difference)
+        return vec3(clamp(luminance(value) * gain, -1.0, 1.0));
+    if (colour_map == direction)
+        return clamp(value * 0.5 + 0.5, 0.0, 1.0);
+    return tone_curve == filmic_curve ? filmic(min(value * gain, 1e4)) : clamp(value * gain, 0.0, 1.0);
 }
 
 vec3 in_false_colour(float share) {
@@ -51,21 +78,52 @@ vec3 displayed(vec3 value) {
         return in_false_colour(value.r);
     if (colour_map == signed_difference)
         return mix(zero_colour, value.r >= 0.0 ? plus_colour : minus_colour, srgb(abs(value.r)));
-    return vec3(srgb(value.r), srgb(value.g), srgb(value.b));
+    if (colour_map == direction)
+        return value;
+    return vec3(encoded(value.r), encoded(value.g), encoded(value.b));
+}
+
+bool is_marked_negative(vec3 v) {
+    return marks_negative && colour_map == 0 && any(lessThan(v, vec3(0.0)));
+}
+
+// What lies in a pixel of the image.
+vec3 fetched(ivec2 point, ivec2 size) {
+    vec3 value = texelFetch(image, point, 0).rgb;
+    if (!is_difference)
+        return value;
+    ivec2 other_size = textureSize(subtrahend, 0);
+    ivec2 other = other_size == size ? point : ivec2((vec2(point) + 0.5) / vec2(size) * vec2(other_size));
+    return value - texelFetch(subtrahend, other, 0).rgb;
+}
+
+// What was found among the pixels looked at.
+struct Oddities {
+    bool is_nan, is_infinite, is_negative;
+};
+
+void look(vec3 value, inout Oddities odd) {
+    odd.is_nan = odd.is_nan || any_nan(value);
+    odd.is_infinite = odd.is_infinite || any_infinite(value);
+    odd.is_negative = odd.is_negative || is_marked_negative(value);
+}
+
+vec3 marked(vec3 display_colour, Oddities odd) {
+    return odd.is_nan        ? nan_colour
+           : odd.is_infinite ? infinity_colour
+           : odd.is_negative ? negative_colour
+                             : display_colour;
 }
 
 // The image's pixels that the pane's pixel covers, or the one that it lies in.
-vec3 covered(vec2 from, vec2 to, ivec2 size, out bool has_nan, out bool has_infinity) {
+vec3 covered(vec2 from, vec2 to, ivec2 size, inout Oddities odd) {
     ivec2 taps = clamp(ivec2(ceil(to - from - 0.01)), ivec2(1), ivec2(most_taps));
     vec3 sum = vec3(0.0);
-    has_nan = false;
-    has_infinity = false;
     for (int y = 0; y < taps.y; ++y) {
         for (int x = 0; x < taps.x; ++x) {
             vec2 point = mix(from, to, (vec2(x, y) + 0.5) / vec2(taps));
-            vec3 value = texelFetch(image, clamp(ivec2(floor(point)), ivec2(0), size - 1), 0).rgb;
-            has_nan = has_nan || any_nan(value);
-            has_infinity = has_infinity || any_infinite(value);
+            vec3 value = fetched(clamp(ivec2(floor(point)), ivec2(0), size - 1), size);
+            look(value, odd);
             sum += exposed(value);
         }
     }
@@ -79,22 +137,20 @@ void main() {
     if (any(lessThan(where, vec2(0.0))) || any(greaterThanEqual(where, vec2(1.0))))
         return;
 
+    Oddities odd = Oddities(false, false, false);
     if (is_coarse) {
         vec3 value = texture(image, where).rgb;
-        colour.rgb = displayed(exposed(value));
-        if (any_infinite(value))
-            colour.rgb = infinity_colour;
-        if (any_nan(value))
-            colour.rgb = nan_colour;
+        if (is_difference)
+            value -= texture(subtrahend, where).rgb;
+        look(value, odd);
+        colour.rgb = marked(displayed(exposed(value)), odd);
         return;
     }
     ivec2 size = textureSize(image, 0);
     vec2 to_image = vec2(size) / image_extent;
     vec2 from = (pixel - 0.5 - image_origin) * to_image;
-    bool has_nan, has_infinity;
     vec2 span = max(to_image, vec2(0.0));
-    vec3 value = all(lessThanEqual(span, vec2(1.0)))
-                     ? covered(where * vec2(size), where * vec2(size), size, has_nan, has_infinity)
-                     : covered(from, from + span, size, has_nan, has_infinity);
-    colour.rgb = has_nan ? nan_colour : has_infinity ? infinity_colour : displayed(value);
+    vec3 value = all(lessThanEqual(span, vec2(1.0))) ? covered(where * vec2(size), where * vec2(size), size, odd)
+                                                     : covered(from, from + span, size, odd);
+    colour.rgb = marked(displayed(value), odd);
 }

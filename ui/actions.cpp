@@ -1,6 +1,7 @@
 #include "ui/actions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace tessera {
@@ -40,11 +41,52 @@ void step_tile(ViewerState& state, int step) {
 }
 
 void step_exposure(ViewerState& state, float stops) {
-    state.exposure = std::clamp(state.exposure + stops, -10.0f, 10.0f);
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, -10.0f, 10.0f);
 }
 
 void next_pane(ViewerState& state) {
     state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+void next_grid(ViewerState& state) {
+    const std::size_t count = state.panes.size();
+    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
+}
+
+template <int count>
+void set_panes(ViewerState& state) {
+    state.set_pane_count(count);
+}
+
+template <int count>
+bool has_panes(const ViewerState& state) {
+    return state.panes.size() == count;
+}
+
+template <Comparison::Kind kind>
+bool compares(const ViewerState& state) {
+    return state.active().settings.comparison.kind == kind;
+}
+
+template <Comparison::Kind kind>
+void toggle_comparison(ViewerState& state) {
+    if (state.panes.size() < 2)
+        state.set_pane_count(2);
+    state.active().settings.comparison.kind = compares<kind>(state) ? Comparison::Kind::off : kind;
+}
+
+void step_pass(ViewerState& state) {
+    state.paused = true;
+    ++state.steps;
+}
+
+void step_ui_scale(ViewerState& state, float by) {
+    const float now = state.ui_scale.value_or(state.shown_ui_scale);
+    state.ui_scale = std::clamp(std::round(now * 4) / 4 + by, 1.0f, 3.0f);
+}
+
+void next_tone(ViewerState& state) {
+    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
 }
 
 constexpr Shortcut key(Key k) {
@@ -72,6 +114,8 @@ constexpr Action table[] = {
 
     {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
      [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
+    {"Render", "Step one pass", "Pauses, and adds one sample a pixel in every pane.", character('.'), no_shortcut,
+     step_pass, nullptr},
     {"Render", "Restart", "Renders all panes anew from the first sample.", key(Key::r), no_shortcut,
      [](State& s) { s.restart = true; }, nullptr},
     {"Render", "Next method", "The next method in the active pane.", key(Key::m), no_shortcut,
@@ -83,27 +127,59 @@ constexpr Action table[] = {
     {"Render", "Smaller tile", "Lets a path be reused by fewer pixels.", character('['), no_shortcut,
      [](State& s) { step_tile(s, -1); }, nullptr},
 
-    {"View", "Reconstruction", "Shows the reconstructed picture in all panes.", key(Key::digit1), no_shortcut,
+    {"Buffer", "Reconstruction", "Shows the reconstructed picture in all panes.", key(Key::digit1), no_shortcut,
      show_buffer<Buffer::reconstruction>, shows_buffer<Buffer::reconstruction>},
-    {"View", "Primal", "Shows the picture before reconstruction in all panes.", key(Key::digit2), no_shortcut,
+    {"Buffer", "Primal", "Shows the picture before reconstruction in all panes.", key(Key::digit2), no_shortcut,
      show_buffer<Buffer::primal>, shows_buffer<Buffer::primal>},
-    {"View", "Gradient dx", "Shows the differences between a pixel and its right neighbour in all panes.",
+    {"Buffer", "Gradient dx", "Shows the differences between a pixel and its right neighbour in all panes.",
      key(Key::digit3), no_shortcut, show_buffer<Buffer::dx>, shows_buffer<Buffer::dx>},
-    {"View", "Gradient dy", "Shows the differences between a pixel and the one below in all panes.",
+    {"Buffer", "Gradient dy", "Shows the differences between a pixel and the one below in all panes.",
      key(Key::digit4), no_shortcut, show_buffer<Buffer::dy>, shows_buffer<Buffer::dy>},
-    {"View", "Reuse count", "Shows how many paths of other pixels brought light to each pixel, in all panes.",
+    {"Buffer", "Reuse count", "Shows how many paths of other pixels brought light to each pixel, in all panes.",
      key(Key::digit5), no_shortcut, show_buffer<Buffer::reused>, shows_buffer<Buffer::reused>},
-    {"View", "Failed shifts", "Shows which share of the paths shifted to each pixel brought none, in all panes.",
+    {"Buffer", "Failed shifts", "Shows which share of the paths shifted to each pixel brought none, in all panes.",
      key(Key::digit6), no_shortcut, show_buffer<Buffer::failed>, shows_buffer<Buffer::failed>},
+    {"Buffer", "Very direct", "Shows the emission that the camera itself sees, in all panes.", shift(Key::digit1),
+     no_shortcut, show_buffer<Buffer::very_direct>, shows_buffer<Buffer::very_direct>},
+    {"Buffer", "Error: relMSE", "Shows (I - r)^2 / (r^2 + 0.001) to the reference r, in all panes.",
+     key(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative_squared>,
+     shows_buffer<Buffer::error_relative_squared>},
+    {"Buffer", "Error: squared", "Shows (I - r)^2 to the reference r, in all panes.", key(Key::digit8),
+     no_shortcut, show_buffer<Buffer::error_squared>, shows_buffer<Buffer::error_squared>},
+    {"Buffer", "Error: absolute", "Shows |I - r| to the reference r, in all panes.", key(Key::digit9), no_shortcut,
+     show_buffer<Buffer::error_absolute>, shows_buffer<Buffer::error_absolute>},
+    {"Buffer", "Error: relative", "Shows |I - r| / (|r| + 0.01) to the reference r, in all panes.",
+     shift(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative>, shows_buffer<Buffer::error_relative>},
+    {"Buffer", "Albedo", "Shows how much light the surfaces scatter, in all panes.", shift(Key::digit2),
+     no_shortcut, show_buffer<Buffer::albedo>, shows_buffer<Buffer::albedo>},
+    {"Buffer", "Normal", "Shows where the surfaces face, in all panes.", shift(Key::digit3), no_shortcut,
+     show_buffer<Buffer::normal>, shows_buffer<Buffer::normal>},
+    {"Buffer", "Depth", "Shows how far from the camera the surfaces are, in all panes.", shift(Key::digit4),
+     no_shortcut, show_buffer<Buffer::depth>, shows_buffer<Buffer::depth>},
+
     {"View", "Brighter", "Exposure up by half a stop.", character('+'), character('='),
      [](State& s) { step_exposure(s, 0.5f); }, nullptr},
     {"View", "Darker", "Exposure down by half a stop.", character('-'), no_shortcut,
      [](State& s) { step_exposure(s, -0.5f); }, nullptr},
     {"View", "Reset exposure", "Exposure back to 0 stops.", key(Key::digit0), no_shortcut,
-     [](State& s) { s.exposure = 0; }, nullptr},
+     [](State& s) { s.tone.exposure = 0; }, nullptr},
+    {"View", "Next tone curve", "sRGB, gamma or filmic: how radiance becomes brightness.", key(Key::y),
+     no_shortcut, next_tone, nullptr},
+    {"View", "Mark negative values",
+     "Shows pixels with a negative red, green or blue in blue. NaN is always magenta, infinity cyan.", key(Key::u),
+     no_shortcut, [](State& s) { s.mark_negative = !s.mark_negative; },
+     [](const State& s) { return s.mark_negative; }},
+    {"View", "Magnifier", "Enlarges the pixels around the mouse, in all panes.", key(Key::l), no_shortcut,
+     [](State& s) { s.magnifier = !s.magnifier; }, [](const State& s) { return s.magnifier; }},
     {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
      [](State& s) { s.view.fit(); }, nullptr},
-    {"View", "Next pane", "Makes the other pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
+    {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,
+     [](State& s) { s.theme = s.theme == Theme::dark ? Theme::light : Theme::dark; },
+     [](const State& s) { return s.theme == Theme::light; }},
+    {"View", "Larger text", "Text and controls a quarter larger, up to 300 %.", ctrl(Key::up), no_shortcut,
+     [](State& s) { step_ui_scale(s, 0.25f); }, nullptr},
+    {"View", "Smaller text", "Text and controls a quarter smaller, down to 100 %.", ctrl(Key::down), no_shortcut,
+     [](State& s) { step_ui_scale(s, -0.25f); }, nullptr},
     {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
      [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
     {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
@@ -111,6 +187,25 @@ constexpr Action table[] = {
      [](const State& s) { return s.show_statistics; }},
     {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
      [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
+
+    {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
+     has_panes<1>},
+    {"Panes", "Two panes", "Renders two panes, beside each other.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
+     has_panes<2>},
+    {"Panes", "Four panes", "Renders four panes, two by two.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
+     has_panes<4>},
+    {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
+    {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
+    {"Panes", "Only the active pane", "Gives it all the room; the others go on rendering.", key(Key::o),
+     no_shortcut, [](State& s) { s.alone = !s.alone; }, [](const State& s) { return s.alone; }},
+    {"Panes", "Wipe",
+     "Divides the active pane by a line that can be dragged: its own picture to the left, another pane's to the "
+     "right.",
+     key(Key::v), no_shortcut, toggle_comparison<Comparison::Kind::wipe>, compares<Comparison::Kind::wipe>},
+    {"Panes", "Difference",
+     "Shows the active pane's picture minus another pane's: orange above zero, blue below; exposure enlarges it.",
+     key(Key::n), no_shortcut, toggle_comparison<Comparison::Kind::difference>,
+     compares<Comparison::Kind::difference>},
 
     {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
      [](State& s) { s.camera.go_home(); }, nullptr},
@@ -131,8 +226,10 @@ constexpr Gesture gesture_table[] = {
     {"Wheel, right drag", "Dolly toward the target and away"},
     {"W A S D, Q E", "Fly ahead, left, back, right; down, up (Shift: faster)"},
     {"Arrow keys", "Look around"},
-    {"Ctrl + wheel", "Zoom the picture itself, in all panes"},
+    {"B held", "Flicker: the active pane shows the picture that it is compared with"},
+    {"Ctrl + wheel", "Zoom the picture itself, in all panes; near enough, pixels show their numbers"},
     {"Ctrl + left drag", "Move the picture itself"},
+    {"Drag on a legend's colours", "Move an end of their range; double click: back to the image's"},
     {"Ctrl + click on a slider", "Type a value"},
 };
 

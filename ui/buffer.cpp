@@ -1,60 +1,70 @@
 #include "ui/buffer.h"
 
+#include "ui/error_map.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace tessera {
 
-std::string_view short_name(Buffer buffer) {
-    switch (buffer) {
-    case Buffer::reconstruction:
-        return "reconstruction";
-    case Buffer::primal:
-        return "primal";
-    case Buffer::dx:
-        return "dx";
-    case Buffer::dy:
-        return "dy";
-    case Buffer::reused:
-        return "reused";
-    case Buffer::failed:
-        return "failed";
-    }
-    return "";
+namespace {
+
+using Family = BufferFamily;
+
+constexpr BufferInfo table[] = {
+    {Buffer::reconstruction, "reconstruction", "Reconstruction",
+     "The picture made from primal and gradients; radiance.", Family::picture, ColourMap::radiance, "", 1},
+    {Buffer::primal, "primal", "Primal", "The picture as measured, before any reconstruction; radiance.",
+     Family::picture, ColourMap::radiance, "", 1},
+    {Buffer::dx, "dx", "Gradient dx",
+     "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     Family::gradient, ColourMap::signed_difference, "", 1},
+    {Buffer::dy, "dy", "Gradient dy",
+     "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     Family::gradient, ColourMap::signed_difference, "", 1},
+    {Buffer::reused, "reused", "Reuse count",
+     "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
+     Family::reuse, ColourMap::false_colour, "paths a pass", 1},
+    {Buffer::failed, "failed", "Failed shifts",
+     "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT.", Family::reuse,
+     ColourMap::false_colour, "%", 100},
+    {Buffer::very_direct, "very_direct", "Very direct",
+     "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
+     ColourMap::radiance, "", 1},
+    {Buffer::error_relative_squared, "relMSE", "Error: relMSE",
+     "(I - r)^2 / (r^2 + 0.001), the mean of red, green and blue, of the picture I and the reference r (no unit). "
+     "Its mean over the pixels is the relMSE of [Bauszat 2017, 4].",
+     Family::error, ColourMap::false_colour, "", 1},
+    {Buffer::error_squared, "squared", "Error: squared",
+     "(I - r)^2, the mean of red, green and blue, of the picture I and the reference r; radiance squared.",
+     Family::error, ColourMap::false_colour, "", 1},
+    {Buffer::error_absolute, "absolute", "Error: absolute",
+     "|I - r|, the mean of red, green and blue, of the picture I and the reference r; radiance.", Family::error,
+     ColourMap::false_colour, "", 1},
+    {Buffer::error_relative, "relative", "Error: relative",
+     "|I - r| / (|r| + 0.01), the mean of red, green and blue, of the picture I and the reference r; per cent.",
+     Family::error, ColourMap::false_colour, "%", 100},
+    {Buffer::albedo, "albedo", "Albedo",
+     "The share of light that the surface first seen would send to the camera if it came from everywhere (no "
+     "unit).",
+     Family::first_hit, ColourMap::radiance, "", 1},
+    {Buffer::normal, "normal", "Normal",
+     "The shading normal of the surface first seen, in the world: x is red, y green, z blue; -1 is black, 1 full.",
+     Family::first_hit, ColourMap::direction, "", 1},
+    {Buffer::depth, "depth", "Depth",
+     "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
+     Family::first_hit, ColourMap::false_colour, "units", 1},
+};
+
+ErrorKind error_kind(Buffer buffer) {
+    return static_cast<ErrorKind>(static_cast<int>(buffer) - static_cast<int>(Buffer::error_relative_squared));
 }
 
-std::string_view long_name(Buffer buffer) {
-    switch (buffer) {
-    case Buffer::reconstruction:
-        return "Reconstruction";
-    case Buffer::primal:
-        return "Primal";
-    case Buffer::dx:
-        return "Gradient dx";
-    case Buffer::dy:
-        return "Gradient dy";
-    case Buffer::reused:
-        return "Reuse count";
-    case Buffer::failed:
-        return "Failed shifts";
-    }
-    return "";
-}
+} // namespace
 
-ColourMap colour_map(Buffer buffer) {
-    switch (buffer) {
-    case Buffer::reconstruction:
-    case Buffer::primal:
-        return ColourMap::radiance;
-    case Buffer::dx:
-    case Buffer::dy:
-        return ColourMap::signed_difference;
-    case Buffer::reused:
-    case Buffer::failed:
-        return ColourMap::false_colour;
-    }
-    return ColourMap::radiance;
+const BufferInfo& info(Buffer buffer) {
+    return table[static_cast<std::size_t>(buffer)]; // in the order of the enumeration
 }
 
 std::string_view paper_name(Method method) {
@@ -104,28 +114,102 @@ bool has_reconstruction(const Snapshot& snapshot) {
 } // namespace
 
 std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buffer) {
-    if (buffer == Buffer::reconstruction && has_reconstruction(snapshot))
-        return snapshot.reconstruction;
-    if (colour_map(buffer) == ColourMap::false_colour)
+    switch (family(buffer)) {
+    case BufferFamily::reuse:
         return snapshot.reuse;
+    case BufferFamily::first_hit:
+        return nullptr;
+    case BufferFamily::gradient:
+        return snapshot.images;
+    case BufferFamily::picture:
+    case BufferFamily::error:
+        break;
+    }
+    const bool is_final = buffer == Buffer::reconstruction || family(buffer) == BufferFamily::error;
+    if (is_final && has_reconstruction(snapshot))
+        return snapshot.reconstruction;
     return snapshot.images;
 }
 
-const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch) {
-    static const RgbImage none;
-    if (!picture_source(snapshot, buffer))
-        return none;
-    if (buffer == Buffer::reused)
+std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
+    if (family(buffer) == BufferFamily::error)
+        return companions.reference;
+    if (family(buffer) == BufferFamily::first_hit)
+        return companions.first_hits;
+    return nullptr;
+}
+
+namespace {
+
+const RgbImage no_picture;
+
+bool same_size(const RgbImage& a, const RgbImage& b) {
+    return a.width() == b.width() && a.height() == b.height();
+}
+
+/// The picture at the end: reconstructed where that is done.
+const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
+    return has_reconstruction(snapshot) ? snapshot.reconstruction->image
+                                        : primal_with_very_direct(*snapshot.images, scratch);
+}
+
+const RgbImage& error_picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
+                              const Companions& companions) {
+    if (!companions.reference || !same_size(snapshot.images->primal, companions.reference->image))
+        return no_picture;
+    return scratch = error_map(error_kind(buffer), final_picture(snapshot, scratch), companions.reference->image);
+}
+
+const RgbImage& first_hit_picture(Buffer buffer, RgbImage& scratch, const Companions& companions) {
+    if (!companions.first_hits)
+        return no_picture;
+    if (buffer == Buffer::depth)
+        return scratch = grey(companions.first_hits->depth);
+    return buffer == Buffer::albedo ? companions.first_hits->albedo : companions.first_hits->normal;
+}
+
+} // namespace
+
+const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch, const Companions& companions) {
+    if (family(buffer) == BufferFamily::first_hit)
+        return first_hit_picture(buffer, scratch, companions);
+    if (!picture_source(snapshot, buffer) || !snapshot.images)
+        return no_picture;
+    if (family(buffer) == BufferFamily::error)
+        return error_picture(snapshot, buffer, scratch, companions);
+    switch (buffer) {
+    case Buffer::reused:
         return scratch = grey(snapshot.reuse->reused);
-    if (buffer == Buffer::failed)
+    case Buffer::failed:
         return scratch = grey(snapshot.reuse->failed);
-    if (buffer == Buffer::dx)
+    case Buffer::dx:
         return snapshot.images->dx;
-    if (buffer == Buffer::dy)
+    case Buffer::dy:
         return snapshot.images->dy;
-    if (buffer == Buffer::reconstruction && has_reconstruction(snapshot))
-        return snapshot.reconstruction->image;
-    return primal_with_very_direct(*snapshot.images, scratch);
+    case Buffer::very_direct:
+        return snapshot.images->very_direct;
+    case Buffer::reconstruction:
+        return final_picture(snapshot, scratch);
+    default:
+        return primal_with_very_direct(*snapshot.images, scratch);
+    }
+}
+
+std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions) {
+    const std::string name(paper_name(method));
+    if (family(buffer) == BufferFamily::gradient && !has_gradients(method))
+        return name + " measures no gradients";
+    if (family(buffer) == BufferFamily::reuse && method == Method::pt)
+        return name + " shares no paths between pixels";
+    if (family(buffer) != BufferFamily::error)
+        return "";
+    if (!companions.reference)
+        return "No reference: drop an EXR file on the window";
+    if (!snapshot || !snapshot->images || snapshot->coarse ||
+        same_size(snapshot->images->primal, companions.reference->image))
+        return "";
+    const RgbImage& r = companions.reference->image;
+    return "The reference has " + std::to_string(r.width()) + " x " + std::to_string(r.height()) + " pixels";
 }
 
 float top_value(Buffer buffer, const RgbImage& image) {
@@ -137,12 +221,29 @@ float top_value(Buffer buffer, const RgbImage& image) {
     return top > 0 ? rounded_up(top) : 1;
 }
 
-std::string legend_text(Buffer buffer, float top) {
-    char text[64];
-    if (buffer == Buffer::failed)
-        std::snprintf(text, sizeof text, "failed: 0 .. %.4g %%", static_cast<double>(top) * 100);
-    else
-        std::snprintf(text, sizeof text, "reused: 0 .. %.4g paths a pass", static_cast<double>(top));
+ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions) {
+    if (family(buffer) != BufferFamily::error)
+        return {0, top_value(buffer, image), false};
+    const float mean = companions.reference && companions.reference->mean > 0 ? companions.reference->mean : 1;
+    switch (error_kind(buffer)) {
+    case ErrorKind::squared:
+        return {rounded_up(mean * mean) * 1e-5f, rounded_up(mean * mean), true};
+    case ErrorKind::absolute:
+        return {rounded_up(mean) * 1e-3f, rounded_up(mean), true};
+    case ErrorKind::relative:
+        return {1e-3f, 1, true};
+    case ErrorKind::relative_squared:
+        break;
+    }
+    return {1e-4f, 1, true};
+}
+
+std::string legend_text(Buffer buffer, const ValueRange& range) {
+    const BufferInfo& about = info(buffer);
+    const double scale = static_cast<double>(about.unit_scale);
+    char text[96];
+    std::snprintf(text, sizeof text, "%s: %.4g .. %.4g%s%s", about.id, static_cast<double>(range.low) * scale,
+                  static_cast<double>(range.high) * scale, *about.unit ? " " : "", about.unit);
     return text;
 }
 

@@ -14,7 +14,19 @@ constexpr glm::vec3 background_colour(0.055f, 0.058f, 0.066f);
 
 CanvasShader::CanvasShader() : program_(canvas_vertex_shader, canvas_fragment_shader) {}
 
-void CanvasShader::draw(const GlTexture& image, const CanvasView& view) const {
+const GlTexture& ImageTexture::texture() const {
+    static const GlTexture none;
+    return has_image_ ? texture_ : none;
+}
+
+void ImageTexture::show(const RgbImage& image) {
+    has_image_ = !image.empty();
+    if (has_image_)
+        texture_.upload(image);
+    ++serial_;
+}
+
+void CanvasShader::draw(const GlTexture& image, const CanvasView& view, const GlTexture* subtrahend) const {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -28,11 +40,20 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view) const {
     program_.set("pane_size", view.pane_size);
     program_.set("image_origin", view.image_origin);
     program_.set("image_extent", view.image_extent);
-    program_.set("gain", view.colour_map == ColourMap::false_colour ? 1 / view.top : std::exp2(view.exposure));
+    program_.set("gain", std::exp2(view.tone.exposure));
+    program_.set("tone_curve", static_cast<int>(view.tone.curve));
+    program_.set("gamma", view.tone.gamma);
+    program_.set("range", glm::vec2(view.range.low, view.range.high));
+    program_.set("is_logarithmic", view.range.logarithmic ? 1 : 0);
+    program_.set("marks_negative", view.mark_negative ? 1 : 0);
+    program_.set("subtrahend", 1);
+    program_.set("is_difference", subtrahend != nullptr ? 1 : 0);
     program_.set("colour_map", static_cast<int>(view.colour_map));
     program_.set("false_colours", false_colours);
     program_.set("is_coarse", view.coarse ? 1 : 0);
     program_.set("background", background_colour);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, subtrahend != nullptr ? subtrahend->name() : 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, image.name());
     vertices_.bind();
@@ -41,23 +62,19 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view) const {
     glUseProgram(0);
 }
 
-void Canvas::show(const RgbImage& image) {
-    has_image_ = !image.empty();
-    if (has_image_)
-        image_.upload(image);
-    drawn_.reset();
-}
-
-GLuint Canvas::draw(const CanvasShader& shader, const CanvasView& view) {
+GLuint Canvas::draw(const CanvasShader& shader, const ImageTexture& image, const CanvasView& view,
+                    const ImageTexture* subtrahend) {
     if (view.pane_size.x < 1 || view.pane_size.y < 1)
         return 0;
-    if (drawn_ == view)
+    if (subtrahend != nullptr && subtrahend->empty())
+        subtrahend = nullptr;
+    const Drawn wanted{view, &image, subtrahend, image.serial(), subtrahend ? subtrahend->serial() : 0};
+    if (drawn_ == wanted)
         return framebuffer_.colour().name();
-    static const GlTexture no_image;
     framebuffer_.resize(view.pane_size);
     const DrawInto target(framebuffer_);
-    shader.draw(has_image_ ? image_ : no_image, view);
-    drawn_ = view;
+    shader.draw(image.texture(), view, subtrahend ? &subtrahend->texture() : nullptr);
+    drawn_ = wanted;
     ++drawings_;
     return framebuffer_.colour().name();
 }

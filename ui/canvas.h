@@ -1,15 +1,18 @@
 #pragma once
 
 #include "ui/gl.h"
+#include "ui/tone.h"
+#include "ui/value_range.h"
 
 #include <optional>
 
 namespace tessera {
 
 enum class ColourMap {
-    radiance,          ///< exposure, then sRGB
+    radiance,          ///< exposure, then the tone curve
     signed_difference, ///< luminance, exposed: orange above zero, blue below
-    false_colour,      ///< the first channel, from 0 to a top value: false_colours
+    false_colour,      ///< the first channel, over a range: false_colours
+    direction,         ///< from -1 to 1 in each channel: black to full
 };
 
 /// How an image is to lie in a pane.
@@ -18,45 +21,67 @@ struct CanvasView {
     glm::vec2 image_origin{0}; ///< top left corner of the image, pixels from the pane's top left
     glm::vec2 image_extent{0}; ///< size of the image in the pane, pixels
     ColourMap colour_map = ColourMap::radiance;
-    float exposure = 0;  ///< stops
-    bool coarse = false; ///< interpolate between the image's pixels
-    float top = 1;       ///< of false colours: the value that the last of them stands for
+    Tone tone{};
+    ValueRange range{};         ///< of false colours
+    bool coarse = false;        ///< interpolate between the image's pixels
+    bool mark_negative = false; ///< radiance below zero, in any channel
 
     bool operator==(const CanvasView&) const = default;
+};
+
+/// A float image on the graphics side.
+class ImageTexture {
+public:
+    /// Takes over a copy of the pixels. An empty image leaves nothing to show.
+    void show(const RgbImage& image);
+
+    bool empty() const { return !has_image_; }
+    int serial() const { return serial_; } ///< changes with every show()
+    const GlTexture& texture() const;      ///< without a name if empty
+
+private:
+    GlTexture texture_;
+    bool has_image_ = false;
+    int serial_ = 0;
 };
 
 /// The program that all canvases draw with.
 class CanvasShader {
 public:
     CanvasShader();
-    /// Fills the framebuffer drawn into. Without an image, with the background.
-    void draw(const GlTexture& image, const CanvasView& view) const;
+    /// Fills the framebuffer drawn into with `image`, less `subtrahend` if there is one (of any size; it is
+    /// stretched). Without an image, with the background.
+    void draw(const GlTexture& image, const CanvasView& view, const GlTexture* subtrahend = nullptr) const;
 
 private:
     Program program_;
     EmptyVertexArray vertices_;
 };
 
-/// One pane's picture: a float image and its rendition on the screen, made anew only when one of them changes.
-/// NaN shows as magenta, infinity as cyan.
+/// The rendition of an image on the screen, made anew only when image or view change. NaN shows as magenta,
+/// infinity as cyan, what is negative (if it is to be marked) as blue.
 class Canvas {
 public:
-    /// Takes over the pixels of a copy on the graphics side. An empty image leaves the background alone.
-    void show(const RgbImage& image);
+    /// The texture that holds the rendition of the image, or of its difference to another, bottom row first; 0 for
+    /// a pane without area.
+    GLuint draw(const CanvasShader& shader, const ImageTexture& image, const CanvasView& view,
+                const ImageTexture* subtrahend = nullptr);
 
-    /// The texture that holds the rendition, bottom row first; 0 for a pane without area.
-    GLuint draw(const CanvasShader& shader, const CanvasView& view);
-
-    bool empty() const { return !has_image_; }
     int drawings() const { return drawings_; } ///< how often it was drawn: tells whether one was saved
-
     const Framebuffer& framebuffer() const { return framebuffer_; }
 
 private:
-    GlTexture image_;
+    /// What a rendition was made of.
+    struct Drawn {
+        CanvasView view;
+        const ImageTexture* image;
+        const ImageTexture* subtrahend;
+        int image_serial;
+        int subtrahend_serial;
+        bool operator==(const Drawn&) const = default;
+    };
     Framebuffer framebuffer_;
-    std::optional<CanvasView> drawn_; // what the framebuffer holds
-    bool has_image_ = false;
+    std::optional<Drawn> drawn_; // what the framebuffer holds
     int drawings_ = 0;
 };
 

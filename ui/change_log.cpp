@@ -10,6 +10,9 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
+constexpr const char* curves[] = {"srgb", "gamma", "filmic"};        // of Tone::Curve
+constexpr const char* comparisons[] = {"off", "wipe", "difference"}; // of Comparison::Kind
+
 std::string text(double number) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", number);
@@ -28,6 +31,7 @@ void describe(const std::string& prefix, const PaneState& pane, Values& values) 
         values[prefix + std::string(setting.id)] = setting.text(render);
     values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
     values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
+    values[prefix + "comparison"] = comparisons[static_cast<std::size_t>(pane.settings.comparison.kind)];
     values[prefix + "generation"] = std::to_string(pane.generation);
     values[prefix + "spp"] = std::to_string(pane.snapshot ? pane.snapshot->spp : 0);
 }
@@ -44,7 +48,19 @@ Values describe(const ViewerState& state) {
     values["camera"] = camera;
     const glm::ivec2 size = state.request_size();
     values["size"] = std::to_string(size.x) + "x" + std::to_string(size.y);
-    values["exposure"] = text(static_cast<double>(state.exposure));
+    values["exposure"] = text(static_cast<double>(state.tone.exposure));
+    values["tone"] = curves[static_cast<std::size_t>(state.tone.curve)];
+    values["panes"] = std::to_string(state.panes.size());
+    values["active"] = std::to_string(state.active_pane);
+    values["alone"] = text(state.alone);
+    values["wipe"] = text(static_cast<double>(state.wipe));
+    values["flicker"] = text(state.flicker);
+    values["theme"] = state.theme == Theme::dark ? "dark" : "light";
+    values["ui scale"] = text(static_cast<double>(state.shown_ui_scale));
+    values["magnifier"] = text(state.magnifier);
+    values["spp limit"] = std::to_string(state.pace.spp_limit);
+    values["seconds limit"] = text(state.pace.seconds_limit);
+    values["equal"] = state.pace.equal == Pace::Equal::time ? "time" : "spp";
     values["zoom"] = text(static_cast<double>(state.view.zoom()));
     values["linked"] = text(state.linked);
     values["paused"] = text(state.paused);

@@ -134,6 +134,29 @@ bool Controls::number(const char* id, const char* label_text, int& value, int le
     return value != before;
 }
 
+bool Controls::number(const char* id, const char* label_text, double& value, double least, double most,
+                      const char* help) {
+    label(label_text);
+    const double before = value;
+    ImGui::InputDouble(hidden_label(id).c_str(), &value, 1, 10, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
+    value = std::isnan(value) ? before : std::clamp(value, least, most);
+    note(id, help);
+    return value != before;
+}
+
+bool Controls::text(const char* id, const char* label_text, std::string& value, const char* hint,
+                    const char* help) {
+    label(label_text);
+    char buffer[1024] = {};
+    value.copy(buffer, sizeof buffer - 1);
+    const bool entered = ImGui::InputTextWithHint(hidden_label(id).c_str(), hint, buffer, sizeof buffer,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    if (entered)
+        value = buffer;
+    note(id, help);
+    return entered;
+}
+
 bool Controls::toggle(const char* id, const char* label_text, bool& value, const char* help) {
     label(label_text);
     const bool changed = ImGui::Checkbox(hidden_label(id).c_str(), &value);

@@ -44,6 +44,9 @@ public:
     /// Logarithmic. If `least` is 0, the left end is 0 and reads "off".
     bool log_slider(const char* id, const char* label, float& value, float least, float most, const char* help);
     bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
+    bool number(const char* id, const char* label, double& value, double least, double most, const char* help);
+    /// Taken when Enter is pressed; empty text shows `hint`.
+    bool text(const char* id, const char* label, std::string& value, const char* hint, const char* help);
     bool toggle(const char* id, const char* label, bool& value, const char* help);
     /// No row of its own: as wide as its label, or `width`.
     bool button(const char* id, const char* label, const char* help, float width = 0);

@@ -22,7 +22,7 @@ Gui::Gui(float scale) : scale_(sane_scale(scale)) {
     context_ = ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().LogFilename = nullptr;
-    apply_theme(scale_);
+    apply_theme(scale_, theme_);
     if (ImGui_ImplOpenGL3_Init("#version 330 core"))
         return;
     ImGui::DestroyContext(context_);
@@ -34,12 +34,16 @@ Gui::~Gui() {
     ImGui::DestroyContext(context_);
 }
 
-void Gui::set_scale(float scale) {
-    if (sane_scale(scale) == scale_)
+void Gui::set_look(float scale, Theme theme) {
+    if (sane_scale(scale) == scale_ && theme == theme_)
         return;
     scale_ = sane_scale(scale);
-    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // made again, with the new fonts, at the next frame
-    apply_theme(scale_);
+    theme_ = theme;
+    // The fonts' texture alone: 1.86 forgets to forget the size of the buffers that ...DestroyDeviceObjects
+    // deletes, and draws nothing from then on.
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    apply_theme(scale_, theme_);
+    ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Gui::begin_frame(glm::vec2 size, float pixels_a_unit, float seconds) {

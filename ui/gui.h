@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/theme.h"
+
 #include <glm/vec2.hpp>
 
 struct ImGuiContext;
@@ -17,7 +19,8 @@ public:
     Gui& operator=(const Gui&) = delete;
 
     float scale() const { return scale_; }
-    void set_scale(float scale); ///< between frames
+    /// Text, spaces and colours of what is drawn from the next frame on.
+    void set_look(float scale, Theme theme); ///< between frames
 
     /// Begins a frame of `size` screen units, `pixels_a_unit` framebuffer pixels each, `seconds` after the last.
     /// For a drawing place without a window; a window's backend sets these itself (begin_window_frame).
@@ -30,6 +33,7 @@ public:
 private:
     ImGuiContext* context_ = nullptr;
     float scale_ = 1;
+    Theme theme_ = Theme::dark;
 };
 
 } // namespace tessera

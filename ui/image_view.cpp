@@ -10,7 +10,7 @@ namespace tessera {
 namespace {
 
 constexpr float least_zoom = 0.25f;
-constexpr float most_zoom = 64.0f;
+constexpr float most_zoom = 256.0f;
 
 // Screen pixels an image pixel at which the whole picture fits. An image that nearly fills the pane is shown pixel
 // by pixel rather than stretched by a few.

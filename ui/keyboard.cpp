@@ -41,6 +41,28 @@ std::string to_string(const Shortcut& shortcut) {
     return (shortcut.ctrl ? "Ctrl+" : "") + std::string(shortcut.shift ? "Shift+" : "") + name(shortcut.key);
 }
 
+std::optional<Shortcut> shortcut_named(const std::string& text) {
+    Shortcut shortcut;
+    std::string rest = text;
+    const auto take = [&](const std::string& prefix) {
+        const bool found = rest.size() > prefix.size() && rest.rfind(prefix, 0) == 0;
+        if (found)
+            rest.erase(0, prefix.size());
+        return found;
+    };
+    shortcut.ctrl = take("Ctrl+");
+    shortcut.shift = take("Shift+");
+    for (int key = place(Key::none) + 1; key < place(Key::count); ++key) {
+        if (name(static_cast<Key>(key)) == rest)
+            shortcut.key = static_cast<Key>(key);
+    }
+    if (shortcut.key != Key::none)
+        return shortcut;
+    if (text.size() == 1 && text[0] > ' ' && key_of_character(text[0]) == Key::none)
+        return Shortcut{Key::none, false, false, text[0]};
+    return std::nullopt;
+}
+
 void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
     // With Ctrl it is a shortcut, and does not count as held: Ctrl+S must not fly back.
     down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;

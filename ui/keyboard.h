@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct Shortcut {
 
 /// "Ctrl+Q", "F1", "?", "Space".
 std::string to_string(const Shortcut& shortcut);
+
+/// The shortcut of that name; also "Up" or "Ctrl+Shift+K", and a character that is neither letter nor digit.
+/// Nothing: there is none.
+std::optional<Shortcut> shortcut_named(const std::string& name);
 
 /// What was typed since the last frame, and what is held. Own bookkeeping, not Dear ImGui's: its older versions
 /// lose a key that goes down and up between two frames, which happens when the processors are busy.

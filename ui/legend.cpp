@@ -3,6 +3,7 @@
 #include "ui/false_colours.h"
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
@@ -25,32 +26,35 @@ void draw_colours(ImDrawList& list, glm::vec2 min, glm::vec2 max) {
     }
 }
 
-const char* help(Buffer buffer) {
-    return buffer == Buffer::failed ? "The share of the shifts to a pixel that brought it no light."
-                                    : "The base paths of other pixels that brought light to a pixel, a pass.";
-}
-
 } // namespace
 
-void draw_legend(const ScreenRect& picture, const std::string& id, Buffer buffer, float top, Controls& controls) {
-    const std::string text = legend_text(buffer, top);
+ScreenRect draw_legend(const ScreenRect& picture, const std::string& id, Buffer buffer, const ValueRange& range,
+                       bool at_right, Controls& controls) {
+    const std::string text = legend_text(buffer, range);
     const float font = ImGui::GetFontSize(), pad = std::floor(font * 0.5f), bar = std::floor(font * 0.5f);
     const ImVec2 text_size = ImGui::CalcTextSize(text.c_str());
-    const glm::vec2 size(text_size.x + 2 * pad, text_size.y + bar + 2.5f * pad);
+    const glm::vec2 size(std::max(text_size.x, font * 10) + 2 * pad, text_size.y + bar + 2.5f * pad);
     if (size.x + 2 * pad > picture.size().x || size.y + 2 * pad > picture.size().y)
-        return;
-    const glm::vec2 min(picture.min.x + pad, picture.max.y - pad - size.y), max = min + size;
+        return {};
+    const float left = at_right ? picture.max.x - pad - size.x : picture.min.x + pad;
+    const glm::vec2 min(left, picture.max.y - pad - size.y), max = min + size;
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({min.x, min.y}, {max.x, max.y}, IM_COL32(20, 22, 26, 215), pad * 0.5f);
-    list.AddText({min.x + pad, min.y + pad}, colours::text, text.c_str());
-    draw_colours(list, {min.x + pad, max.y - pad - bar}, {max.x - pad, max.y - pad});
+    list.AddRectFilled({min.x, min.y}, {max.x, max.y}, colours::overlay, pad * 0.5f);
+    list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
+    const ScreenRect colours_at{{min.x + pad, max.y - pad - bar}, {max.x - pad, max.y - pad}};
+    draw_colours(list, colours_at.min, colours_at.max);
 
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({min.x, min.y});
     ImGui::Dummy({size.x, size.y});
-    controls.note(id.c_str(), help(buffer));
+    const std::string help =
+        std::string(info(buffer).help) +
+        "\n\nDrag the colours' left or right half to move that end of their range; double click: "
+        "back to the range that fits the image.";
+    controls.note(id.c_str(), help.c_str());
     ImGui::SetCursorScreenPos(cursor);
+    return colours_at;
 }
 
 } // namespace tessera

@@ -66,22 +66,29 @@ public:
         std::string error = context_.open();
         if (!error.empty())
             return error;
-        gui_ = std::make_unique<Gui>(options.ui_scale);
+        scale_ = options.ui_scale;
+        gui_ = std::make_unique<Gui>(scale_);
         target_.resize(size_);
         return {};
     }
 
-    void run(Viewer& viewer, const AfterFrame& after_frame) override {
+    void run(Viewer& viewer, const FrameHooks& hooks) override {
         const DrawInto drawing(target_);
         auto last = std::chrono::steady_clock::now();
+        double frame_seconds = 0;
         while (!viewer.state().quit) {
             const auto now = std::chrono::steady_clock::now();
+            if (hooks.before)
+                hooks.before(frame_seconds);
+            gui_->set_look(viewer.state().ui_scale.value_or(scale_), viewer.state().theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
             last = now;
             viewer.draw_frame();
             gui_->end_frame();
-            if (after_frame && !after_frame())
+            if (hooks.after && !hooks.after())
                 return;
+            glFinish(); // there is nothing to show it to that would wait for it
+            frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
             sleep(frames_ < 3 ? 0 : std::min(viewer.next_frame_in(), 0.5));
             ++frames_;
         }
@@ -107,6 +114,7 @@ private:
 
     EglContext context_; // first: the others' objects live in it
     glm::ivec2 size_{1};
+    float scale_ = 1;
     std::unique_ptr<Gui> gui_;
     Framebuffer target_;
     int frames_ = 0;

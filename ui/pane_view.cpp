@@ -2,57 +2,39 @@
 
 #include "ui/imgui_version.h"
 #include "ui/legend.h"
+#include "ui/magnifier.h"
 #include "ui/mouse.h"
+#include "ui/pane_header.h"
+#include "ui/pane_status.h"
+#include "ui/pixel_numbers.h"
 #include "ui/theme.h"
+#include "ui/wipe.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include <glm/common.hpp>
 #include <imgui.h>
 
 namespace tessera {
 
 namespace {
 
-const std::vector<ChoiceItem>& method_items() {
-    static const std::vector<ChoiceItem> items = [] {
-        std::vector<ChoiceItem> list;
-        for (Method method : all_methods)
-            list.push_back({std::string(short_name(method)),
-                            std::string(paper_name(method)) + "   " + std::string(long_name(method)), ""});
-        return list;
-    }();
-    return items;
-}
-
-const std::vector<ChoiceItem>& buffer_items() {
-    static const std::vector<ChoiceItem> items = {
-        {"reconstruction", "Reconstruction", "The picture made from primal and gradients."},
-        {"primal", "Primal", "The picture as measured, before any reconstruction."},
-        {"dx", "Gradient dx",
-         "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR."},
-        {"dy", "Gradient dy",
-         "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR."},
-        {"reused", "Reuse count",
-         "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT."},
-        {"failed", "Failed shifts",
-         "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT."},
-    };
-    return items;
-}
-
 constexpr ImGuiWindowFlags pane_flags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
     ImGuiWindowFlags_NoBackground; // Gui clears the screen in the panels' colour
 
-PaneMouse read_mouse(ImVec2 pane_min, float pixels_a_unit) {
+glm::vec2 mouse_position() {
+    return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
+}
+
+PaneMouse read_mouse(const PictureFrame& frame) {
     const ImGuiIO& io = ImGui::GetIO();
     PaneMouse mouse;
-    const auto in_pane = [&](ImVec2 p) { return glm::vec2(p.x - pane_min.x, p.y - pane_min.y) * pixels_a_unit; };
-    mouse.position = in_pane(io.MousePos);
-    mouse.previous = in_pane({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y});
+    const glm::vec2 moved(io.MouseDelta.x, io.MouseDelta.y);
+    mouse.position = (mouse_position() - frame.rect.min) * frame.pixels_a_unit;
+    mouse.previous = mouse.position - moved * frame.pixels_a_unit;
     const bool active = ImGui::IsItemActive();
     mouse.left = active && ImGui::IsMouseDown(ImGuiMouseButton_Left);
     mouse.middle = active && ImGui::IsMouseDown(ImGuiMouseButton_Middle);
@@ -64,104 +46,38 @@ PaneMouse read_mouse(ImVec2 pane_min, float pixels_a_unit) {
 }
 
 // Words in the middle of a pane that has no picture.
-void draw_notice(ImVec2 min, ImVec2 max, const char* text) {
+void draw_notice(const ScreenRect& where, const char* text) {
     const ImVec2 size = ImGui::CalcTextSize(text);
-    ImGui::GetWindowDrawList()->AddText({(min.x + max.x - size.x) * 0.5f, (min.y + max.y - size.y) * 0.5f},
-                                        colours::dim_text, text);
+    const glm::vec2 at = (where.min + where.max - glm::vec2(size.x, size.y)) * 0.5f;
+    ImGui::GetWindowDrawList()->AddText({at.x, at.y}, colours::overlay_dim_text, text);
 }
 
-std::string notice(const PaneState& pane) {
-    const Method method = pane.settings.render.method;
-    const ColourMap map = colour_map(pane.settings.buffer);
-    if (map == ColourMap::signed_difference && !has_gradients(method))
-        return std::string(paper_name(method)) + " measures no gradients";
-    if (map == ColourMap::false_colour && method == Method::pt)
-        return std::string(paper_name(method)) + " shares no paths between pixels";
-    return "";
+const PaneImage& image_of(const Showing& showing, const PaneTools& tools) {
+    return tools.images[static_cast<std::size_t>(showing.pane)];
+}
+
+const ImageTexture* subtrahend_of(const Showing& showing, const PaneTools& tools) {
+    return showing.subtrahend < 0 ? nullptr
+                                  : &tools.images[static_cast<std::size_t>(showing.subtrahend)].texture();
+}
+
+CanvasView view_of(const Showing& showing, const PictureFrame& frame, const PaneTools& tools) {
+    const ViewerState& state = tools.state;
+    CanvasView view;
+    view.pane_size = frame.pixels;
+    view.image_origin = frame.placement.origin;
+    view.image_extent = frame.placement.extent;
+    view.colour_map = colour_map(showing, state);
+    view.tone = state.tone;
+    view.range = range_of(showing, state, tools.images);
+    view.coarse = image_of(showing, tools).coarse();
+    view.mark_negative = state.mark_negative;
+    return view;
 }
 
 } // namespace
 
-void PaneView::upload(const PaneState& pane) {
-    static const RgbImage no_picture;
-    const Buffer buffer = pane.settings.buffer;
-    std::shared_ptr<const void> source = pane.snapshot ? picture_source(*pane.snapshot, buffer) : nullptr;
-    if (source == shown_ && buffer == shown_buffer_)
-        return;
-    shown_ = std::move(source);
-    shown_buffer_ = buffer;
-    const RgbImage& image = pane.snapshot ? picture(*pane.snapshot, buffer, scratch_) : no_picture;
-    canvas_.show(image);
-    top_ = colour_map(buffer) == ColourMap::false_colour ? top_value(buffer, image) : 1;
-    ++uploads_;
-}
-
-void PaneView::draw_header(const std::string& id, Controls& controls, PaneState& pane) {
-    const float font = ImGui::GetFontSize();
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float height = ImGui::GetFrameHeight();
-    ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + font * 0.35f, corner.y + height},
-                                              method_colour(pane.settings.render.method), font * 0.15f);
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + font * 0.7f);
-
-    const float room = ImGui::GetContentRegionAvail().x;
-    const float spacing = ImGui::GetStyle().ItemSpacing.x;
-    const float method_width = std::max(std::min(font * 19, (room - spacing) * 0.58f), 1.0f);
-    const float buffer_width = std::max(std::min(font * 11, room - spacing - method_width), 1.0f);
-    int method = static_cast<int>(pane.settings.render.method);
-    if (controls.bare_choice((id + ".method").c_str(),
-                             method_items()[static_cast<std::size_t>(method)].label.c_str(), method_items(),
-                             method, method_width, "How this pane's light paths are sampled (M)."))
-        pane.settings.render.method = all_methods[method];
-    ImGui::SameLine();
-    int buffer = static_cast<int>(pane.settings.buffer);
-    if (controls.bare_choice((id + ".buffer").c_str(),
-                             buffer_items()[static_cast<std::size_t>(buffer)].label.c_str(), buffer_items(),
-                             buffer, buffer_width, "What this pane shows (1 to 6: all panes)."))
-        pane.settings.buffer = all_buffers[buffer];
-}
-
-void PaneView::draw_picture(int index, const std::string& id, const CanvasShader& shader, Controls& controls,
-                            ViewerState& state) {
-    PaneState& pane = state.panes[static_cast<std::size_t>(index)];
-    const float pixels_a_unit = ImGui::GetIO().DisplayFramebufferScale.x;
-    const ImVec2 min = ImGui::GetCursorScreenPos();
-    const float status_height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().ItemSpacing.y;
-    const ImVec2 avail = ImGui::GetContentRegionAvail();
-    const ImVec2 size(std::max(std::floor(avail.x), 1.0f), std::max(std::floor(avail.y - status_height), 1.0f));
-    const ImVec2 max(min.x + size.x, min.y + size.y);
-    const glm::ivec2 pixels = glm::max(glm::ivec2(glm::vec2(size.x, size.y) * pixels_a_unit), glm::ivec2(1));
-    pane.canvas_size = pixels;
-
-    ImGui::InvisibleButton((id + ".picture").c_str(), size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
-                               ImGuiButtonFlags_MouseButtonRight);
-    controls.note((id + ".picture").c_str(), nullptr);
-    if (ImGui::IsItemActivated())
-        state.active_pane = index;
-    const glm::ivec2 image_size = state.request_size();
-    apply_mouse(read_mouse(min, pixels_a_unit), state.view.place(image_size, pixels), image_size, pixels, state);
-
-    upload(pane);
-    const Placement placement = state.view.place(image_size, pixels);
-    CanvasView view{pixels,
-                    placement.origin,
-                    placement.extent,
-                    colour_map(pane.settings.buffer),
-                    state.exposure,
-                    pane.snapshot && pane.snapshot->coarse,
-                    top_};
-    ImGui::GetWindowDrawList()->AddImage(texture_id(canvas_.draw(shader, view)), min, max, {0, 1}, {1, 0});
-    if (index == state.active_pane && !state.linked)
-        ImGui::GetWindowDrawList()->AddRect(min, max, colours::accent);
-    if (const std::string text = notice(pane); !text.empty())
-        draw_notice(min, max, text.c_str());
-    else if (colour_map(pane.settings.buffer) == ColourMap::false_colour && !canvas_.empty())
-        draw_legend({{min.x, min.y}, {max.x, max.y}}, id + ".legend", pane.settings.buffer, top_, controls);
-}
-
-void PaneView::draw(int index, const ScreenRect& where, const CanvasShader& shader, Controls& controls,
-                    ViewerState& state) {
+void PaneView::draw(int index, const ScreenRect& where, PaneTools& tools) {
     const std::string id = "pane" + std::to_string(index);
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
@@ -169,37 +85,145 @@ void PaneView::draw(int index, const ScreenRect& where, const CanvasShader& shad
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::Begin(id.c_str(), nullptr, pane_flags);
     ImGui::PopStyleVar();
-    PaneState& pane = state.panes[static_cast<std::size_t>(index)];
-    draw_header(id, controls, pane);
-    draw_picture(index, id, shader, controls, state);
-    const std::string status = status_text(pane, state.paused, state.spp_limit);
-    ImGui::TextDisabled("%s", status.c_str());
-    controls.note((id + ".status").c_str(), status.c_str()); // a narrow pane cuts it off
+    draw_pane_header(id, tools.controls, tools.state.panes[static_cast<std::size_t>(index)]);
+    draw_picture(index, id, tools);
+    draw_status(id, index, tools.state, tools.images, tools.controls);
     ImGui::End();
 }
 
-std::string status_text(const PaneState& pane, bool paused, int spp_limit) {
-    const std::string method(paper_name(pane.settings.render.method));
-    if (!pane.snapshot || pane.snapshot->generation != pane.generation)
-        return method + (paused ? "   paused" : "   starting");
-    const Snapshot& snapshot = *pane.snapshot;
-    const double rate =
-        snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s   %d spp   %.2f s   %.1f Mrays/s", method.c_str(), snapshot.spp,
-                  snapshot.seconds, rate * 1e-6);
-    std::string line = text;
-    if (snapshot.coarse)
-        line += "   first look";
-    else if (snapshot.reconstruction && has_gradients(snapshot.settings.method))
-        line += "   reconstruction of pass " + std::to_string(snapshot.reconstruction_spp);
-    if (snapshot.counters.refused_samples > 0)
-        line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
-    if (paused)
-        line += "   paused";
-    else if (spp_limit > 0 && snapshot.spp >= spp_limit)
-        line += "   done";
-    return line;
+void PaneView::draw_picture(int index, const std::string& id, PaneTools& tools) {
+    PictureFrame frame = place_picture(index, id, tools);
+    use_mouse(index, frame, tools);
+    draw_renditions(index, frame, tools);
+    draw_overlays(index, id, frame, tools);
+}
+
+/// Takes the room that the pane has for its picture, as an item.
+PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools& tools) {
+    PictureFrame frame;
+    frame.pixels_a_unit = ImGui::GetIO().DisplayFramebufferScale.x;
+    const ImVec2 min = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    const float status_height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().ItemSpacing.y;
+    const glm::vec2 size = glm::max(glm::floor(glm::vec2(room.x, room.y - status_height)), glm::vec2(1));
+    frame.rect = {{min.x, min.y}, glm::vec2(min.x, min.y) + size};
+    frame.pixels = glm::max(glm::ivec2(size * frame.pixels_a_unit), glm::ivec2(1));
+    tools.state.panes[static_cast<std::size_t>(index)].canvas_size = frame.pixels;
+    frame.placement = tools.state.view.place(tools.state.request_size(), frame.pixels);
+    ImGui::InvisibleButton((id + ".picture").c_str(), {size.x, size.y},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    tools.controls.note((id + ".picture").c_str(), nullptr);
+    return frame;
+}
+
+// --- the mouse ---
+
+void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
+    ViewerState& state = tools.state;
+    if (ImGui::IsItemActivated()) {
+        state.active_pane = index;
+        grip_ = grip_at(index, frame, tools);
+        if (grip_ >= Grip::legend_low && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+            state.ranges.erase(
+                state.panes[static_cast<std::size_t>(showing_at(state, index, 0).pane)].settings.buffer);
+    }
+    PaneMouse mouse = read_mouse(frame);
+    const Grip hold = ImGui::IsItemActive() ? grip_ : grip_at(index, frame, tools);
+    if (hold != Grip::camera && ImGui::IsItemHovered())
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (ImGui::IsItemActive() && grip_ != Grip::camera) {
+        drag(index, frame, (mouse.position.x - mouse.previous.x) / frame.pixels_a_unit, tools);
+        mouse.left = mouse.middle = mouse.right = false; // the wheel still works
+    }
+    const glm::ivec2 image_size = state.request_size();
+    apply_mouse(mouse, frame.placement, image_size, frame.pixels, state);
+    frame.placement = state.view.place(image_size, frame.pixels);
+
+    if (ImGui::IsItemHovered())
+        state.cursor = {index, frame.to_image(mouse_position()),
+                        (mouse_position().x - frame.rect.min.x) / frame.rect.size().x};
+    else if (state.cursor && state.cursor->pane == index)
+        state.cursor.reset();
+}
+
+PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {
+    const glm::vec2 point = mouse_position();
+    const float margin = ImGui::GetFontSize() * 0.4f;
+    if (ScreenRect{legend_.min - margin, legend_.max + margin}.contains(point) && legend_.size().x > 0)
+        return point.x < (legend_.min.x + legend_.max.x) * 0.5f ? Grip::legend_low : Grip::legend_high;
+    const bool wipes = showing_at(tools.state, index, -1) != showing_at(tools.state, index, 2);
+    return wipes && is_on_wipe(frame, tools.state.wipe, point) ? Grip::wipe : Grip::camera;
+}
+
+/// Moves what the mouse holds by so many screen units.
+void PaneView::drag(int index, const PictureFrame& frame, float by, PaneTools& tools) const {
+    ViewerState& state = tools.state;
+    if (by == 0)
+        return;
+    if (grip_ == Grip::wipe) {
+        state.wipe = std::clamp(state.wipe + by / frame.rect.size().x, 0.0f, 1.0f);
+        return;
+    }
+    const Showing showing = showing_at(state, index, 0);
+    const ValueRange range = range_of(showing, state, tools.images);
+    const float share = by / std::max(legend_.size().x, 1.0f);
+    state.ranges[state.panes[static_cast<std::size_t>(showing.pane)].settings.buffer] =
+        grip_ == Grip::legend_low ? range.with_low_dragged(share) : range.with_high_dragged(share);
+}
+
+// --- the picture ---
+
+void PaneView::draw_renditions(int index, const PictureFrame& frame, PaneTools& tools) {
+    const Showing left = showing_at(tools.state, index, -1), right = showing_at(tools.state, index, 2);
+    const ImVec2 min(frame.rect.min.x, frame.rect.min.y), max(frame.rect.max.x, frame.rect.max.y);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto draw = [&](Canvas& canvas, const Showing& showing) {
+        const GLuint rendition = canvas.draw(tools.shader, image_of(showing, tools).texture(),
+                                             view_of(showing, frame, tools), subtrahend_of(showing, tools));
+        list.AddImage(texture_id(rendition), min, max, {0, 1}, {1, 0});
+    };
+    draw(canvas_, left);
+    if (right == left)
+        return;
+    list.PushClipRect({std::floor(min.x + tools.state.wipe * (max.x - min.x)), min.y}, max, true);
+    draw(right_canvas_, right);
+    list.PopClipRect();
+}
+
+void PaneView::draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools) {
+    ViewerState& state = tools.state;
+    const ScreenRect& rect = frame.rect;
+    const Showing left = showing_at(state, index, -1);
+    draw_pixel_numbers(frame, index, state, tools.images);
+    draw_comparison(frame, index, state);
+    legend_ = {};
+    const PaneState& shown = state.panes[static_cast<std::size_t>(left.pane)];
+    const std::string missing =
+        missing_text(shown.snapshot.get(), shown.settings.render.method, shown.settings.buffer, state.companions);
+    if (!missing.empty())
+        draw_notice(rect, missing.c_str());
+    else if (colour_map(left, state) == ColourMap::false_colour && !image_of(left, tools).empty())
+        legend_ = draw_legend(rect, id + ".legend", shown.settings.buffer, range_of(left, state, tools.images),
+                              false, tools.controls);
+    if (state.magnifier)
+        draw_magnifier_at_cursor(index, frame, tools);
+    if (index == state.active_pane && state.panes.size() > 1 && !state.alone)
+        ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
+}
+
+void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools) {
+    if (!tools.state.cursor)
+        return;
+    const Showing showing = showing_at(tools.state, index, tools.state.cursor->share);
+    const PaneImage& image = image_of(showing, tools);
+    const glm::vec2 place = tools.state.cursor->place;
+    if (image.empty() || !value_at(showing, tools.images, place))
+        return;
+    const glm::ivec2 size(image.pixels().width(), image.pixels().height());
+    const CanvasView view = magnified(view_of(showing, frame, tools), size, place, magnifier_pixels(frame));
+    const GLuint rendition =
+        magnifier_canvas_.draw(tools.shader, image.texture(), view, subtrahend_of(showing, tools));
+    draw_magnifier(frame, view, size, place, rendition);
 }
 
 } // namespace tessera

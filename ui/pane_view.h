@@ -1,40 +1,49 @@
 #pragma once
 
-#include "ui/canvas.h"
 #include "ui/controls.h"
-#include "ui/panels.h"
+#include "ui/picture_frame.h"
+#include "ui/showing.h"
 #include "ui/viewer_state.h"
 
 #include <string>
 
 namespace tessera {
 
-/// Draws one pane: a strip with its method and buffer, the picture, and a status line. Keeps what it has on the
-/// graphics side, and uploads a picture only when another one is to be shown.
+/// What pane views draw with.
+struct PaneTools {
+    const CanvasShader& shader;
+    const PaneImages& images;
+    Controls& controls;
+    ViewerState& state;
+};
+
+/// Draws one pane: a strip with its method and buffer, the picture, and a status line. Keeps the renditions of
+/// what it shows.
 class PaneView {
 public:
     /// Changes the state by the controls, and by the mouse over the picture.
-    void draw(int index, const ScreenRect& where, const CanvasShader& shader, Controls& controls,
-              ViewerState& state);
+    void draw(int index, const ScreenRect& where, PaneTools& tools);
 
-    int uploads() const { return uploads_; }
-    const Canvas& canvas() const { return canvas_; }
+    const Canvas& canvas() const { return canvas_; } ///< of the whole picture, or what is left of a wipe's line
 
 private:
-    void draw_header(const std::string& id, Controls& controls, PaneState& pane);
-    void draw_picture(int index, const std::string& id, const CanvasShader& shader, Controls& controls,
-                      ViewerState& state);
-    void upload(const PaneState& pane);
+    /// What the mouse took hold of when its button went down.
+    enum class Grip { camera, wipe, legend_low, legend_high };
+
+    void draw_picture(int index, const std::string& id, PaneTools& tools);
+    PictureFrame place_picture(int index, const std::string& id, PaneTools& tools);
+    void use_mouse(int index, PictureFrame& frame, PaneTools& tools);
+    Grip grip_at(int index, const PictureFrame& frame, PaneTools& tools) const;
+    void drag(int index, const PictureFrame& frame, float by, PaneTools& tools) const;
+    void draw_renditions(int index, const PictureFrame& frame, PaneTools& tools);
+    void draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools);
+    void draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools);
 
     Canvas canvas_;
-    RgbImage scratch_;
-    std::shared_ptr<const void> shown_; // what the canvas holds a picture of, kept so that it stays unique
-    Buffer shown_buffer_ = Buffer::reconstruction;
-    float top_ = 1; // of the false colours
-    int uploads_ = 0;
+    Canvas right_canvas_; // beyond a wipe's line
+    Canvas magnifier_canvas_;
+    Grip grip_ = Grip::camera;
+    ScreenRect legend_; // its colours, as last drawn
 };
-
-/// The line below a picture: method, samples a pixel, seconds, rays a second, reconstruction.
-std::string status_text(const PaneState& pane, bool paused, int spp_limit);
 
 } // namespace tessera

@@ -202,15 +202,16 @@ void draw_loading(const ScreenRect& where, const std::string& what, const LoadPr
     const glm::vec2 center = (where.min + where.max) * 0.5f;
     const ImVec2 min(center.x - half.x, center.y - half.y), max(center.x + half.x, center.y + half.y);
     ImDrawList& list = *ImGui::GetForegroundDrawList();
-    list.AddRectFilled(min, max, IM_COL32(20, 22, 26, 230), pad * 0.5f);
-    list.AddRect(min, max, colours::line, pad * 0.5f);
-    list.AddText({min.x + pad, min.y + pad}, colours::text, text.c_str());
+    list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
+    list.AddRect(min, max, colours::overlay_line, pad * 0.5f);
+    list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
     if (progress.total == 0)
         return;
     const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
     const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
-    list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::line);
-    list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom}, colours::accent);
+    list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::overlay_line);
+    list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom},
+                       colours::overlay_accent);
 }
 
 } // namespace tessera

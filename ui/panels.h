@@ -2,6 +2,7 @@
 
 #include "render/load/load_progress.h"
 #include "ui/controls.h"
+#include "ui/screen_rect.h"
 #include "ui/viewer_state.h"
 
 #include <imgui.h>
@@ -9,12 +10,6 @@
 namespace tessera {
 
 /// The windows around the pictures. Each is drawn into the current Dear ImGui frame and changes the state only.
-
-struct ScreenRect {
-    glm::vec2 min{0};
-    glm::vec2 max{0};
-    glm::vec2 size() const { return max - min; }
-};
 
 /// Of a window beside the pictures: it stays where it is, and scrolls.
 inline constexpr ImGuiWindowFlags side_panel_flags =

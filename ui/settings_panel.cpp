@@ -104,7 +104,7 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
 }
 
 void draw_run_buttons(Controls& controls, ViewerState& state) {
-    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5f;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
     const std::string restart = std::string(icons().restart) + (*icons().restart ? "  " : "") + "Restart";
     const char* icon = state.paused ? icons().play : icons().pause;
     const std::string pause = std::string(icon) + (*icon ? "  " : "") + (state.paused ? "Resume" : "Pause");
@@ -113,12 +113,96 @@ void draw_run_buttons(Controls& controls, ViewerState& state) {
     ImGui::SameLine();
     if (controls.button("pause", pause.c_str(), "Stops and resumes the rendering (Space).", width))
         state.paused = !state.paused;
+    ImGui::SameLine();
+    if (controls.button("step", "Step", "Pauses, and adds one sample a pixel in every pane (.).", width)) {
+        state.paused = true;
+        ++state.steps;
+    }
+}
+
+void draw_pace(Controls& controls, Pace& pace) {
+    static const std::array<ChoiceItem, 2> shares = {{
+        {"time", "same time", "Passes go to the pane that has rendered for the shortest time."},
+        {"spp", "same spp", "Passes go to the pane with the fewest samples a pixel."},
+    }};
+    int share = static_cast<int>(pace.equal);
+    if (controls.choice("equal", "Panes have", shares, share, "How the panes share the cores."))
+        pace.equal = static_cast<Pace::Equal>(share);
+    controls.number("spp_limit", "Stop at spp", pace.spp_limit, 0, 1 << 24,
+                    "Samples a pixel after which the panes rest. 0: they never do.");
+    controls.number("seconds_limit", "Stop at seconds", pace.seconds_limit, 0, 1e7,
+                    "Seconds (wall time) of a pane's own passes after which it rests. 0: it never does.");
+}
+
+void draw_comparison_settings(Controls& controls, ViewerState& state) {
+    static const std::array<ChoiceItem, 3> kinds = {{
+        {"off", "off", "The pane shows its own picture."},
+        {"wipe", "wipe", "Its own picture to the left of a line, another pane's to the right. Drag the line (V)."},
+        {"difference", "difference", "Its own picture minus another pane's: orange above zero, blue below (N)."},
+    }};
+    Comparison& comparison = state.active().settings.comparison;
+    int kind = static_cast<int>(comparison.kind);
+    if (controls.choice("compare", "Active pane", kinds, kind, "How the active pane shows another one's picture."))
+        comparison.kind = static_cast<Comparison::Kind>(kind);
+    std::vector<ChoiceItem> others;
+    std::vector<int> panes;
+    const int with = state.compared_with(state.active_pane);
+    int chosen = 0;
+    for (int i = 0; i < static_cast<int>(state.panes.size()); ++i) {
+        if (i == state.active_pane)
+            continue;
+        if (i == with)
+            chosen = static_cast<int>(panes.size());
+        panes.push_back(i);
+        const PaneState& other = state.panes[static_cast<std::size_t>(i)];
+        others.push_back(
+            {std::to_string(i + 1),
+             "pane " + std::to_string(i + 1) + ", " + std::string(paper_name(other.settings.render.method)), ""});
+    }
+    if (controls.choice("compare_with", "With", others, chosen,
+                        "The pane that is compared with the active one, and that it shows while B is held."))
+        comparison.with = panes[static_cast<std::size_t>(chosen)];
+}
+
+void draw_reference_settings(Controls& controls, ViewerState& state) {
+    const Reference* reference = state.companions.reference.get();
+    std::string file = reference ? reference->name : "";
+    if (controls.text(
+            "reference", "File", file, "an EXR file",
+            "EXR file with the image to measure errors against (7, 8, 9): type its name, or drop it on the "
+            "window."))
+        state.reference_file = file;
+    if (!reference)
+        return;
+    const glm::ivec2 size(reference->image.width(), reference->image.height());
+    if (size != state.request_size() &&
+        controls.button("reference_size", "Render its size", "Renders as many pixels as the reference has."))
+        state.size = {SizeChoice::Base::custom, 1, size};
+}
+
+void draw_display_settings(Controls& controls, ViewerState& state) {
+    controls.slider("exposure", "Exposure", state.tone.exposure, -10, 10, "%+.1f stops",
+                    "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.");
+    static const std::array<ChoiceItem, 3> curves = {{
+        {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},
+        {"gamma", "gamma", "Radiance to the power of 1/gamma."},
+        {"filmic", "filmic", "Highlights are compressed instead of cut [Narkowicz 2015], then sRGB."},
+    }};
+    int curve = static_cast<int>(state.tone.curve);
+    if (controls.choice("tone", "Tone curve", curves, curve, "How radiance becomes brightness on the screen (Y)."))
+        state.tone.curve = static_cast<Tone::Curve>(curve);
+    if (state.tone.curve == Tone::Curve::gamma)
+        controls.slider("gamma", "Gamma", state.tone.gamma, 1, 4, "%.2f", "The exponent's inverse (no unit).");
+    controls.toggle(
+        "mark_negative", "Mark negative", state.mark_negative,
+        "Pixels with a negative red, green or blue are blue (U). NaN is always magenta, infinity cyan.");
+    controls.toggle("magnifier", "Magnifier", state.magnifier,
+                    "Enlarges the pixels around the mouse, in all panes (L).");
 }
 
 void draw_contents(Controls& controls, ViewerState& state) {
     draw_run_buttons(controls, state);
-    controls.number("spp_limit", "Stop at spp", state.spp_limit, 0, 1 << 24,
-                    "Samples a pixel after which the panes rest. 0: they never do.");
+    draw_pace(controls, state.pace);
 
     heading("Method");
     if (controls.toggle(
@@ -139,8 +223,13 @@ void draw_contents(Controls& controls, ViewerState& state) {
         state.share_settings();
 
     heading("Display");
-    controls.slider("exposure", "Exposure", state.exposure, -10, 10, "%+.1f stops",
-                    "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.");
+    draw_display_settings(controls, state);
+    if (state.panes.size() > 1) {
+        heading("Compare");
+        draw_comparison_settings(controls, state);
+    }
+    heading("Reference");
+    draw_reference_settings(controls, state);
     heading("Size");
     draw_size_settings(controls, state);
     heading("Camera");

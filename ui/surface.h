@@ -10,8 +10,14 @@ namespace tessera {
 
 class Viewer;
 
-/// Called after each frame is drawn and before it is shown; false ends the loop.
-using AfterFrame = std::function<bool()>;
+/// What is done around each frame.
+struct FrameHooks {
+    /// Called before it begins, when the window's own input is in: to add some. Gets how long the last one took,
+    /// from there until it was shown, seconds. May be empty.
+    std::function<void(double last_frame_seconds)> before;
+    /// Called after it is drawn and before it is shown; false ends the loop. May be empty.
+    std::function<bool()> after;
+};
 
 struct SurfaceOptions {
     std::string title = "Tessera";
@@ -25,8 +31,9 @@ class Surface {
 public:
     virtual ~Surface() = default;
 
-    /// Draws frames when they are due, and sleeps between them, until the user quits or `after_frame` says so.
-    virtual void run(Viewer& viewer, const AfterFrame& after_frame) = 0;
+    /// Draws frames when they are due, and sleeps between them, until the user quits or the hook says so. What
+    /// a hook throws goes through.
+    virtual void run(Viewer& viewer, const FrameHooks& hooks) = 0;
     /// Makes run() draw a frame soon. From any thread.
     virtual void wake() = 0;
     /// What the window is called. To be called from the thread of run().

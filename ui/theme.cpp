@@ -5,12 +5,19 @@
 #include <initializer_list>
 #include <string>
 
+#include <glm/common.hpp>
+
 namespace tessera {
+
+namespace colours {
+ImU32 text, dim_text, accent, error, warning, line, panel;
+} // namespace colours
 
 namespace {
 
 constexpr float font_pixels = 15.0f;
 
+float applied_scale = 1;
 Icons found_icons;
 ImFont* found_bold = nullptr;
 ImFont* found_mono = nullptr;
@@ -80,52 +87,79 @@ void load_fonts(float scale) {
     found_mono = add_text_font(mono, pixels);
 }
 
-ImVec4 grey(float value, float alpha = 1.0f) {
-    return {value * 0.95f, value * 0.98f, value * 1.08f, alpha};
+/// Colours by their part: every grey is given for the dark theme and for the light one.
+struct Palette {
+    Theme theme;
+
+    bool is_dark() const { return theme == Theme::dark; }
+    ImVec4 grey(float dark, float light, float alpha = 1.0f) const {
+        const float value = is_dark() ? dark : light;
+        return is_dark() ? ImVec4(value * 0.95f, value * 0.98f, value * 1.08f, alpha)
+                         : ImVec4(value * 0.99f, value * 0.995f, value, alpha);
+    }
+    /// Stronger is brighter on dark, and darker on light.
+    ImVec4 accent(float dark, float light, float alpha) const {
+        return is_dark() ? ImVec4(0.25f * dark, 0.77f * dark, 0.70f * dark, alpha)
+                         : ImVec4(glm::mix(1.0f, 0.0f, light), glm::mix(1.0f, 0.56f, light),
+                                  glm::mix(1.0f, 0.50f, light), alpha);
+    }
+};
+
+void set_named_colours(Theme theme) {
+    using namespace colours;
+    const bool dark = theme == Theme::dark;
+    text = dark ? IM_COL32(226, 228, 233, 255) : IM_COL32(28, 30, 36, 255);
+    dim_text = dark ? IM_COL32(146, 151, 163, 255) : IM_COL32(92, 97, 108, 255);
+    colours::accent = dark ? IM_COL32(64, 196, 178, 255) : IM_COL32(0, 133, 118, 255);
+    error = dark ? IM_COL32(255, 122, 105, 255) : IM_COL32(190, 32, 22, 255);
+    warning = dark ? IM_COL32(255, 196, 92, 255) : IM_COL32(150, 92, 0, 255);
+    line = dark ? IM_COL32(58, 61, 70, 255) : IM_COL32(200, 203, 210, 255);
+    panel = dark ? IM_COL32(27, 29, 34, 255) : IM_COL32(243, 244, 246, 255);
 }
 
-ImVec4 accent(float strength, float alpha) {
-    return {0.25f * strength, 0.77f * strength, 0.70f * strength, alpha};
-}
-
-void set_colours(ImGuiStyle& style) {
-    ImGui::StyleColorsDark(&style);
+void set_colours(ImGuiStyle& style, const Palette& p) {
+    if (p.is_dark())
+        ImGui::StyleColorsDark(&style);
+    else
+        ImGui::StyleColorsLight(&style);
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = ImGui::ColorConvertU32ToFloat4(colours::text);
     c[ImGuiCol_TextDisabled] = ImGui::ColorConvertU32ToFloat4(colours::dim_text);
     c[ImGuiCol_WindowBg] = ImGui::ColorConvertU32ToFloat4(colours::panel);
     c[ImGuiCol_ChildBg] = {0, 0, 0, 0};
-    c[ImGuiCol_PopupBg] = grey(0.135f, 0.98f);
-    c[ImGuiCol_MenuBarBg] = grey(0.085f);
-    c[ImGuiCol_Border] = grey(0.24f);
-    c[ImGuiCol_FrameBg] = grey(0.175f);
-    c[ImGuiCol_FrameBgHovered] = grey(0.225f);
-    c[ImGuiCol_FrameBgActive] = grey(0.26f);
-    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = grey(0.085f);
-    c[ImGuiCol_Button] = grey(0.205f);
-    c[ImGuiCol_ButtonHovered] = grey(0.275f);
-    c[ImGuiCol_ButtonActive] = accent(0.55f, 1.0f);
-    c[ImGuiCol_Header] = accent(0.42f, 0.75f);
-    c[ImGuiCol_HeaderHovered] = accent(0.55f, 0.75f);
-    c[ImGuiCol_HeaderActive] = accent(0.60f, 0.90f);
-    c[ImGuiCol_CheckMark] = accent(1.0f, 1.0f);
-    c[ImGuiCol_SliderGrab] = accent(0.62f, 1.0f); // text crosses it
-    c[ImGuiCol_SliderGrabActive] = accent(0.80f, 1.0f);
-    c[ImGuiCol_Separator] = grey(0.22f);
-    c[ImGuiCol_TextSelectedBg] = accent(0.7f, 0.5f);
+    c[ImGuiCol_PopupBg] = p.grey(0.135f, 0.99f, 0.98f);
+    c[ImGuiCol_MenuBarBg] = p.grey(0.085f, 0.90f);
+    c[ImGuiCol_Border] = p.grey(0.24f, 0.76f);
+    c[ImGuiCol_FrameBg] = p.grey(0.175f, 0.87f);
+    c[ImGuiCol_FrameBgHovered] = p.grey(0.225f, 0.83f);
+    c[ImGuiCol_FrameBgActive] = p.grey(0.26f, 0.80f);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = p.grey(0.085f, 0.90f);
+    c[ImGuiCol_Button] = p.grey(0.205f, 0.85f);
+    c[ImGuiCol_ButtonHovered] = p.grey(0.275f, 0.79f);
+    c[ImGuiCol_ButtonActive] = p.accent(0.55f, 0.55f, 1.0f);
+    c[ImGuiCol_Header] = p.accent(0.42f, 0.35f, 0.75f);
+    c[ImGuiCol_HeaderHovered] = p.accent(0.55f, 0.45f, 0.75f);
+    c[ImGuiCol_HeaderActive] = p.accent(0.60f, 0.55f, 0.90f);
+    c[ImGuiCol_CheckMark] = p.accent(1.0f, 1.0f, 1.0f);
+    c[ImGuiCol_SliderGrab] = p.accent(0.62f, 0.50f, 1.0f); // text crosses it
+    c[ImGuiCol_SliderGrabActive] = p.accent(0.80f, 0.65f, 1.0f);
+    c[ImGuiCol_Separator] = p.grey(0.22f, 0.78f);
+    c[ImGuiCol_TextSelectedBg] = p.accent(0.7f, 0.6f, 0.5f);
     c[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
-    c[ImGuiCol_ScrollbarGrab] = grey(0.28f);
-    c[ImGuiCol_TableHeaderBg] = grey(0.16f);
-    c[ImGuiCol_TableBorderLight] = grey(0.20f);
-    c[ImGuiCol_TableBorderStrong] = grey(0.24f);
+    c[ImGuiCol_ScrollbarGrab] = p.grey(0.28f, 0.72f);
+    c[ImGuiCol_TableHeaderBg] = p.grey(0.16f, 0.90f);
+    c[ImGuiCol_TableBorderLight] = p.grey(0.20f, 0.84f);
+    c[ImGuiCol_TableBorderStrong] = p.grey(0.24f, 0.76f);
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.55f};
 }
 
 } // namespace
 
-void apply_theme(float scale) {
+void apply_theme(float scale, Theme theme) {
     ImGuiStyle style;
-    set_colours(style);
+    applied_scale = scale;
+    set_named_colours(theme);
+    set_colours(style, {theme});
     style.WindowPadding = {10, 8};
     style.FramePadding = {8, 4};
     style.ItemSpacing = {8, 6};
@@ -145,6 +179,9 @@ void apply_theme(float scale) {
     load_fonts(scale);
 }
 
+float ui_scale() {
+    return applied_scale;
+}
 const Icons& icons() {
     return found_icons;
 }

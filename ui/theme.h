@@ -8,9 +8,14 @@ namespace tessera {
 
 /// Colours, spaces and fonts of the viewer, for Dear ImGui's current context.
 
+enum class Theme { dark, light };
+
 /// `scale` is the display's: 1 for about 96 pixels an inch. Sets the style and fills the font atlas; to be called
 /// between frames. The OpenGL backend's copy of the fonts must be made anew by the caller.
-void apply_theme(float scale);
+void apply_theme(float scale, Theme theme);
+
+/// The scale that was applied last.
+float ui_scale();
 
 /// Drawn in the font: pictures where Font Awesome is there, else empty strings.
 struct Icons {
@@ -29,14 +34,16 @@ ImFont* bold_font();
 /// A font of one width, for text with columns: error messages point into lines of files.
 ImFont* mono_font();
 
+/// Those of the theme that was applied last.
 namespace colours {
-inline constexpr ImU32 text = IM_COL32(226, 228, 233, 255);
-inline constexpr ImU32 dim_text = IM_COL32(146, 151, 163, 255);
-inline constexpr ImU32 accent = IM_COL32(64, 196, 178, 255);
-inline constexpr ImU32 error = IM_COL32(255, 122, 105, 255);
-inline constexpr ImU32 warning = IM_COL32(255, 196, 92, 255);
-inline constexpr ImU32 line = IM_COL32(58, 61, 70, 255);
-inline constexpr ImU32 panel = IM_COL32(27, 29, 34, 255);
+extern ImU32 text, dim_text, accent, error, warning, line, panel;
+
+// Of boxes over pictures, in every theme.
+inline constexpr ImU32 overlay = IM_COL32(20, 22, 26, 215);
+inline constexpr ImU32 overlay_text = IM_COL32(226, 228, 233, 255);
+inline constexpr ImU32 overlay_dim_text = IM_COL32(146, 151, 163, 255);
+inline constexpr ImU32 overlay_line = IM_COL32(58, 61, 70, 255);
+inline constexpr ImU32 overlay_accent = IM_COL32(64, 196, 178, 255);
 } // namespace colours
 
 /// The colour that stands for a method wherever methods are compared.

@@ -3,6 +3,7 @@
 #include "render/load/camera_file.h"
 #include "ui/actions.h"
 #include "ui/camera_store.h"
+#include "ui/panels.h"
 
 #include <algorithm>
 #include <cctype>
@@ -30,11 +31,16 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
     return {glm::floor(min), glm::floor(min + cell)};
 }
 
-bool is_scene_file(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".xml";
+/// The first file with the extension, in either case; null: there is none.
+const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
+    const auto has_it = [&](const std::filesystem::path& file) {
+        std::string own = file.extension().string();
+        std::transform(own.begin(), own.end(), own.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return own == extension;
+    };
+    const auto found = std::find_if(files.begin(), files.end(), has_it);
+    return found == files.end() ? nullptr : &*found;
 }
 
 /// Whatever way it is named.
@@ -45,15 +51,14 @@ bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
 
 } // namespace
 
-Viewer::Viewer(Session& session, ViewerOptions options)
-    : session_(session), options_(std::move(options)), pane_views_(options_.panes.size()),
-      sent_(options_.panes.size()), refused_told_(options_.panes.size()) {
+Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), options_(std::move(options)) {
     for (const PaneSettings& settings : options_.panes)
         state_.panes.push_back({settings, nullptr, 0, glm::ivec2(0)});
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
     state_.size = options_.size;
-    state_.spp_limit = options_.spp_limit;
+    state_.pace.spp_limit = options_.spp_limit;
     state_.show_panel = options_.show_panel;
+    state_.reference_file = options_.reference.string();
 }
 
 // --- loading ---
@@ -70,15 +75,16 @@ void Viewer::reload() {
 }
 
 void Viewer::drop(const std::vector<std::filesystem::path>& files) {
-    if (files.empty() || !options_.open)
-        return;
-    const auto scene = std::find_if(files.begin(), files.end(), is_scene_file);
-    if (scene == files.end())
+    const std::filesystem::path* scene = options_.open ? find_file(files, ".xml") : nullptr;
+    const std::filesystem::path* reference = find_file(files, ".exr");
+    if (scene)
+        load(scene->string(), options_.open(*scene), *scene);
+    if (reference)
+        state_.reference_file = reference->string();
+    if (!files.empty() && options_.open && !scene && !reference)
         state_.add_message(Message::Kind::error, files.front().string() +
                                                      ": this is no scene; what can be dropped here is a Mitsuba "
-                                                     "scene, an .xml file");
-    else
-        load(scene->string(), options_.open(*scene), *scene);
+                                                     "scene, an .xml file, or a reference, an .exr file");
 }
 
 void Viewer::take_scene() {
@@ -121,32 +127,10 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
 
 // --- taking in ---
 
-void Viewer::take_snapshots() {
-    for (std::size_t i = 0; i < state_.panes.size(); ++i) {
-        if (auto snapshot = session_.latest(static_cast<int>(i)))
-            state_.panes[i].snapshot = std::move(snapshot);
-        report_refused(i);
-    }
-    for (std::string& message : session_.take_messages())
-        state_.add_message(Message::Kind::error, std::move(message));
-}
-
-/// Once for every request; not of a first look, whose pixels are others.
-void Viewer::report_refused(std::size_t pane) {
-    const Snapshot* snapshot = state_.panes[pane].snapshot.get();
-    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == refused_told_[pane])
-        return;
-    const std::string text = refused_text(snapshot->counters, snapshot->settings.seed);
-    if (text.empty())
-        return;
-    refused_told_[pane] = snapshot->generation;
-    state_.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
-                       Message::Origin::scene);
-}
-
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     run_shortcuts(keyboard_.take(), io.WantTextInput, state_);
+    state_.flicker = !io.WantTextInput && keyboard_.is_down(Key::b);
     flying_ = !io.WantTextInput && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
@@ -175,8 +159,9 @@ void Viewer::save_camera() {
 
 void Viewer::draw_frame() {
     take_scene();
-    take_snapshots();
+    link_.take(state_);
     controls_.begin_frame(ImGui::GetTime());
+    state_.shown_ui_scale = ui_scale();
     read_keyboard();
 
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -190,7 +175,8 @@ void Viewer::draw_frame() {
     draw_panes(pictures);
     draw_overlays(pictures);
     fulfil_wishes();
-    send_changes();
+    link_.send(state_);
+    companion_jobs_.update(state_, options_.wake);
     log_changes();
 }
 
@@ -206,8 +192,17 @@ void Viewer::draw_side(const ScreenRect& where) {
 
 void Viewer::draw_panes(const ScreenRect& where) {
     const int panes = static_cast<int>(state_.panes.size());
-    for (int i = 0; i < panes; ++i)
-        pane_views_[static_cast<std::size_t>(i)].draw(i, pane_rect(where, i, panes), shader_, controls_, state_);
+    for (std::size_t i = 0; i < state_.panes.size(); ++i)
+        images_[i].take(state_.panes[i], state_.companions);
+    if (state_.cursor && (state_.cursor->pane >= panes || !state_.is_on_show(state_.cursor->pane)))
+        state_.cursor.reset();
+    PaneTools tools{shader_, images_, controls_, state_};
+    const int alone = state_.alone ? state_.active_pane : -1;
+    for (int i = 0; i < panes; ++i) {
+        if (alone < 0 || alone == i)
+            pane_views_[static_cast<std::size_t>(i)].draw(i, alone < 0 ? pane_rect(where, i, panes) : where,
+                                                          tools);
+    }
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
@@ -229,36 +224,6 @@ double Viewer::next_frame_in() const {
     if (load_.running() || controls_.tooltip_pending())
         return 0.1;
     return ImGui::GetIO().WantTextInput ? 0.2 : never; // a blinking cursor
-}
-
-// --- sending ---
-
-bool Viewer::differs(const PaneState& pane, const Sent& sent) const {
-    return sent.scene != state_.scene || !(sent.camera == state_.camera.camera()) ||
-           sent.size != state_.request_size() || !(sent.render == pane.settings.render) ||
-           sent.spp_limit != state_.spp_limit;
-}
-
-void Viewer::send_changes() {
-    if (state_.paused != sent_paused_)
-        session_.set_paused(state_.paused);
-    sent_paused_ = state_.paused;
-    for (std::size_t i = 0; state_.scene && i < state_.panes.size(); ++i) {
-        PaneState& pane = state_.panes[i];
-        Sent& sent = sent_[i];
-        const int index = static_cast<int>(i);
-        const bool first = !sent.scene;
-        if (first || !(sent.reconstruction == pane.settings.reconstruction))
-            session_.set_reconstruction(index, pane.settings.reconstruction);
-        sent.reconstruction = pane.settings.reconstruction;
-        if (!state_.restart && !differs(pane, sent))
-            continue;
-        sent = {state_.scene,         state_.camera.camera(),       state_.request_size(),
-                pane.settings.render, pane.settings.reconstruction, state_.spp_limit};
-        pane.generation =
-            session_.submit(index, {sent.scene, sent.camera, sent.size, sent.render, sent.spp_limit});
-    }
-    state_.restart = false;
 }
 
 bool Viewer::settled(int spp) const {

@@ -1,6 +1,10 @@
 #include "ui/viewer_state.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <glm/common.hpp>
 
 namespace tessera {
 
@@ -12,13 +16,64 @@ bool has_error(const std::vector<Message>& messages) {
                        [](const Message& m) { return m.kind == Message::Kind::error; });
 }
 
+/// The settings of the active pane, with the first method that no pane has.
+PaneSettings new_pane(const ViewerState& state) {
+    PaneSettings settings = state.active().settings;
+    settings.comparison = {};
+    for (const PaneSettings& candidate : default_panes(most_panes)) {
+        const Method method = candidate.render.method;
+        if (std::none_of(state.panes.begin(), state.panes.end(),
+                         [&](const PaneState& pane) { return pane.settings.render.method == method; })) {
+            settings.render.method = method;
+            break;
+        }
+    }
+    return settings;
+}
+
 } // namespace
+
+std::vector<PaneSettings> default_panes(int count) {
+    constexpr Method order[] = {Method::pt, Method::gpr, Method::gpt, Method::pr};
+    std::vector<PaneSettings> panes(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        panes[i].render.method = count == 1 ? Method::gpr : order[i % std::size(order)];
+    return panes;
+}
+
+void ViewerState::set_pane_count(int count) {
+    const auto wanted = static_cast<std::size_t>(std::clamp(count, 1, most_panes));
+    if (active_pane >= static_cast<int>(wanted)) {
+        std::swap(panes[static_cast<std::size_t>(active_pane)], panes[wanted - 1]);
+        active_pane = static_cast<int>(wanted) - 1;
+    }
+    while (panes.size() > wanted) {
+        spare_panes.push_back(panes.back().settings);
+        panes.pop_back();
+    }
+    while (panes.size() < wanted) {
+        PaneState pane{spare_panes.empty() ? new_pane(*this) : spare_panes.back(), nullptr, 0,
+                       active().canvas_size};
+        if (!spare_panes.empty())
+            spare_panes.pop_back();
+        panes.push_back(std::move(pane));
+    }
+    share_settings();
+}
+
+int ViewerState::compared_with(int pane) const {
+    const int count = static_cast<int>(panes.size()),
+              with = panes[static_cast<std::size_t>(pane)].settings.comparison.with;
+    return with >= 0 && with < count && with != pane ? with : (pane + 1) % count;
+}
 
 glm::ivec2 ViewerState::request_size() const {
     const glm::ivec2 film = scene ? scene->size() : glm::ivec2(16, 9);
-    glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : panes.front().canvas_size;
-    for (const PaneState& pane : panes)
-        smallest = glm::ivec2(std::min(smallest.x, pane.canvas_size.x), std::min(smallest.y, pane.canvas_size.y));
+    glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : active().canvas_size;
+    for (int i = 0; i < static_cast<int>(panes.size()); ++i) {
+        if (is_on_show(i))
+            smallest = glm::min(smallest, panes[static_cast<std::size_t>(i)].canvas_size);
+    }
     return render_size(size, film, smallest);
 }
 

@@ -1,23 +1,45 @@
 #pragma once
 
 #include "render/scene/scene.h"
+#include "render/session/session.h"
 #include "ui/buffer.h"
 #include "ui/camera_control.h"
 #include "ui/image_view.h"
 #include "ui/render_size.h"
+#include "ui/theme.h"
+#include "ui/tone.h"
+#include "ui/value_range.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tessera {
+
+inline constexpr int most_panes = 4;
+
+/// How a pane shows another pane's picture with its own.
+struct Comparison {
+    enum class Kind {
+        off,
+        wipe,       ///< its own to the left of a line, the other's to the right
+        difference, ///< its own minus the other's, in +/- colours
+    };
+    Kind kind = Kind::off;
+    int with = -1; ///< the other pane; one that is not there: the next
+
+    bool operator==(const Comparison&) const = default;
+};
 
 /// What a user sets for one pane.
 struct PaneSettings {
     RenderSettings render;
     ReconstructionSettings reconstruction;
     Buffer buffer = Buffer::reconstruction;
+    Comparison comparison;
 
     bool operator==(const PaneSettings&) const = default;
 };
@@ -38,6 +60,16 @@ struct Message {
     Origin origin = Origin::viewer;
 };
 
+/// PT, G-PT, PR and G-PR, or fewer of them: what so many panes start with.
+std::vector<PaneSettings> default_panes(int count);
+
+/// What the mouse points at.
+struct Cursor {
+    int pane = 0;
+    glm::vec2 place{0}; ///< fractions of the image, from its top left; may lie outside
+    float share = 0;    ///< of the pane's width, from the left
+};
+
 /// Everything that panels, actions and the mouse may change. They do no more than that: the viewer compares the
 /// state with what it last asked of the session, and sends what differs.
 struct ViewerState {
@@ -46,17 +78,31 @@ struct ViewerState {
     int scenes_shown = 0; ///< so far, reloaded ones counted again
     std::string loading;  ///< what of the next scene is being loaded; empty: none is
 
-    std::vector<PaneState> panes;
+    Companions companions;      ///< what some buffers need
+    std::string reference_file; ///< a wish: to be loaded as the reference
+
+    std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
+    std::vector<PaneSettings> spare_panes; ///< settings of panes taken away, the last one first
     int active_pane = 0;
+    bool alone = false; ///< only the active pane is on show
     bool linked = true; ///< all panes share their settings, but for method and buffer
 
     CameraControl camera;
     ImageView view;
     SizeChoice size;
-    float exposure = 0; ///< stops
-    int spp_limit = 0;  ///< samples a pixel after which the panes rest; 0: none
+    Tone tone;
+    bool mark_negative = false; ///< as NaN and infinity always are
+    bool magnifier = false;
+    float wipe = 0.5f;    ///< where wiped pictures are divided, a share of a pane's width
+    bool flicker = false; ///< while a key is held: the active pane shows the one that it is compared with
+    std::map<Buffer, ValueRange> ranges; ///< of false colours, where the user has set them
+    std::optional<Cursor> cursor;        ///< empty: it is over no picture
+    Pace pace;
     bool paused = false;
 
+    Theme theme = Theme::dark;
+    std::optional<float> ui_scale; ///< of text and controls; empty: as the display says
+    float shown_ui_scale = 1;      ///< at which this frame is drawn
     bool show_panel = true;
     bool show_statistics = false;
     bool show_help = false;
@@ -66,6 +112,7 @@ struct ViewerState {
 
     // Wishes, cleared by who fulfils them.
     bool restart = false;
+    int steps = 0; ///< passes to do though paused
     bool reload = false;
     bool save_camera = false;
     bool copy_camera = false;
@@ -74,6 +121,15 @@ struct ViewerState {
 
     PaneState& active() { return panes[static_cast<std::size_t>(active_pane)]; }
     const PaneState& active() const { return panes[static_cast<std::size_t>(active_pane)]; }
+
+    /// Adds panes, with the settings of those taken away or a method that no pane has yet, or takes the last away;
+    /// the active one stays. `count` of 1 to most_panes.
+    void set_pane_count(int count);
+
+    bool is_on_show(int pane) const { return !alone || pane == active_pane; }
+
+    /// The pane that `pane` is compared with; itself if there is no other.
+    int compared_with(int pane) const;
 
     /// The size that all panes are to render, pixels.
     glm::ivec2 request_size() const;

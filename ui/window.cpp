@@ -77,7 +77,7 @@ public:
     ~Window() override;
     std::string open(const SurfaceOptions& options);
 
-    void run(Viewer& viewer, const AfterFrame& after_frame) override;
+    void run(Viewer& viewer, const FrameHooks& hooks) override;
     void wake() override;
     void set_title(const std::string& title) override;
     glm::ivec2 pixels() const override;
@@ -226,9 +226,10 @@ void Window::wait_until_due(double next_frame_in) {
     frames_due_ = std::max(frames_due_, 1);
 }
 
-void Window::run(Viewer& viewer, const AfterFrame& after_frame) {
+void Window::run(Viewer& viewer, const FrameHooks& hooks) {
     viewer_ = &viewer;
     last_frame_ = glfwGetTime() - frame_seconds;
+    double took = 0;
     while (!glfwWindowShouldClose(window_) && !viewer.state().quit) {
         const double before = last_frame_;
         wait_until_due(viewer.next_frame_in());
@@ -243,14 +244,17 @@ void Window::run(Viewer& viewer, const AfterFrame& after_frame) {
             continue;
         --frames_due_;
         last_frame_ = now;
-        gui_->set_scale(wanted_scale_);
+        gui_->set_look(viewer.state().ui_scale.value_or(wanted_scale_), viewer.state().theme);
         ImGui_ImplGlfw_NewFrame();
+        if (hooks.before)
+            hooks.before(took);
         gui_->begin_window_frame();
         viewer.draw_frame();
         gui_->end_frame();
-        if (after_frame && !after_frame())
+        if (hooks.after && !hooks.after())
             break;
         glfwSwapBuffers(window_);
+        took = glfwGetTime() - now;
     }
     viewer_ = nullptr;
 }

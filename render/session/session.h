@@ -19,18 +19,27 @@ namespace tessera {
 
 class Render;
 
+/// How the panes share the cores, and when they rest. No change of it renders anything anew.
+struct Pace {
+    enum class Equal { time, spp };
+    Equal equal = Equal::time; ///< what each pane is to have had as much of as the others
+    int spp_limit = 0;         ///< passes after which a pane rests; 0: none
+    double seconds_limit = 0;  ///< wall seconds of its passes after which a pane rests; 0: none
+
+    bool operator==(const Pace&) const = default;
+};
+
 /// What a pane asks for. Any change is a new request, which starts the pane's render anew.
 struct RenderRequest {
     std::shared_ptr<const Scene> scene;
     Camera camera;
     glm::ivec2 size{0};
     RenderSettings settings;
-    int spp_limit = 0; ///< passes after which to rest; 0: none
 };
 
 /// Renders the panes of a viewer in the background: passes of the panes in turn, so that each has had about the
-/// same time, and their reconstructions on a thread of their own (newest snapshot wins). No call waits for a
-/// worker: all may be made from the UI's thread at every frame.
+/// same time (or samples), and their reconstructions on a thread of their own (newest snapshot wins). No call
+/// waits for a worker: all may be made from the UI's thread at every frame.
 class Session {
 public:
     /// `threads` as in ThreadPool. `on_publish` is called from a worker whenever a pane has a new snapshot or a
@@ -42,11 +51,17 @@ public:
     /// Returns the generation that snapshots of this request will carry.
     std::uint64_t submit(int pane, RenderRequest request);
 
+    /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
+    void withdraw(int pane);
+
     /// Settings of the pane's reconstruction; a change reconstructs the newest snapshot again, renders nothing.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
     void set_paused(bool paused);
     bool paused() const;
+    void set_pace(const Pace& pace);
+    /// One more pass of every pane, also while paused or beyond a limit.
+    void step();
 
     /// The pane's newest snapshot; null before the first. It may answer an older request: compare generations.
     std::shared_ptr<const Snapshot> latest(int pane) const;
@@ -62,9 +77,9 @@ private:
     Pane* unpublished_pane();
     void render_pass(Pane& pane);
     void report(std::string message);
-    double joining_share(const Pane& joining) const;
     void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation);
-    void rest(Pane& pane, std::uint64_t generation);
+    void give_up(Pane& pane, std::uint64_t generation);
+    void count_step(Pane& pane, std::uint64_t generation);
     void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                               std::stop_token stop);
@@ -76,6 +91,7 @@ private:
     std::vector<std::string> messages_;
     std::function<void()> on_publish_;
     bool paused_ = false;
+    Pace pace_;
     std::uint64_t generation_ = 0;
     std::uint64_t turn_ = 0;
     ThreadPool pool_;

@@ -1,5 +1,7 @@
 #include "render/session/thread_pool.h"
 
+#include "render/session/thread_priority.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -28,10 +30,10 @@ struct ThreadPool::Loop {
     }
 };
 
-ThreadPool::ThreadPool(int threads) {
+ThreadPool::ThreadPool(int threads, Priority priority) {
     const int wanted = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     for (int worker = 1; worker < wanted; ++worker)
-        threads_.emplace_back([this, worker] { work(worker); });
+        threads_.emplace_back([=, this] { work(worker, priority); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -61,7 +63,9 @@ void ThreadPool::parallel_for(int count, const std::function<void(int, int)>& bo
         std::rethrow_exception(loop.error);
 }
 
-void ThreadPool::work(int worker) {
+void ThreadPool::work(int worker, Priority priority) {
+    if (priority == Priority::background)
+        work_in_background();
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex_);
     for (;;) {

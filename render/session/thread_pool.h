@@ -14,8 +14,11 @@ namespace tessera {
 /// sees every synchronisation.
 class ThreadPool {
 public:
+    /// Whether the pool's own threads give way to others (work_in_background).
+    enum class Priority { normal, background };
+
     /// `threads` >= 1 threads work on a loop, the caller among them; 0: one a hardware thread.
-    explicit ThreadPool(int threads = 0);
+    explicit ThreadPool(int threads = 0, Priority priority = Priority::normal);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
@@ -29,7 +32,7 @@ public:
 
 private:
     struct Loop;
-    void work(int worker);
+    void work(int worker, Priority priority);
 
     std::mutex callers_; // held by the caller whose loop runs
     std::mutex mutex_;   // guards what follows

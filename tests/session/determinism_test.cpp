@@ -123,9 +123,10 @@ TEST_P(Determinism, AnotherSeedGivesAnotherPicture) {
 
 TEST_P(Determinism, SessionGivesTheBitsOfAHeadlessRender) {
     Session session(2, 2);
+    session.set_pace({Pace::Equal::time, passes, 0});
     const auto s = scene();
     for (int pane = 0; pane < 2; ++pane)
-        session.submit(pane, {s, s->camera(), size, settings_for(GetParam()), passes});
+        session.submit(pane, {s, s->camera(), size, settings_for(GetParam())});
     std::shared_ptr<const Snapshot> snapshot;
     for (int i = 0; i < 2000 && (!snapshot || snapshot->coarse || snapshot->spp < passes); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -20,11 +20,15 @@ std::shared_ptr<const Scene> scene() {
     return s;
 }
 
-RenderRequest request(Method method, glm::ivec2 size = {48, 32}, int spp_limit = 0) {
+RenderRequest request(Method method, glm::ivec2 size = {48, 32}) {
     RenderSettings settings;
     settings.method = method;
     settings.max_depth = 4;
-    return {scene(), scene()->camera(), size, settings, spp_limit};
+    return {scene(), scene()->camera(), size, settings};
+}
+
+Pace until(int spp) {
+    return {Pace::Equal::time, spp, 0};
 }
 
 bool eventually(const std::function<bool()>& holds) {
@@ -39,7 +43,8 @@ bool eventually(const std::function<bool()>& holds) {
 TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
     std::atomic<int> published = 0;
     Session session(1, 2, [&] { ++published; });
-    const std::uint64_t generation = session.submit(0, request(Method::gpr, {200, 120}, 2));
+    session.set_pace(until(2));
+    const std::uint64_t generation = session.submit(0, request(Method::gpr, {200, 120}));
     ASSERT_TRUE(eventually([&] { return session.latest(0) != nullptr; }));
     const auto first = session.latest(0);
     EXPECT_EQ(first->generation, generation);
@@ -58,9 +63,10 @@ TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
 
 TEST(Session, NewestRequestWinsInAStorm) {
     Session session(2, 2);
+    session.set_pace(until(1));
     std::uint64_t newest = 0;
     for (int i = 0; i < 200; ++i) {
-        RenderRequest r = request(all_methods[i % 4], {40 + i % 7, 30}, 1);
+        RenderRequest r = request(all_methods[i % 4], {40 + i % 7, 30});
         r.settings.seed = static_cast<std::uint64_t>(i);
         newest = session.submit(i % 2, r);
         if (i % 3 == 0)
@@ -103,6 +109,80 @@ TEST(Session, PanesShareTheTime) {
     EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, 0.25);
 }
 
+TEST(Session, ALatePaneCatchesUpInTime) {
+    Session session(2, 2);
+    session.submit(0, request(Method::pt, {96, 64}));
+    ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->seconds > 0.5; }));
+    session.submit(1, request(Method::gpr, {96, 64}));
+    ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->seconds > 0.3; }));
+    session.set_paused(true);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_NEAR(session.latest(0)->seconds, std::max(session.latest(1)->seconds, 0.5), 0.45);
+}
+
+TEST(Session, PanesMayShareSamplesInsteadOfTime) {
+    Session session(2, 2);
+    session.set_pace({Pace::Equal::spp, 0, 0});
+    session.submit(0, request(Method::pt, {96, 64}));
+    session.submit(1, request(Method::gpr, {96, 64})); // several times as slow
+    ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->spp > 20; }));
+    session.set_paused(true);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_NEAR(session.latest(0)->spp, session.latest(1)->spp, 1);
+    EXPECT_LT(session.latest(0)->seconds, session.latest(1)->seconds);
+}
+
+TEST(Session, RestsAtSecondsAndGoesOnWhenTheLimitIsRaised) {
+    Session session(1, 2);
+    session.set_pace({Pace::Equal::time, 0, 0.2});
+    const std::uint64_t generation = session.submit(0, request(Method::pt));
+    ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->seconds >= 0.2; }));
+    const int spp = session.latest(0)->spp;
+    EXPECT_LT(session.latest(0)->seconds, 0.4);
+    std::this_thread::sleep_for(200ms);
+    EXPECT_EQ(session.latest(0)->spp, spp);
+    session.set_pace({});
+    ASSERT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
+    EXPECT_EQ(session.latest(0)->generation, generation);
+}
+
+TEST(Session, StepsOnePassWhilePausedAndBeyondALimit) {
+    Session session(2, 2);
+    session.set_pace(until(2));
+    session.submit(0, request(Method::pt));
+    session.submit(1, request(Method::gpr));
+    const auto both_at = [&](int spp) {
+        return eventually([&] {
+            return session.latest(0) && session.latest(1) && session.latest(0)->spp == spp &&
+                   session.latest(1)->spp == spp && !session.latest(1)->coarse;
+        });
+    };
+    ASSERT_TRUE(both_at(2));
+    session.step();
+    ASSERT_TRUE(both_at(3));
+    session.set_paused(true);
+    session.set_pace({});
+    session.step();
+    session.step();
+    ASSERT_TRUE(both_at(5));
+    std::this_thread::sleep_for(200ms);
+    EXPECT_EQ(session.latest(0)->spp, 5);
+}
+
+TEST(Session, AWithdrawnPaneTakesNoTurns) {
+    Session session(2, 2);
+    session.submit(0, request(Method::pt));
+    session.submit(1, request(Method::pt));
+    ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(1) && session.latest(1)->spp > 3; }));
+    session.withdraw(1);
+    EXPECT_EQ(session.latest(1), nullptr);
+    const int spp = session.latest(0)->spp;
+    ASSERT_TRUE(eventually([&] { return session.latest(0)->spp > spp + 20; }));
+    EXPECT_EQ(session.latest(1), nullptr);
+    const std::uint64_t again = session.submit(1, request(Method::gpr));
+    EXPECT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->generation == again; }));
+}
+
 TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
     Session session(1, 1);
     RenderRequest bad = request(Method::gpr);
@@ -114,13 +194,14 @@ TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
         return !messages.empty();
     }));
     EXPECT_NE(messages[0].find("tile is 99"), std::string::npos) << messages[0];
-    session.submit(0, request(Method::gpr, {16, 16}, 1));
+    session.submit(0, request(Method::gpr, {16, 16}));
     EXPECT_TRUE(eventually([&] { return session.latest(0) && !session.latest(0)->coarse; }));
 }
 
 TEST(Session, ReconstructionSettingsRenderNothing) {
     Session session(1, 2);
-    session.submit(0, request(Method::gpr, {64, 48}, 2));
+    session.set_pace(until(2));
+    session.submit(0, request(Method::gpr, {64, 48}));
     ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->reconstruction_spp == 2; }));
     const auto before = session.latest(0);
     session.set_reconstruction(0, {Norm::none, 0.2f});

@@ -137,15 +137,15 @@ TEST(Actions, BuffersInAllPanes) {
 TEST(Actions, ExposureStepsAndStaysInRange) {
     ViewerState state = two_panes();
     type(state, character('+'));
-    EXPECT_FLOAT_EQ(state.exposure, 0.5f);
+    EXPECT_FLOAT_EQ(state.tone.exposure, 0.5f);
     type(state, character('-'));
     type(state, character('-'));
-    EXPECT_FLOAT_EQ(state.exposure, -0.5f);
+    EXPECT_FLOAT_EQ(state.tone.exposure, -0.5f);
     for (int i = 0; i < 100; ++i)
         type(state, character('='));
-    EXPECT_FLOAT_EQ(state.exposure, 10);
+    EXPECT_FLOAT_EQ(state.tone.exposure, 10);
     type(state, key(Key::digit0));
-    EXPECT_FLOAT_EQ(state.exposure, 0);
+    EXPECT_FLOAT_EQ(state.tone.exposure, 0);
 }
 
 TEST(Actions, TileStepsInAllLinkedPanes) {
@@ -170,7 +170,7 @@ TEST(Actions, TextEntryKeepsItsLetters) {
     type(state, character('+'), true);
     EXPECT_FALSE(state.restart);
     EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
-    EXPECT_FLOAT_EQ(state.exposure, 0);
+    EXPECT_FLOAT_EQ(state.tone.exposure, 0);
     type(state, {Key::q, true, false, 0}, true);
     EXPECT_TRUE(state.quit);
 }

@@ -1,3 +1,4 @@
+#include "recon/metrics.h"
 #include "ui/buffer.h"
 
 #include <set>
@@ -72,6 +73,65 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     }
 }
 
+TEST(Buffer, ErrorsOfEachKind) {
+    Snapshot snapshot = snapshot_of(Method::gpr);
+    auto reconstructed = std::make_shared<Reconstruction>();
+    reconstructed->image = RgbImage(4, 3, Rgb(0.5f, 0, 1));
+    snapshot.reconstruction = reconstructed;
+    auto reference = std::make_shared<Reference>();
+    reference->image = RgbImage(4, 3, Rgb(0.25f, 0.5f, 1));
+    reference->mean = 0.42f;
+    const Companions companions{reference, nullptr};
+    RgbImage scratch;
+    const auto error = [&](Buffer buffer) { return picture(snapshot, buffer, scratch, companions)(2, 1).r; };
+    EXPECT_FLOAT_EQ(error(Buffer::error_squared), (0.0625f + 0.25f) / 3);
+    EXPECT_FLOAT_EQ(error(Buffer::error_absolute), 0.75f / 3);
+    EXPECT_FLOAT_EQ(error(Buffer::error_relative), (0.25f / 0.26f + 0.5f / 0.51f) / 3);
+    EXPECT_FLOAT_EQ(error(Buffer::error_relative_squared), (0.0625f / 0.0635f + 0.25f / 0.251f) / 3);
+    EXPECT_NEAR(measure_error(reconstructed->image, reference->image).relative_mse,
+                static_cast<double>(error(Buffer::error_relative_squared)), 1e-6);
+
+    for (Buffer buffer : {Buffer::error_relative_squared, Buffer::error_squared, Buffer::error_absolute}) {
+        const ValueRange range = automatic_range(buffer, scratch, companions);
+        EXPECT_TRUE(range.logarithmic);
+        EXPECT_GT(range.low, 0);
+        EXPECT_EQ(range, automatic_range(buffer, RgbImage(2, 2, Rgb(77)), companions)); // comparable
+    }
+    EXPECT_EQ(companion_source(companions, Buffer::error_squared), reference);
+    EXPECT_EQ(companion_source(companions, Buffer::primal), nullptr);
+}
+
+TEST(Buffer, SaysWhyThereIsNone) {
+    const Snapshot snapshot = snapshot_of(Method::pt);
+    RgbImage scratch;
+    EXPECT_TRUE(picture(snapshot, Buffer::error_squared, scratch).empty());
+    const auto why = [&](Buffer buffer, const Companions& companions = {}) {
+        return missing_text(&snapshot, Method::pt, buffer, companions);
+    };
+    EXPECT_EQ(why(Buffer::primal), "");
+    EXPECT_EQ(why(Buffer::albedo), "");
+    EXPECT_EQ(why(Buffer::dx), "PT measures no gradients");
+    EXPECT_EQ(why(Buffer::reused), "PT shares no paths between pixels");
+    EXPECT_NE(why(Buffer::error_squared).find("drop an EXR"), std::string::npos);
+    auto other_size = std::make_shared<Reference>();
+    other_size->image = RgbImage(7, 3, Rgb(1));
+    EXPECT_TRUE(picture(snapshot, Buffer::error_squared, scratch, {other_size, nullptr}).empty());
+    EXPECT_EQ(why(Buffer::error_squared, {other_size, nullptr}), "The reference has 7 x 3 pixels");
+}
+
+TEST(Buffer, FirstHitsNeedNoSamples) {
+    auto hits = std::make_shared<FirstHits>();
+    hits->albedo = RgbImage(2, 2, Rgb(0.5f));
+    hits->normal = RgbImage(2, 2, Rgb(0, 1, 0));
+    hits->depth = Image<float>(2, 2, 9);
+    RgbImage scratch;
+    const Companions companions{nullptr, hits};
+    EXPECT_EQ(picture({}, Buffer::albedo, scratch, companions)(0, 0), Rgb(0.5f));
+    EXPECT_EQ(picture({}, Buffer::normal, scratch, companions)(0, 0), Rgb(0, 1, 0));
+    EXPECT_EQ(picture({}, Buffer::depth, scratch, companions)(0, 0), Rgb(9));
+    EXPECT_TRUE(picture({}, Buffer::depth, scratch).empty());
+}
+
 TEST(Buffer, TopValuesReadWell) {
     const auto top = [](float greatest) {
         RgbImage image(3, 2, Rgb(0));
@@ -90,9 +150,9 @@ TEST(Buffer, TopValuesReadWell) {
 }
 
 TEST(Buffer, LegendSaysWhatTheColoursStandFor) {
-    EXPECT_EQ(legend_text(Buffer::reused, 50), "reused: 0 .. 50 paths a pass");
-    EXPECT_EQ(legend_text(Buffer::reused, 0.12f), "reused: 0 .. 0.12 paths a pass");
-    EXPECT_EQ(legend_text(Buffer::failed, 1), "failed: 0 .. 100 %");
+    EXPECT_EQ(legend_text(Buffer::reused, {0, 50}), "reused: 0 .. 50 paths a pass");
+    EXPECT_EQ(legend_text(Buffer::reused, {0, 0.12f}), "reused: 0 .. 0.12 paths a pass");
+    EXPECT_EQ(legend_text(Buffer::failed, {0, 1}), "failed: 0 .. 100 %");
 }
 
 TEST(Buffer, EveryOneHasNamesOfItsOwn) {
@@ -102,6 +162,8 @@ TEST(Buffer, EveryOneHasNamesOfItsOwn) {
         EXPECT_TRUE(names.insert(long_name(buffer)).second);
     }
     EXPECT_EQ(names.count(""), 0u);
+    for (Buffer buffer : all_buffers)
+        EXPECT_EQ(info(buffer).buffer, buffer);
 }
 
 TEST(Buffer, SourceChangesWithWhatIsShownOnly) {

@@ -86,8 +86,8 @@ TEST_F(CountersView, PathTracingHasNoMaps) {
     EXPECT_EQ(pane(0).snapshot->reuse, nullptr);
     for (Key key : {Key::digit5, Key::digit6}) {
         type(key);
-        EXPECT_TRUE(viewer.pane_view(0).canvas().empty());
-        EXPECT_FALSE(viewer.pane_view(1).canvas().empty());
+        EXPECT_TRUE(viewer.pane_image(0).empty());
+        EXPECT_FALSE(viewer.pane_image(1).empty());
         EXPECT_FALSE(has("pane0.legend"));
     }
 }
@@ -197,7 +197,7 @@ std::shared_ptr<const Scene> broken_scene() {
 
 TEST(RefusedSamples, AreReportedOnceARequest) {
     ViewerHarness h;
-    h.state().spp_limit = 3;
+    h.state().pace.spp_limit = 3;
     h.state().show_statistics = true;
     h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(3); });

@@ -140,7 +140,7 @@ TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
 
 TEST_F(PanelTest, DisplayAndSize) {
     click_at("exposure", 0.99f);
-    EXPECT_NEAR(state().exposure, 10, 0.3f);
+    EXPECT_NEAR(state().tone.exposure, 10, 0.3f);
     click_at("scale", 0.01f);
     EXPECT_NEAR(state().size.scale, 0.05f, 1e-3f);
     choose("size", "scene");
@@ -171,8 +171,8 @@ TEST_F(PanelTest, Buttons) {
 }
 
 TEST_F(PanelTest, MenuRunsActionsOfTheTable) {
-    click("menu View");
-    click("menu View/Gradient dx");
+    click("menu Buffer");
+    click("menu Buffer/Gradient dx");
     EXPECT_EQ(pane(0).settings.buffer, Buffer::dx);
     EXPECT_EQ(pane(1).settings.buffer, Buffer::dx);
     click("menu Help");

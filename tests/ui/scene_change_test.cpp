@@ -74,7 +74,7 @@ TEST_F(SceneChange, ReloadKeepsCameraAndSettings) {
     state().camera.orbit({30, 10}, 100);
     state().panes[0].settings.render.tile = 3;
     state().panes[1].settings.render.max_depth = 7;
-    state().exposure = 1.5f;
+    state().tone.exposure = 1.5f;
     state().view.zoom_at({10, 10}, 2, {100, 100}, {100, 100});
     const Camera moved = state().camera.camera();
     const ImageView view = state().view;
@@ -88,7 +88,7 @@ TEST_F(SceneChange, ReloadKeepsCameraAndSettings) {
     EXPECT_EQ(state().view, view);
     EXPECT_EQ(pane(0).settings.render.tile, 3);
     EXPECT_EQ(pane(1).settings.render.max_depth, 7);
-    EXPECT_EQ(state().exposure, 1.5f);
+    EXPECT_EQ(state().tone.exposure, 1.5f);
     EXPECT_EQ(state().scene_name, "room.xml");
 }
 

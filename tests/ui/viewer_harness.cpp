@@ -33,10 +33,10 @@ ViewerOptions ViewerHarness::two_panes() {
 }
 
 ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options)
-    : context(size), gui(scale), session(static_cast<int>(options.panes.size()), 1),
-      viewer(session, std::move(options)) {}
+    : context(size), gui(scale), scale_(scale), session(most_panes, 1), viewer(session, std::move(options)) {}
 
 void ViewerHarness::frame(float seconds) {
+    gui.set_look(state().ui_scale.value_or(scale_), state().theme);
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();
@@ -69,7 +69,7 @@ void ViewerHarness::load_scene() {
 }
 
 void ViewerHarness::rest(int spp) {
-    state().spp_limit = spp;
+    state().pace.spp_limit = spp;
     load_scene();
     wait_until([&] { return viewer.settled(spp); });
 }
@@ -96,8 +96,20 @@ void ViewerHarness::click(glm::vec2 position) {
 }
 
 void ViewerHarness::click_at(const std::string& control, float fraction) {
+    reveal(control);
     const ControlRect rect = place(control);
     click(glm::vec2(rect.min.x + (rect.max.x - rect.min.x) * fraction, rect.center().y));
+}
+
+void ViewerHarness::reveal(const std::string& control) {
+    const auto height = static_cast<float>(context.size().y);
+    for (int i = 0; i < 40; ++i) {
+        const ControlRect rect = place(control);
+        if (rect.min.y >= 0 && rect.max.y <= height)
+            return;
+        move_to({rect.center().x, height * 0.5f});
+        wheel(rect.min.y < 0 ? 1 : -1);
+    }
 }
 
 void ViewerHarness::choose(const std::string& control, const std::string& item) {

@@ -36,7 +36,7 @@ public:
     void press(int button = 0);
     void release(int button = 0);
     void click(glm::vec2 position);
-    void click(const std::string& control) { click(place(control).center()); }
+    void click(const std::string& control) { click_at(control, 0.5f); }
     /// Clicks at a fraction of the control's width.
     void click_at(const std::string& control, float fraction);
     void choose(const std::string& control, const std::string& item);
@@ -47,6 +47,8 @@ public:
 
     void resize(glm::ivec2 size);
 
+    /// Scrolls the side panel until the control is on the screen.
+    void reveal(const std::string& control);
     ControlRect place(const std::string& control) const;
     bool has(const std::string& control) const { return viewer.controls().rects().count(control) > 0; }
     ScreenPixels screen() const { return read_screen(context.size()); }
@@ -59,6 +61,7 @@ public:
 
     OsmesaContext context;
     Gui gui;
+    float scale_; ///< of the display
     Session session;
     Viewer viewer;
 };

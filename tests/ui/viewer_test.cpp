@@ -1,4 +1,5 @@
 #include "tests/ui/viewer_harness.h"
+#include "ui/pane_status.h"
 #include "ui/viewer.h"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
     expect_new(0, true, "size");
     h.state().restart = true;
     expect_new(1, true, "restart");
-    h.state().exposure = 2;
+    h.state().tone.exposure = 2;
     h.state().panes[0].settings.buffer = Buffer::primal;
     h.state().panes[0].settings.reconstruction.alpha = 1;
     expect_new(0, false, "what changes no samples");
@@ -102,13 +103,13 @@ TEST(Viewer, UploadsOnlyNewPictures) {
     ViewerHarness h;
     h.rest(2);
     h.frames(3);
-    const int uploads = h.viewer.pane_view(1).uploads(), drawings = h.viewer.pane_view(1).canvas().drawings();
+    const int uploads = h.viewer.pane_image(1).uploads(), drawings = h.viewer.pane_view(1).canvas().drawings();
     h.frames(10);
-    EXPECT_EQ(h.viewer.pane_view(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pane_image(1).uploads(), uploads);
     EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings);
-    h.state().exposure = 1;
+    h.state().tone.exposure = 1;
     h.frames(2);
-    EXPECT_EQ(h.viewer.pane_view(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pane_image(1).uploads(), uploads);
     EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings + 1);
     EXPECT_GT(h.viewer.next_frame_in(), 10);
 }
@@ -178,9 +179,10 @@ TEST(Viewer, ScaleChangesWhileRunning) {
     ViewerHarness h;
     h.frames(2);
     const float before = h.place("tile").max.y - h.place("tile").min.y;
-    h.gui.set_scale(1.5f);
+    h.scale_ = 1.5f; // dragged to another display
     h.frames(3);
     EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 1.5f, 2);
+    EXPECT_GT(h.brightness("restart"), 40); // and still drawn
 }
 
 TEST(Viewer, SaysWhenAMethodHasNoGradients) {
@@ -190,8 +192,8 @@ TEST(Viewer, SaysWhenAMethodHasNoGradients) {
     h.state().panes[1].settings.buffer = Buffer::dx;
     h.wait_until([&] { return h.pane(1).snapshot->spp > 8; });
     h.frames(2);
-    EXPECT_TRUE(h.viewer.pane_view(0).canvas().empty());
-    EXPECT_FALSE(h.viewer.pane_view(1).canvas().empty());
+    EXPECT_TRUE(h.viewer.pane_image(0).empty());
+    EXPECT_FALSE(h.viewer.pane_image(1).empty());
     h.save("gradients.png");
 }
 
@@ -227,7 +229,7 @@ TEST(Viewer, LogsChangesAndControls) {
 TEST(Viewer, StatusTellsMethodSamplesTimeAndRays) {
     PaneState pane;
     pane.settings.render.method = Method::gpr;
-    EXPECT_EQ(status_text(pane, false, 0), "G-PR   starting");
+    EXPECT_EQ(status_text(pane, false, {}), "G-PR   starting");
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = pane.generation = 4;
     snapshot->spp = 12;
@@ -237,9 +239,9 @@ TEST(Viewer, StatusTellsMethodSamplesTimeAndRays) {
     snapshot->reconstruction = std::make_shared<Reconstruction>();
     snapshot->reconstruction_spp = 11;
     pane.snapshot = snapshot;
-    EXPECT_EQ(status_text(pane, false, 0), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
-    EXPECT_NE(status_text(pane, true, 0).find("paused"), std::string::npos);
-    EXPECT_NE(status_text(pane, false, 12).find("done"), std::string::npos);
+    EXPECT_EQ(status_text(pane, false, {}), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
+    EXPECT_NE(status_text(pane, true, {}).find("paused"), std::string::npos);
+    EXPECT_NE(status_text(pane, false, {Pace::Equal::time, 12, 0}).find("done"), std::string::npos);
 }
 
 TEST(Viewer, FourPanesInAGrid) {

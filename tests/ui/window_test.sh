@@ -121,6 +121,36 @@ wait_for '^camera ' "$from"
 sleep 0.5
 import -window root "$work/end.png" && keep "$work/end.png"
 
+# Panes: a wipe's line is dragged, a key held, the grid changed.
+from=$(next_line)
+xdotool mousemove "$x" "$y" click 1
+sleep 0.3
+xdotool key v
+wait_for '^pane 1 comparison wipe$' "$from"
+sleep 0.3
+xdotool mousemove "$x" "$y" mousedown 1
+for step in 1 2 3 4; do
+    xdotool mousemove $((x + 20 * step)) "$y"
+    sleep 0.05
+done
+xdotool mouseup 1
+wait_for '^wipe 0\.[6-9]' "$from"
+sleep 0.3
+import -window root "$work/wipe.png" && keep "$work/wipe.png"
+xdotool keydown b
+wait_for '^flicker on$' "$from"
+xdotool keyup b
+wait_for '^flicker off$' "$from"
+xdotool key v
+from=$(next_line)
+xdotool key ctrl+4
+wait_for '^panes 4$' "$from"
+wait_for '^pane 3 spp [1-9]' "$from"
+sleep 0.3
+import -window root "$work/four.png" && keep "$work/four.png"
+xdotool key ctrl+2
+wait_for '^panes 2$' "$from"
+
 # While paused, nothing is drawn and no processor used, once the pass that was under way has ended.
 from=$(next_line)
 xdotool key space
@@ -188,6 +218,30 @@ env -u DISPLAY "$tessera" view --screenshot "$work/none.png" --spp 2 || fail "no
 more_than "$(brightness "$work/none.png")" 0.05 || fail "the screenshot without a display is black"
 keep "$work/own.png"
 keep "$work/none.png"
+
+# Scripts, in a window and without any display.
+cat >"$work/steps.txt" <<EOF
+wait scene
+set panes 4
+wait spp 2
+click pane0.picture
+key V
+drag pane0.picture@0.5,0.5 pane0.picture@0.2,0.5
+frames 5 "four panes"
+screenshot "$work/script.png"
+quit
+EOF
+"$tessera" view --script "$work/steps.txt" --size 64x48 >"$work/out" || fail "the script ends with exit code $?"
+grep -q '^frames four panes: 5, median ' "$work/out" || fail "no frame times"
+more_than "$(brightness "$work/script.png")" 0.05 || fail "the script's picture is black"
+keep "$work/script.png"
+rm "$work/script.png"
+env -u DISPLAY "$tessera" view --script "$work/steps.txt" --size 64x48 >/dev/null || fail "no script without a display"
+[ -e "$work/script.png" ] || fail "no picture by a script without a display"
+printf 'wait scene\nclick nowhere\n' >"$work/steps.txt"
+"$tessera" view --script "$work/steps.txt" 2>"$work/errors"
+[ $? -eq 2 ] || fail "a script that goes wrong does not end with exit code 2"
+grep -q 'steps.txt:2: no control' "$work/errors" || fail "no message names file and line"
 
 # Bad input: exit code 2, a message, no file.
 "$tessera" view "$work/absent.xml" --screenshot "$work/absent.png" 2>"$work/errors"

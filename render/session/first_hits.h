@@ -1,0 +1,22 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/scene/scene.h"
+
+#include <stop_token>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// What the camera sees first through the middle of each pixel; 0 where it sees nothing.
+struct FirstHits {
+    RgbImage albedo;    ///< share of light that would be scattered to the camera if it came from everywhere
+    RgbImage normal;    ///< of shading, unit, in the world
+    Image<float> depth; ///< distance from the camera, in units of the scene
+};
+
+/// Traces one ray a pixel, in the calling thread. Empty images: stopped on the way.
+FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, std::stop_token stop = {});
+
+} // namespace tessera

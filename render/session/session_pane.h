@@ -1,0 +1,69 @@
+#pragma once
+
+#include "render/session/render.h"
+#include "render/session/session.h"
+
+#include <chrono>
+
+namespace tessera {
+
+struct Session::Pane {
+    // Guarded by Session::mutex_.
+    RenderRequest request;
+    std::uint64_t generation = 0; // 0: nothing asked for yet
+    ReconstructionSettings reconstruction;
+    std::shared_ptr<const Snapshot> latest;
+    std::stop_source stop; // ends work on the present generation
+    bool failed = false;   // nothing more to do for this generation
+    int steps = 0;         // passes to do whatever the pace says
+
+    // What the newest reconstruction was made from.
+    std::shared_ptr<const GradientImages> reconstructed;
+    ReconstructionSettings reconstructed_with;
+
+    // Used by the render thread alone.
+    std::unique_ptr<Render> render;
+    std::uint64_t render_generation = 0;
+    int published_spp = 0;
+    std::chrono::steady_clock::time_point published_at;
+    std::uint64_t served = 0; ///< turn in which it was last chosen
+
+    bool is_fresh() const { return render_generation != generation; } ///< nothing of its request is rendered yet
+
+    bool is_at_limit(const Pace& pace) const {
+        return !is_fresh() && ((pace.spp_limit > 0 && render->spp() >= pace.spp_limit) ||
+                               (pace.seconds_limit > 0 && render->seconds() >= pace.seconds_limit));
+    }
+
+    /// Whether there is a pass to do.
+    bool wants_pass(const Pace& pace, bool paused) const {
+        if (generation == 0 || failed || !request.scene)
+            return false;
+        return steps > 0 || (!paused && !is_at_limit(pace));
+    }
+
+    bool has_unseen_passes() const { return render && !is_fresh() && published_spp < render->spp(); }
+
+    // Used by the reconstruction thread alone: where the solver stands, and with what.
+    Reconstructor reconstructor;
+    std::uint64_t solved_generation = 0;
+    bool solved_coarse = false;
+    ReconstructionSettings solved_with;
+
+    bool needs_reconstruction() const {
+        return latest && (latest->images != reconstructed || !(reconstructed_with == reconstruction));
+    }
+
+    /// Starts warm from the last snapshot of the same render, and else anew.
+    Reconstructor& solver_for(const Snapshot& snapshot, const ReconstructionSettings& settings) {
+        if (solved_generation != snapshot.generation || solved_coarse != snapshot.coarse ||
+            solved_with != settings)
+            reconstructor.forget();
+        solved_generation = snapshot.generation;
+        solved_coarse = snapshot.coarse;
+        solved_with = settings;
+        return reconstructor;
+    }
+};
+
+} // namespace tessera

@@ -1,0 +1,70 @@
+// The session's second thread: pictures from primal and gradients, the newest snapshot first.
+#include "render/session/session_pane.h"
+#include "render/session/thread_priority.h"
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+void Session::reconstruct_loop(std::stop_token stop) {
+    work_in_background();
+    std::size_t turn = 0; // panes in turn, so that none starves
+    while (!stop.stop_requested()) {
+        Pane* pane = nullptr;
+        std::shared_ptr<const Snapshot> snapshot;
+        ReconstructionSettings settings;
+        std::stop_token generation_stop;
+        {
+            std::unique_lock lock(mutex_);
+            const auto find = [&] {
+                for (std::size_t i = 0; i < panes_.size() && !pane; ++i) {
+                    Pane* candidate = panes_[(turn + i) % panes_.size()].get();
+                    if (candidate->needs_reconstruction())
+                        pane = candidate;
+                }
+                return pane != nullptr;
+            };
+            if (!reconstruct_wake_.wait(lock, stop, find))
+                return;
+            ++turn;
+            snapshot = pane->latest;
+            settings = pane->reconstruction;
+            generation_stop = pane->stop.get_token();
+        }
+        reconstruct_snapshot(*pane, *snapshot, settings, generation_stop);
+    }
+}
+
+void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
+                                   std::stop_token stop) {
+    auto result = std::make_shared<Reconstruction>();
+    std::string failure;
+    try {
+        *result = pane.solver_for(snapshot, settings).reconstruct(*snapshot.images, settings, serial_for, stop);
+    } catch (const std::exception& error) {
+        failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, error.what());
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        // A newer picture of another size or request has no use for this one.
+        if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
+            pane.latest->coarse != snapshot.coarse)
+            return;
+        pane.reconstructed = snapshot.images;
+        pane.reconstructed_with = settings;
+        if (!failure.empty()) {
+            messages_.push_back(std::move(failure));
+        } else {
+            // The render may have gone on meanwhile: the newest snapshot gets this picture, labelled with its
+            // pass.
+            auto updated = std::make_shared<Snapshot>(*pane.latest);
+            updated->reconstruction = std::move(result);
+            updated->reconstruction_spp = snapshot.spp;
+            pane.latest = std::move(updated);
+        }
+    }
+    if (on_publish_)
+        on_publish_();
+}
+
+} // namespace tessera

@@ -1,0 +1,108 @@
+// Buffers that need more than a snapshot: errors to a reference, first hits.
+
+#include "render/load/exr.h"
+#include "tests/ui/viewer_harness.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace tessera::test {
+namespace {
+
+struct CompanionsTest : testing::Test, ViewerHarness {
+    CompanionsTest() { rest(3); }
+    ~CompanionsTest() override { std::filesystem::remove(file_); }
+
+    /// A grey image of so many pixels, loaded by dropping it.
+    void drop_reference(glm::ivec2 size, float value) {
+        write_exr(file_, {{{"", RgbImage(size.x, size.y, Rgb(value))}}, {}});
+        viewer.drop({file_});
+        wait_until([&] { return state().companions.reference != nullptr; });
+        frames(3);
+    }
+
+    std::filesystem::path file_ =
+        std::filesystem::temp_directory_path() / ("tessera-reference-" + std::to_string(::getpid()) + ".exr");
+};
+
+TEST_F(CompanionsTest, ErrorsToADroppedReference) {
+    type(Key::digit7);
+    EXPECT_TRUE(viewer.pane_image(0).empty());
+    save("no-reference.png");
+    drop_reference({48, 36}, 0.5f);
+    ASSERT_FALSE(viewer.pane_image(0).empty());
+    const Rgb value = pane(0).snapshot->images->primal(10, 10) + pane(0).snapshot->images->very_direct(10, 10);
+    float expected = 0;
+    for (int i = 0; i < 3; ++i)
+        expected += (value[i] - 0.5f) * (value[i] - 0.5f) / (0.251f * 3);
+    EXPECT_NEAR(viewer.pane_image(0).pixels()(10, 10).r, expected, 1e-4f * expected);
+    EXPECT_TRUE(has("pane0.legend"));
+    EXPECT_TRUE(viewer.pane_image(1).range().logarithmic);
+    save("error.png");
+
+    // Dragging keeps the range logarithmic, and for all panes alike.
+    const ControlRect legend = place("pane0.legend");
+    drag({legend.max.x - 20, legend.max.y - 11}, {30, 0});
+    const ValueRange range = state().ranges.at(Buffer::error_relative_squared);
+    EXPECT_TRUE(range.logarithmic);
+    EXPECT_GT(range.high, 1);
+    type(Key::digit9);
+    EXPECT_EQ(pane(1).settings.buffer, Buffer::error_absolute);
+}
+
+TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
+    type(Key::digit8);
+    drop_reference({40, 20}, 0.5f);
+    EXPECT_TRUE(viewer.pane_image(0).empty());
+    ASSERT_TRUE(has("reference_size"));
+    click("reference_size");
+    EXPECT_EQ(state().request_size(), glm::ivec2(40, 20));
+    wait_until([&] { return viewer.settled(3); });
+    frames(3);
+    EXPECT_FALSE(viewer.pane_image(0).empty());
+    EXPECT_FALSE(has("reference_size"));
+}
+
+TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
+    viewer.drop({"/nowhere/reference.exr"});
+    wait_until([&] { return !state().messages.empty(); });
+    EXPECT_NE(state().messages.back().text.find("/nowhere/reference.exr"), std::string::npos);
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
+}
+
+TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
+    EXPECT_EQ(state().companions.first_hits, nullptr); // only if one is to be seen
+    type(Key::digit4, false, true);
+    EXPECT_EQ(pane(0).settings.buffer, Buffer::depth);
+    wait_until([&] { return state().companions.first_hits != nullptr; });
+    frames(2);
+    const auto before = state().companions.first_hits;
+    EXPECT_EQ(before->depth.width(), 48);
+    EXPECT_NEAR(before->depth(24, 30), 3.5f, 1.5f);
+    EXPECT_GT(brightness("pane0.picture"), 10);
+    EXPECT_TRUE(has("pane0.legend")); // path tracing, too
+    save("depth.png");
+    state().camera.dolly(0.5f);
+    wait_until([&] { return state().companions.first_hits != before; });
+    EXPECT_LT(state().companions.first_hits->depth(24, 4), before->depth(24, 4));
+    type(Key::digit3, false, true);
+    frames(2);
+    save("normal.png");
+    type(Key::digit2, false, true);
+    frames(2);
+    save("albedo.png");
+    const auto near = state().companions.first_hits;
+    state().camera.go_home();
+    wait_until([&] { return state().companions.first_hits != near; });
+    frames(2);
+    // The red wall's, wherever the light is.
+    const Rgb red = viewer.pane_image(0).pixels()(1, 18);
+    EXPECT_NEAR(red.r, 0.63f, 0.02f);
+    EXPECT_NEAR(red.g, 0.065f, 0.01f);
+}
+
+} // namespace
+} // namespace tessera::test

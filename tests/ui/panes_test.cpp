@@ -1,0 +1,203 @@
+// Several panes: how many, compared with each other, and when they render.
+
+#include "tests/ui/viewer_harness.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+/// PT and G-PR at rest, their pictures of equal size.
+struct Panes : testing::Test, ViewerHarness {
+    Panes() { rest(3); }
+
+    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
+        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return {p[0], p[1], p[2]};
+    }
+    /// A point of a pane's picture, as shares of the pane.
+    glm::vec2 point(int index, float x, float y) const {
+        const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
+        return glm::floor(rect.min + (rect.max - rect.min) * glm::vec2(x, y)) + 0.5f;
+    }
+    /// Mean distance of the colours in a column of one pane to those in another's.
+    float distance(int a, int b, float x, const ScreenPixels& pixels) const {
+        float sum = 0;
+        for (int i = 0; i < 20; ++i) {
+            const float y = 0.35f + 0.015f * static_cast<float>(i);
+            sum += glm::distance(colour(pixels, point(a, x, y)), colour(pixels, point(b, x, y)));
+        }
+        return sum / 20;
+    }
+    void wait_for_settled() {
+        wait_until([&] { return viewer.settled(3); });
+        frames(2);
+    }
+};
+
+TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
+    click("menu Panes");
+    click("menu Panes/Four panes");
+    ASSERT_EQ(state().panes.size(), 4u);
+    wait_for_settled();
+    EXPECT_EQ(pane(0).settings.render.method, Method::pt);
+    EXPECT_EQ(pane(1).settings.render.method, Method::gpr);
+    EXPECT_EQ(pane(2).settings.render.method, Method::gpt); // methods that no pane had
+    EXPECT_EQ(pane(3).settings.render.method, Method::pr);
+    EXPECT_GT(place("pane2.picture").min.y, place("pane0.picture").max.y);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_GT(brightness("pane" + std::to_string(i) + ".picture"), 10) << i;
+    save("four-panes.png");
+
+    choose("pane3.method", "pt");
+    type(Key::digit2, true);
+    EXPECT_EQ(state().panes.size(), 2u);
+    frames(3);
+    EXPECT_FALSE(has("pane2.picture"));
+    EXPECT_EQ(session.latest(3), nullptr);
+    type(Key::g);
+    ASSERT_EQ(state().panes.size(), 4u);
+    EXPECT_EQ(pane(2).settings.render.method, Method::gpt); // as they were
+    EXPECT_EQ(pane(3).settings.render.method, Method::pt);
+    type(Key::g);
+    EXPECT_EQ(state().panes.size(), 1u);
+    wait_for_settled();
+    EXPECT_TRUE(has("pane0.picture"));
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST_F(Panes, TheActivePaneStaysWhenOthersGo) {
+    click("pane1.picture");
+    type(Key::digit1, true);
+    EXPECT_EQ(state().active_pane, 0);
+    EXPECT_EQ(pane(0).settings.render.method, Method::gpr);
+    type(Key::digit2, true);
+    EXPECT_EQ(pane(1).settings.render.method, Method::pt);
+}
+
+TEST_F(Panes, OnlyTheActivePaneHasAllTheRoom) {
+    const float before = place("pane1.picture").max.x - place("pane1.picture").min.x;
+    type(Key::o);
+    EXPECT_FALSE(has("pane0.picture"));
+    EXPECT_GT(place("pane1.picture").max.x - place("pane1.picture").min.x, before * 1.8f);
+    type(Key::tab);
+    EXPECT_TRUE(has("pane0.picture"));
+    EXPECT_FALSE(has("pane1.picture"));
+    type(Key::o);
+    EXPECT_TRUE(has("pane1.picture"));
+}
+
+TEST_F(Panes, WipeShowsBothAndItsLineIsDragged) {
+    click("pane0.picture");
+    ASSERT_EQ(state().active_pane, 0);
+    const ScreenPixels apart = screen();
+    EXPECT_GT(distance(0, 1, 0.7f, apart), 5); // noise against none
+    type(Key::v);
+    EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::wipe);
+    const ScreenPixels wiped = screen();
+    save("wipe.png");
+    EXPECT_LT(distance(0, 1, 0.7f, wiped), 1); // the other's picture to the right
+    EXPECT_GT(distance(0, 1, 0.3f, wiped), 5);
+
+    // The zone is wider than the line: 12 units beside it still take hold.
+    const auto camera = state().camera.position();
+    const ControlRect rect = place("pane0.picture");
+    const float width = rect.max.x - rect.min.x;
+    drag(point(0, 0.5f, 0.6f) + glm::vec2(12, 0), {width * 0.3f, 5});
+    EXPECT_NEAR(state().wipe, 0.8f, 0.02f);
+    EXPECT_EQ(state().camera.position(), camera);
+    EXPECT_GT(distance(0, 1, 0.7f, screen()), 5);
+    drag(point(0, 0.8f, 0.6f), {-2 * width, 0});
+    EXPECT_EQ(state().wipe, 0);
+    drag(point(0, 0.4f, 0.6f), {20, 0}); // elsewhere the camera moves
+    EXPECT_NE(state().camera.position(), camera);
+    type(Key::v);
+    EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::off);
+}
+
+TEST_F(Panes, FlickerShowsTheOtherWhileTheKeyIsHeld) {
+    click("pane0.picture");
+    const ScreenPixels before = screen();
+    viewer.keyboard().press(Key::b, Key::b, false, false);
+    frames(2);
+    EXPECT_LT(distance(0, 1, 0.3f, screen()), 1);
+    EXPECT_LT(distance(0, 1, 0.7f, screen()), 1);
+    save("flicker.png");
+    viewer.keyboard().release(Key::b);
+    frames(2);
+    EXPECT_EQ(screen().rgb, before.rgb);
+}
+
+TEST_F(Panes, DifferenceHasTheSignOfTheDifference) {
+    click("pane0.picture");
+    type(Key::n);
+    state().tone.exposure = 3;
+    frames(2);
+    save("difference.png");
+    const ScreenPixels pixels = screen();
+    const RgbImage& a = viewer.pane_image(0).pixels();
+    const RgbImage& b = viewer.pane_image(1).pixels();
+    const Placement placement = state().view.place(state().request_size(), pane(0).canvas_size);
+    int compared = 0;
+    for (int y = 5; y < a.height(); y += 3) {
+        for (int x = 1; x < a.width(); x += 3) {
+            const float difference = luminance(a(x, y) - b(x, y));
+            if (std::abs(difference) < 0.01f)
+                continue;
+            const glm::vec2 share = (glm::vec2(x, y) + 0.5f) / glm::vec2(a.width(), a.height());
+            const glm::vec3 seen =
+                colour(pixels, place("pane0.picture").min + placement.origin + share * placement.extent);
+            EXPECT_EQ(seen.r > seen.b, difference > 0) << x << ',' << y << ' ' << difference;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 50);
+    choose("compare", "off");
+    EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::off);
+}
+
+TEST_F(Panes, AnyTwoPanesCanBeCompared) {
+    type(Key::digit4, true);
+    wait_for_settled();
+    click("pane1.picture");
+    choose("compare", "wipe");
+    choose("compare_with", "4");
+    EXPECT_EQ(state().compared_with(1), 3);
+    const ScreenPixels pixels = screen();
+    EXPECT_LT(distance(1, 3, 0.7f, pixels), 1);
+    type(Key::digit2, true); // that pane is no more
+    EXPECT_EQ(state().compared_with(1), 0);
+}
+
+TEST_F(Panes, ComparedBuffersMayDiffer) {
+    click("pane0.picture");
+    choose("pane1.buffer", "failed");
+    type(Key::v);
+    EXPECT_LT(distance(0, 1, 0.7f, screen()), 1);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    save("wipe-buffers.png");
+}
+
+TEST_F(Panes, StepsOnePass) {
+    type(Key::space);
+    viewer.keyboard().type('.');
+    ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 4 && pane(1).snapshot->spp == 4; }));
+    click("step");
+    ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 5 && pane(1).snapshot->spp == 5; }));
+    EXPECT_TRUE(state().paused);
+}
+
+TEST_F(Panes, StopsAtSecondsAndLimitsRestartNothing) {
+    const std::uint64_t generation = pane(0).generation;
+    state().pace = {Pace::Equal::time, 0, pane(0).snapshot->seconds + 0.15};
+    ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->seconds >= state().pace.seconds_limit; }));
+    EXPECT_EQ(pane(0).generation, generation);
+    EXPECT_GT(pane(0).snapshot->spp, 3);
+    choose("equal", "spp");
+    EXPECT_EQ(state().pace.equal, Pace::Equal::spp);
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,158 @@
+// Looking at single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
+
+#include "tests/ui/viewer_harness.h"
+#include "ui/pane_status.h"
+#include "ui/pixel_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/vector_relational.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+struct Pixels : testing::Test, ViewerHarness {
+    Pixels() { rest(3); }
+
+    const PaneImages& images() { return viewer.pane_images(); }
+    glm::vec2 middle_of(int index, int x, int y) {
+        const glm::ivec2 size = state().request_size();
+        const Placement placement = state().view.place(size, pane(index).canvas_size);
+        return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
+               (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
+    }
+    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
+        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return {p[0], p[1], p[2]};
+    }
+};
+
+TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
+    EXPECT_EQ(cursor_text(state(), images(), 0), "");
+    for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(20, 7), glm::ivec2(47, 35)}) {
+        move_to(middle_of(0, pixel.x, pixel.y));
+        for (int i = 0; i < 2; ++i) {
+            const Rgb value = viewer.pane_image(i).pixels()(pixel.x, pixel.y);
+            char expected[160];
+            std::snprintf(expected, sizeof expected, "(%d, %d)  %.4g %.4g %.4g  Y %.4g", pixel.x, pixel.y,
+                          static_cast<double>(value.r), static_cast<double>(value.g), static_cast<double>(value.b),
+                          static_cast<double>(luminance(value)));
+            EXPECT_EQ(cursor_text(state(), images(), i), expected);
+            EXPECT_TRUE(has("pane" + std::to_string(i) + ".value"));
+        }
+    }
+    save("cursor-values.png");
+    choose("pane1.buffer", "failed");
+    move_to(middle_of(0, 20, 20));
+    EXPECT_NE(cursor_text(state(), images(), 1).find(" %"), std::string::npos);
+    move_to({5, 5}); // over the menu
+    EXPECT_EQ(cursor_text(state(), images(), 0), "");
+    EXPECT_FALSE(has("pane0.value"));
+}
+
+TEST_F(Pixels, DifferencesAreReadAsDifferences) {
+    click("pane0.picture");
+    type(Key::n);
+    move_to(middle_of(0, 20, 20));
+    const auto value = value_at(showing_at(state(), 0, 0.5f), images(), state().cursor->place);
+    ASSERT_TRUE(value);
+    const Rgb expected = viewer.pane_image(0).pixels()(20, 20) - viewer.pane_image(1).pixels()(20, 20);
+    EXPECT_EQ(*value, expected);
+}
+
+TEST_F(Pixels, LargePixelsHoldTheirNumbers) {
+    move_to(middle_of(0, 20, 20));
+    modifiers(true, false);
+    const auto white = [&] { // of the numbers' glyphs
+        const ScreenPixels pixels = screen();
+        const ControlRect rect = place("pane0.picture");
+        int count = 0;
+        for (float y = rect.min.y; y < rect.max.y; ++y)
+            for (float x = rect.min.x; x < rect.max.x; ++x)
+                count += glm::all(glm::greaterThan(colour(pixels, {x, y}), glm::vec3(225)));
+        return count;
+    };
+    while (state().view.zoom() < 10)
+        wheel(1);
+    modifiers(false, false);
+    save("numbers.png");
+    EXPECT_GT(white(), 200);
+    choose("pane0.buffer", "dx"); // path tracing has none: nothing to write
+    frames(2);
+    EXPECT_EQ(white(), 0);
+}
+
+TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
+    type(Key::l);
+    EXPECT_TRUE(state().magnifier);
+    const glm::vec2 at = middle_of(0, 12, 18);
+    move_to(at);
+    save("magnifier.png");
+    const ScreenPixels pixels = screen();
+    type(Key::l);
+    move_to(at);
+    const ScreenPixels plain = screen();
+    // A pixel of the image is at least 15 units wide in it, and the one at the mouse stays where it is.
+    EXPECT_LT(glm::distance(colour(pixels, at), colour(plain, at)), 2);
+    EXPECT_LT(glm::distance(colour(pixels, at + glm::vec2(5, 5)), colour(pixels, at)), 2);
+    EXPECT_NE(pixels.rgb, plain.rgb);
+    // In the other pane, too.
+    const glm::vec2 other = middle_of(1, 12, 18);
+    EXPECT_LT(glm::distance(colour(pixels, other + glm::vec2(4, 4)), colour(pixels, other)), 2);
+}
+
+TEST_F(Pixels, LegendsAreDraggedAndGoBack) {
+    choose("pane1.buffer", "reused");
+    const ControlRect legend = place("pane1.legend");
+    const ValueRange before = viewer.pane_image(1).range();
+    const auto camera = state().camera.position();
+    const glm::vec2 bar(0, legend.max.y - 11);
+    drag({legend.max.x - 20, bar.y}, {-30, 0});
+    ASSERT_TRUE(state().ranges.count(Buffer::reused));
+    const ValueRange high = state().ranges.at(Buffer::reused);
+    EXPECT_LT(high.high, before.high);
+    EXPECT_EQ(high.low, 0);
+    EXPECT_EQ(state().camera.position(), camera);
+    drag({legend.min.x + 20, bar.y}, {30, 0});
+    EXPECT_GT(state().ranges.at(Buffer::reused).low, 0);
+    save("legend-range.png");
+    frame(1); // no double click with the last
+    click(glm::vec2(legend.min.x + 20, bar.y));
+    click(glm::vec2(legend.min.x + 20, bar.y));
+    EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
+}
+
+TEST_F(Pixels, ToneCurves) {
+    choose("tone", "filmic");
+    EXPECT_EQ(state().tone.curve, Tone::Curve::filmic);
+    type(Key::y);
+    EXPECT_EQ(state().tone.curve, Tone::Curve::srgb);
+    type(Key::y);
+    EXPECT_EQ(state().tone.curve, Tone::Curve::gamma);
+    frames(2);
+    const double before = brightness("pane0.picture");
+    click_at("gamma", 0.99f);
+    EXPECT_NEAR(state().tone.gamma, 4, 0.1f);
+    EXPECT_GT(brightness("pane0.picture"), before + 5);
+}
+
+TEST(ValueRange, SharesAndValuesAreInverse) {
+    for (const ValueRange& range :
+         {ValueRange{0, 5, false}, ValueRange{2, 3, false}, ValueRange{1e-4f, 10, true}}) {
+        for (float share : {0.0f, 0.25f, 1.0f})
+            EXPECT_NEAR(range.share(range.value(share)), share, 1e-5f);
+        ValueRange dragged = range;
+        for (int i = 0; i < 50; ++i)
+            dragged = dragged.with_low_dragged(0.9f).with_high_dragged(-0.9f);
+        EXPECT_GT(dragged.high, dragged.low);
+        EXPECT_GT(dragged.high, 0);
+    }
+    EXPECT_FLOAT_EQ((ValueRange{1e-4f, 10, true}.value(0.2f)), 1e-3f);
+    EXPECT_LT((ValueRange{1e-4f, 10, true}.share(0)), 0);
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,54 @@
+#include "tests/ui/viewer_harness.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+TEST(Look, TextGrowsByKeysUpToThreeHundredPercent) {
+    ViewerHarness h({1920, 1200});
+    h.frames(2);
+    const float before = h.place("tile").max.y - h.place("tile").min.y;
+    for (int i = 0; i < 20; ++i)
+        h.type(Key::up, true);
+    h.frames(2);
+    EXPECT_EQ(h.state().shown_ui_scale, 3);
+    EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 3, 4);
+    for (int i = 0; i < 20; ++i)
+        h.type(Key::down, true);
+    h.frames(2);
+    EXPECT_EQ(h.state().shown_ui_scale, 1);
+}
+
+TEST(Look, ThemesAreDarkAndLight) {
+    ViewerHarness h;
+    h.load_scene();
+    h.state().paused = true;
+    h.frames(3);
+    const auto lightness_of = [&](glm::vec2 at) {
+        const ScreenPixels pixels = h.screen();
+        return pixels.at(static_cast<int>(at.x), static_cast<int>(at.y))[1];
+    };
+    const ControlRect first = h.place("restart"), picture = h.place("pane1.picture");
+    const glm::vec2 panel(first.min.x - 4, first.max.y + 2);
+    const double before = h.brightness("pane1.picture");
+    EXPECT_LT(lightness_of(panel), 40);
+    h.type(Key::f9);
+    h.frames(2);
+    EXPECT_EQ(h.state().theme, Theme::light);
+    EXPECT_GT(lightness_of(panel), 230);
+    EXPECT_EQ(h.place("pane1.picture"), picture);          // the same places,
+    EXPECT_NEAR(h.brightness("pane1.picture"), before, 1); // and the same pictures
+    h.state().show_statistics = true;
+    h.frames(3);
+    h.save("light.png");
+    h.type(Key::f1);
+    h.save("light-help.png");
+    h.type(Key::f1);
+    h.type(Key::f9);
+    h.frames(2);
+    EXPECT_LT(lightness_of(panel), 40);
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,170 @@
+#include "ui/named_settings.h"
+
+#include "render/method/settings_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <stdexcept>
+
+namespace tessera {
+
+namespace {
+
+double number(const std::string& name, const std::string& value, double least, double most) {
+    char* end = nullptr;
+    const double result = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != 0 || !(result >= least && result <= most))
+        throw std::invalid_argument(name + " is a number from " + std::to_string(least) + " to " +
+                                    std::to_string(most) + ", not " + value);
+    return result;
+}
+
+/// The index of the word.
+int one_of(const std::string& name, const std::string& value, std::initializer_list<const char*> words) {
+    const auto found = std::find(words.begin(), words.end(), value);
+    if (found != words.end())
+        return static_cast<int>(found - words.begin());
+    std::string list;
+    for (const char* word : words)
+        list += std::string(list.empty() ? "" : ", ") + word;
+    throw std::invalid_argument(name + " is one of " + list + ", not " + value);
+}
+
+Buffer buffer_named(const std::string& value) {
+    for (Buffer buffer : all_buffers) {
+        if (short_name(buffer) == value)
+            return buffer;
+    }
+    throw std::invalid_argument("no buffer is called " + value);
+}
+
+Method method_named(const std::string& value) {
+    if (const auto method = method_from_name(value))
+        return *method;
+    throw std::invalid_argument("method is one of pt, pr, gpt, gpr, not " + value);
+}
+
+glm::ivec2 size_of(const std::string& value) {
+    glm::ivec2 size(0);
+    char rest = 0;
+    if (std::sscanf(value.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
+        std::max(size.x, size.y) > most_render_pixels_an_edge)
+        throw std::invalid_argument("size is WIDTHxHEIGHT in pixels, not " + value);
+    return size;
+}
+
+struct Named {
+    const char* name;
+    void (*set)(ViewerState&, const std::string& name, const std::string& value);
+};
+
+using S = ViewerState;
+using Text = const std::string&;
+
+constexpr Named table[] = {
+    {"method", [](S& s, Text, Text v) { s.active().settings.render.method = method_named(v); }},
+    {"buffer", [](S& s, Text, Text v) { s.active().settings.buffer = buffer_named(v); }},
+    {"comparison",
+     [](S& s, Text n, Text v) {
+         s.active().settings.comparison.kind =
+             static_cast<Comparison::Kind>(one_of(n, v, {"off", "wipe", "difference"}));
+     }},
+    {"compare_with",
+     [](S& s, Text n, Text v) {
+         s.active().settings.comparison.with = static_cast<int>(number(n, v, 1, most_panes)) - 1;
+     }},
+    {"active",
+     [](S& s, Text n, Text v) {
+         s.active_pane = static_cast<int>(number(n, v, 1, static_cast<double>(s.panes.size()))) - 1;
+     }},
+    {"panes", [](S& s, Text n, Text v) { s.set_pane_count(static_cast<int>(number(n, v, 1, most_panes))); }},
+    {"alone",
+     [](S& s, Text n, Text v) {
+         s.alone = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"wipe", [](S& s, Text n, Text v) { s.wipe = static_cast<float>(number(n, v, 0, 1)); }},
+    {"linked",
+     [](S& s, Text n, Text v) {
+         s.linked = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"paused",
+     [](S& s, Text n, Text v) {
+         s.paused = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"spp_limit", [](S& s, Text n, Text v) { s.pace.spp_limit = static_cast<int>(number(n, v, 0, 1 << 24)); }},
+    {"seconds_limit", [](S& s, Text n, Text v) { s.pace.seconds_limit = number(n, v, 0, 1e7); }},
+    {"equal",
+     [](S& s, Text n, Text v) {
+         s.pace.equal = static_cast<Pace::Equal>(one_of(n, v, {"time", "spp"}));
+     }},
+    {"size",
+     [](S& s, Text, Text v) {
+         s.size = {SizeChoice::Base::custom, 1, size_of(v)};
+     }},
+    {"exposure", [](S& s, Text n, Text v) { s.tone.exposure = static_cast<float>(number(n, v, -10, 10)); }},
+    {"gamma", [](S& s, Text n, Text v) { s.tone.gamma = static_cast<float>(number(n, v, 1, 4)); }},
+    {"tone",
+     [](S& s, Text n, Text v) {
+         s.tone.curve = static_cast<Tone::Curve>(one_of(n, v, {"srgb", "gamma", "filmic"}));
+     }},
+    {"magnifier",
+     [](S& s, Text n, Text v) {
+         s.magnifier = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"mark_negative",
+     [](S& s, Text n, Text v) {
+         s.mark_negative = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"theme",
+     [](S& s, Text n, Text v) {
+         s.theme = static_cast<Theme>(one_of(n, v, {"dark", "light"}));
+     }},
+    {"ui_scale", [](S& s, Text n, Text v) { s.ui_scale = static_cast<float>(number(n, v, 1, 3)); }},
+    {"panel",
+     [](S& s, Text n, Text v) {
+         s.show_panel = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"statistics",
+     [](S& s, Text n, Text v) {
+         s.show_statistics = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"alpha",
+     [](S& s, Text n, Text v) {
+         s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, 0.001, 10));
+         s.share_settings();
+     }},
+    {"norm",
+     [](S& s, Text, Text v) {
+         const auto norm = norm_from_name(v);
+         if (!norm)
+             throw std::invalid_argument("norm is one of none, l2, l1, mixed, not " + v);
+         s.active().settings.reconstruction.norm = *norm;
+         s.share_settings();
+     }},
+};
+
+} // namespace
+
+void set_by_name(ViewerState& state, const std::string& name, const std::string& value) {
+    const auto named =
+        std::find_if(std::begin(table), std::end(table), [&](const Named& n) { return name == n.name; });
+    if (named != std::end(table))
+        return named->set(state, name, value);
+    for (const Setting& setting : all_settings()) {
+        if (setting.id != name)
+            continue;
+        setting.set_text(state.active().settings.render, value);
+        return state.share_settings();
+    }
+    std::string list;
+    for (const Named& n : table)
+        list += std::string(n.name) + ", ";
+    for (const Setting& setting : all_settings())
+        list += std::string(setting.id) + (&setting == &all_settings().back() ? "" : ", ");
+    throw std::invalid_argument("nothing is called " + name + "; there are " + list);
+}
+
+} // namespace tessera

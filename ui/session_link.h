@@ -1,0 +1,42 @@
+#pragma once
+
+#include "ui/viewer_state.h"
+
+#include <array>
+
+namespace tessera {
+
+/// The viewer's dealings with the session: compares the state with what was last asked, sends what differs, and
+/// takes in what has come.
+class SessionLink {
+public:
+    /// `session` of most_panes panes.
+    explicit SessionLink(Session& session) : session_(session) {}
+
+    /// Snapshots and messages.
+    void take(ViewerState& state);
+    /// Requests, in the frame in which the state changed. Fulfils the wishes to restart and to step.
+    void send(ViewerState& state);
+
+private:
+    /// What a pane was last asked for.
+    struct Sent {
+        std::shared_ptr<const Scene> scene; // null: nothing
+        Camera camera;
+        glm::ivec2 size{0};
+        RenderSettings render;
+        ReconstructionSettings reconstruction;
+    };
+    static bool differs(const ViewerState& state, const PaneState& pane, const Sent& sent);
+    void send_pane(ViewerState& state, std::size_t pane);
+    void send_running(const ViewerState& state);
+    void report_refused(ViewerState& state, std::size_t pane);
+
+    Session& session_;
+    std::array<Sent, most_panes> sent_;
+    std::array<std::uint64_t, most_panes> refused_told_{}; // the generation whose refused samples have a message
+    bool sent_paused_ = false;
+    Pace sent_pace_;
+};
+
+} // namespace tessera

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "ui/picture_frame.h"
+#include "ui/showing.h"
+
+namespace tessera {
+
+/// The line that divides two pictures in a pane, and the names of what a comparison shows.
+
+/// Whether a point of the screen is near enough to the line to take hold of it.
+bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point);
+
+/// Draws the line with its handle and a label at each side; without a line, one label in the middle.
+void draw_comparison(const PictureFrame& frame, int pane, const ViewerState& state);
+
+} // namespace tessera
