@@ -38,13 +38,17 @@ enum class Cut { joint, per_channel, scale };
 /// factors[i] such that u = factors[i] w[i], for `count` pixels.
 void cut_factors(Cut cut, float threshold, int count, const float* w, float* factors) {
     switch (cut) {
-    case Cut::joint:
-        for (int i = 0; i < count; ++i) {
-            const float r = w[3 * i], g = w[3 * i + 1], b = w[3 * i + 2];
-            const float factor = threshold / std::max(std::sqrt(r * r + g * g + b * b), threshold);
-            factors[3 * i] = factors[3 * i + 1] = factors[3 * i + 2] = factor;
-        }
+    case Cut::joint: {
+        // In three loops, of which the second, with all the square roots, fills vectors.
+        float length[chunk_pixels];
+        for (int i = 0; i < count; ++i)
+            length[i] = w[3 * i] * w[3 * i] + w[3 * i + 1] * w[3 * i + 1] + w[3 * i + 2] * w[3 * i + 2];
+        for (int i = 0; i < count; ++i)
+            length[i] = threshold / std::max(std::sqrt(length[i]), threshold);
+        for (int i = 0; i < count; ++i)
+            factors[3 * i] = factors[3 * i + 1] = factors[3 * i + 2] = length[i];
         return;
+    }
     case Cut::per_channel:
         for (int i = 0; i < 3 * count; ++i)
             factors[i] = threshold / std::max(std::abs(w[i]), threshold);
