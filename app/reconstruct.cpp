@@ -31,6 +31,7 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"height", input.images.primal.height()},
             {"norms", norms},
             {"alpha", options.layers.alpha},
+            {"per_channel", options.layers.per_channel},
             {"repaired_pixels", input.repaired}};
 }
 

@@ -39,12 +39,14 @@ void add_reconstruct(CLI::App& app, ReconstructWords& words) {
     command.add_option("--alpha", options.layers.alpha, "weight of the primal against the gradients")
         ->check(CLI::Range(1e-4, 1e3))
         ->capture_default_str();
+    command.add_flag("--per-channel", options.layers.per_channel,
+                     "l1 and mixed: absolute values of each channel, not lengths of colours");
     command.add_option("--threads", options.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times and residuals");
     command.add_flag("--buffers", options.layers.buffers,
-                     "primal, dx, dy and direct as layers of the EXR file, too");
+                     "primal, dx, dy, direct and the variances as layers of the EXR file, too");
     command.add_flag("--repair", options.repair, "take pixels that are not finite as 0, and say how many");
 }
 

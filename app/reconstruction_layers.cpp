@@ -40,7 +40,7 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
     };
     for (Norm norm : wanted.norms) {
         const double cpu = process_cpu_seconds();
-        Reconstruction r = reconstruct(images, {norm, wanted.alpha}, parallel_for);
+        Reconstruction r = reconstruct(images, {norm, wanted.alpha, !wanted.per_channel}, parallel_for);
         stats.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }

@@ -16,7 +16,8 @@ inline constexpr const char* patch_attribute = "tessera:patch";
 struct ReconstructionLayers {
     std::vector<Norm> norms; ///< not empty; the first is the file's plain RGB
     float alpha = 0.2f;
-    bool buffers = false; ///< primal, dx, dy, direct and variances, too
+    bool per_channel = false; ///< l1 and mixed: each channel is on its own
+    bool buffers = false;     ///< primal, dx, dy, direct and variances, too
 };
 
 /// What one reconstruction cost: wall and CPU seconds.

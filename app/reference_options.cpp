@@ -14,7 +14,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     command.footer(
         "A reference is two independent renders of the scene, with two seeds, which become the layers half1 and "
         "half2, and their mean, the plain RGB. From the difference of the halves its own error is known, and is "
-        "printed and written to the header; what a biased reconstruction (l1, mixed, weighted) does to both alike is not in "
+        "printed and written to the header; what a biased reconstruction (l1, mixed, weighted) does to both alike "
+        "is not in "
         "it.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");

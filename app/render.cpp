@@ -74,7 +74,7 @@ ExrFile assemble(const ReconstructionLayers& wanted, Render& render, std::vector
 int run_render(const RenderOptions& options) {
     check(options.settings);
     check_writable(options.output);
-    check_picture_name(options.output, {options.norms, options.alpha, options.buffers});
+    check_picture_name(options.output, {options.norms, options.alpha, options.per_channel, options.buffers});
     if (!options.stats.empty())
         check_writable(options.stats);
     ThreadPool pool(options.threads);
@@ -89,7 +89,8 @@ int run_render(const RenderOptions& options) {
         fmt::print(stderr, "warning: {}\n", warning);
 
     std::vector<ReconstructionStats> recon;
-    ExrFile file = assemble({plan.norms, options.alpha, options.buffers}, render, recon, pool);
+    ExrFile file =
+        assemble({plan.norms, options.alpha, options.per_channel, options.buffers}, render, recon, pool);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;

@@ -23,12 +23,13 @@ struct RenderOptions {
     std::optional<double> time;   ///< seconds of rendering, without loading
     Clock clock = Clock::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
-    std::vector<Norm> norms;        ///< empty: L2 where there are gradients; the first is the file's plain RGB
+    std::vector<Norm> norms; ///< empty: weighted where there are gradients; the first is the file's plain RGB
     float alpha = 0.2f;
-    int threads = 0; ///< 0: one a hardware thread
+    bool per_channel = false; ///< l1 and mixed: each channel is on its own
+    int threads = 0;          ///< 0: one a hardware thread
     std::filesystem::path output;
     std::filesystem::path stats; ///< empty: none
-    bool buffers = false;        ///< primal, dx, dy and direct as layers, too
+    bool buffers = false;        ///< primal, dx, dy, direct and the variances as layers, too
 };
 
 /// Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything has been written.

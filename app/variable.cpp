@@ -44,7 +44,8 @@ Number parse_number(const char* id, std::string_view text, Number least, Number 
 Norm parse_norm(std::string_view text) {
     const std::optional<Norm> norm = norm_from_name(text);
     if (!norm)
-        throw std::invalid_argument(fmt::format("recon is \"{}\": must be one of none, l2, l1, mixed, uniform, weighted", text));
+        throw std::invalid_argument(
+            fmt::format("recon is \"{}\": must be one of none, l2, l1, mixed, uniform, weighted", text));
     return *norm;
 }
 

@@ -29,6 +29,7 @@ void describe(const std::string& prefix, const PaneState& pane, Values& values) 
     values[prefix + "buffer"] = short_name(pane.settings.buffer);
     for (const Setting& setting : all_settings())
         values[prefix + std::string(setting.id)] = setting.text(render);
+    values[prefix + "joint_colour"] = text(pane.settings.reconstruction.joint_colour);
     values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
     values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
     values[prefix + "comparison"] = comparisons[static_cast<std::size_t>(pane.settings.comparison.kind)];

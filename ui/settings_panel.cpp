@@ -78,8 +78,12 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
     ImGui::BeginDisabled(settings.norm == Norm::none || settings.norm == Norm::uniform);
     changed |= controls.log_slider("alpha", "Alpha", settings.alpha, 0.001f, 10,
                                    "Weight of the primal against the gradients (no unit). Small: gradients alone "
-                                   "decide on all but the mean.");
+                                   "decide on all but the mean, as far as they are trusted.");
     ImGui::EndDisabled();
+    if (settings.norm == Norm::l1 || settings.norm == Norm::mixed)
+        changed |= controls.toggle("joint_colour", "Joint colour", settings.joint_colour,
+                                   "On: misfits are lengths of colours, and the channels agree on what is an "
+                                   "outlier. Off: each channel is on its own.");
     return changed;
 }
 
