@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean [Fang 2024, 4]. uniform:
+/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean. uniform:
 /// averages of neighbours (average_neighbours; alpha does not matter). weighted: L2, where gradients count the
 /// less the noisier they are (weights_of_gradients); l2 if variances are unknown.
 enum class Norm { none, l2, l1, mixed, uniform, weighted };
