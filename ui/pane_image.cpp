@@ -8,7 +8,7 @@ void PaneImage::take(const PaneState& pane, const Companions& companions) {
     static const RgbImage none;
     const Buffer buffer = pane.settings.buffer;
     std::shared_ptr<const void> source = pane.snapshot ? picture_source(*pane.snapshot, buffer) : nullptr;
-    std::shared_ptr<const void> companion = companion_source(companions, buffer);
+    std::shared_ptr<const void> companion = pane.snapshot ? companion_source(companions, buffer) : nullptr;
     coarse_ = pane.snapshot && pane.snapshot->coarse && family(buffer) != BufferFamily::first_hit;
     if (source == source_ && companion == companion_ && buffer == buffer_)
         return;

@@ -240,9 +240,11 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
             glfwWaitEventsTimeout(longest_sleep); // minimised
             continue;
         }
-        if (frames_due_ == 0 || too_early)
+        // What a script waits for may come with a frame that nothing follows.
+        const bool is_overdue = hooks.before && now - before >= longest_sleep;
+        if ((frames_due_ == 0 && !is_overdue) || too_early)
             continue;
-        --frames_due_;
+        frames_due_ = std::max(frames_due_ - 1, 0);
         last_frame_ = now;
         gui_->set_look(viewer.state().ui_scale.value_or(wanted_scale_), viewer.state().theme);
         ImGui_ImplGlfw_NewFrame();

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace tessera {
@@ -33,6 +34,14 @@ void remove_leftovers(const std::filesystem::path& final_path) {
     }
 }
 
+/// What the system still holds of a file or folder goes to the disk, if it can be had.
+void write_through(const std::filesystem::path& path) {
+    if (const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); file >= 0) {
+        ::fsync(file);
+        ::close(file);
+    }
+}
+
 } // namespace
 
 TemporaryFile::TemporaryFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
@@ -49,7 +58,10 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::commit() {
+    // On the disk before it takes the old one's place: else a power cut could leave neither.
+    write_through(temporary_);
     std::filesystem::rename(temporary_, final_);
+    write_through(final_.has_parent_path() ? final_.parent_path() : ".");
     temporary_.clear();
 }
 

@@ -182,6 +182,8 @@ void Session::render_pass(Pane& pane) {
         generation = pane.generation;
         stop = pane.stop.get_token();
     }
+    if (!request.scene)
+        return; // withdrawn since it was chosen
     try {
         if (pane.render_generation != generation) {
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);

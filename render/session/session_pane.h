@@ -39,7 +39,7 @@ struct Session::Pane {
     bool wants_pass(const Pace& pace, bool paused) const {
         if (generation == 0 || failed || !request.scene)
             return false;
-        return steps > 0 || (!paused && !is_at_limit(pace));
+        return steps > 0 || is_fresh() || (!paused && !is_at_limit(pace)); // a first look is there, paused or not
     }
 
     bool has_unseen_passes() const { return render && !is_fresh() && published_spp < render->spp(); }
@@ -50,8 +50,10 @@ struct Session::Pane {
     bool solved_coarse = false;
     ReconstructionSettings solved_with;
 
+    /// Of a request that has been replaced, only a first look is worth it.
     bool needs_reconstruction() const {
-        return latest && (latest->images != reconstructed || !(reconstructed_with == reconstruction));
+        return latest && (latest->coarse || latest->generation == generation) &&
+               (latest->images != reconstructed || !(reconstructed_with == reconstruction));
     }
 
     /// Starts warm from the last snapshot of the same render, and else anew.
