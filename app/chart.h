@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/chart_axis.h"
+#include "ui/chart_axis.h"
 
 #include <string>
 #include <vector>

@@ -57,6 +57,16 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
     return file;
 }
 
+ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
+                       ThreadPool& pool, std::vector<ReconstructionStats>& stats) {
+    ExrFile file = reconstruct_layers(std::move(images), wanted, pool, stats);
+    if (wanted.buffers && !maps.reused.empty()) {
+        file.layers.push_back({"reused", grey(maps.reused)});
+        file.layers.push_back({"failed", grey(maps.failed)});
+    }
+    return file;
+}
+
 void write_picture(const std::filesystem::path& output, const ExrFile& file) {
     if (extension_of(output) == ".png")
         write_png(output, file.layers.front().image);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/reconstruct.h"
+#include "render/film.h"
 #include "render/load/exr.h"
 #include "render/session/thread_pool.h"
 
@@ -35,6 +36,10 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
 /// is appended to `stats`.
 ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats);
+
+/// Those layers and, where pixels share paths, the maps of how that went.
+ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
+                       ThreadPool& pool, std::vector<ReconstructionStats>& stats);
 
 /// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Throws
 /// std::runtime_error that names the file.

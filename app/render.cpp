@@ -57,18 +57,6 @@ void render_passes(const RenderOptions& options, const Plan& plan, Render& rende
     } while (done < 1 && !interrupted());
 }
 
-/// What is to be written.
-ExrFile assemble(const ReconstructionLayers& wanted, Render& render, std::vector<ReconstructionStats>& recon,
-                 ThreadPool& pool) {
-    const ReuseMaps maps = wanted.buffers ? render.reuse_maps() : ReuseMaps{};
-    ExrFile file = reconstruct_layers(render.take_images(), wanted, pool, recon);
-    if (!maps.reused.empty()) {
-        file.layers.push_back({"reused", grey(maps.reused)});
-        file.layers.push_back({"failed", grey(maps.failed)});
-    }
-    return file;
-}
-
 } // namespace
 
 int run_render(const RenderOptions& options) {
@@ -89,8 +77,9 @@ int run_render(const RenderOptions& options) {
         fmt::print(stderr, "warning: {}\n", warning);
 
     std::vector<ReconstructionStats> recon;
-    ExrFile file =
-        assemble({plan.norms, options.alpha, options.per_channel, options.buffers}, render, recon, pool);
+    const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
+    ExrFile file = picture_layers(render.take_images(), maps,
+                                  {plan.norms, options.alpha, options.per_channel, options.buffers}, pool, recon);
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;

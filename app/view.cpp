@@ -1,6 +1,11 @@
 #include "app/view.h"
 
+#include "app/reconstruction_layers.h"
+#include "app/stats.h"
+#include "render/load/camera_file.h"
 #include "render/load/png.h"
+#include "ui/output_files.h"
+#include "ui/preferences.h"
 #include "ui/screenshot.h"
 #include "ui/script_player.h"
 #include "ui/surface.h"
@@ -9,8 +14,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <exception>
+
+#include <nlohmann/json.hpp>
 
 namespace tessera {
 
@@ -30,12 +36,20 @@ std::string title(const std::string& scene) {
     return "Tessera - " + scene;
 }
 
-/// A picture file in the current folder that is named after the time.
-std::filesystem::path dated_picture() {
-    const std::time_t now = std::time(nullptr);
-    char name[64];
-    std::strftime(name, sizeof name, "tessera-%Y%m%d-%H%M%S.png", std::localtime(&now));
-    return std::filesystem::current_path() / name;
+/// The same file as of `tessera render --buffers`, with the camera in its header.
+void write_snapshot(const std::filesystem::path& file, const std::filesystem::path& scene,
+                    const Snapshot& snapshot, const ReconstructionSettings& reconstruction) {
+    const Norm norm = has_gradients(snapshot.settings.method) ? reconstruction.norm : Norm::none;
+    ThreadPool pool(1, ThreadPool::Priority::background);
+    std::vector<ReconstructionStats> stats;
+    ExrFile picture = picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
+                                     {{norm}, reconstruction.alpha, !reconstruction.joint_colour, true}, pool, stats);
+    const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
+    picture.attributes["tessera:version"] = TESSERA_VERSION;
+    picture.attributes["tessera:settings"] =
+        settings_json({scene, {}, {}}, snapshot.settings, size, snapshot.spp, reconstruction.alpha).dump();
+    picture.attributes["tessera:camera"] = camera_json(snapshot.camera);
+    write_picture(file, picture);
 }
 
 /// What is done between frames: pictures of the window, and the log of how long things took.
@@ -84,7 +98,7 @@ private:
             return;
         state.save_picture = false;
         try {
-            const std::filesystem::path file = dated_picture();
+            const std::filesystem::path file = dated_file(".png");
             const ScreenPixels screen = read_screen(surface_.pixels());
             write_png(file, screen.size, screen.rgb);
             state.add_message(Message::Kind::note, "Saved " + file.string());
@@ -127,8 +141,21 @@ private:
     int exit_code_ = 0;
 };
 
+/// Scripts and screenshots are to be the same whoever plays them: they remember nothing.
+bool is_interactive(const ViewOptions& options) {
+    return options.screenshot.empty() && options.script.empty();
+}
+
+/// The size asked for, else that of the last window.
+glm::ivec2 window_size(const ViewOptions& options) {
+    std::string ignored; // the viewer tells
+    const glm::ivec2 last =
+        is_interactive(options) ? read_preferences(preferences_file(), ignored).window_size : glm::ivec2(0);
+    return options.window_size.value_or(last.x > 0 ? last : glm::ivec2(1440, 810));
+}
+
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
-    const SurfaceOptions wanted{title(options.scene.name), options.window_size, options.ui_scale,
+    const SurfaceOptions wanted{title(options.scene.name), window_size(options), options.ui_scale,
                                 !options.screenshot.empty() || !options.script.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
@@ -149,6 +176,9 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.log_controls = options.log_actions;
     result.reference = options.reference;
     result.open = options.open;
+    result.write_exr = write_snapshot;
+    if (is_interactive(options))
+        result.preferences = preferences_file();
     result.wake = [&surface] { surface.wake(); };
     return result;
 }

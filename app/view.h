@@ -24,10 +24,10 @@ struct ViewOptions {
     std::vector<PaneSettings> panes = default_panes(2);
     std::optional<int> max_depth; ///< otherwise the scene decides
     SizeChoice render_size;
-    int threads = 0; ///< of the renderer; 0: one a hardware thread
-    glm::ivec2 window_size{1440, 810};
-    float ui_scale = 0; ///< of text and controls; 0: as the display says
-    int spp = 0;        ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
+    int threads = 0;                       ///< of the renderer; 0: one a hardware thread
+    std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810
+    float ui_scale = 0;                    ///< of text and controls; 0: as the display says
+    int spp = 0;                           ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
     bool show_panel = true;
     std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
     std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end

@@ -55,6 +55,17 @@ constexpr BufferInfo table[] = {
     {Buffer::depth, "depth", "Depth",
      "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
      Family::first_hit, ColourMap::false_colour, "units", 1},
+    {Buffer::primal_variance, "primal_variance", "Variance of primal",
+     "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
+     "with "
+     "the samples. Pixels that share light err alike: their variances do not tell that.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
+    {Buffer::dx_variance, "dx_variance", "Variance of dx",
+     "Variance of the mean of gradient dx over the passes, the sum of red, green and blue; radiance squared.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
+    {Buffer::dy_variance, "dy_variance", "Variance of dy",
+     "Variance of the mean of gradient dy over the passes, the sum of red, green and blue; radiance squared.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
 };
 
 ErrorKind error_kind(Buffer buffer) {
@@ -120,6 +131,7 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
     case BufferFamily::first_hit:
         return nullptr;
     case BufferFamily::gradient:
+    case BufferFamily::variance:
         return snapshot.images;
     case BufferFamily::picture:
     case BufferFamily::error:
@@ -188,6 +200,12 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return snapshot.images->dy;
     case Buffer::very_direct:
         return snapshot.images->very_direct;
+    case Buffer::primal_variance:
+        return scratch = grey(snapshot.images->primal_variance);
+    case Buffer::dx_variance:
+        return scratch = grey(snapshot.images->dx_variance);
+    case Buffer::dy_variance:
+        return scratch = grey(snapshot.images->dy_variance);
     case Buffer::reconstruction:
         return final_picture(snapshot, scratch);
     default:
@@ -197,8 +215,12 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
 
 std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions) {
     const std::string name(paper_name(method));
-    if (family(buffer) == BufferFamily::gradient && !has_gradients(method))
+    const bool of_gradients = family(buffer) == BufferFamily::gradient ||
+                              (family(buffer) == BufferFamily::variance && buffer != Buffer::primal_variance);
+    if (of_gradients && !has_gradients(method))
         return name + " measures no gradients";
+    if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
+        return "A variance takes two passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt)
         return name + " shares no paths between pixels";
     if (family(buffer) != BufferFamily::error)
@@ -221,7 +243,23 @@ float top_value(Buffer buffer, const RgbImage& image) {
     return top > 0 ? rounded_up(top) : 1;
 }
 
+namespace {
+
+/// Five decades about the mean: the largest of all variances is an outlier's.
+ValueRange variance_range(const RgbImage& image) {
+    double sum = 0;
+    for (const Rgb& pixel : image)
+        sum += std::isfinite(pixel.r) ? static_cast<double>(pixel.r) : 0;
+    const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(image.size(), 1)));
+    const float top = mean > 0 ? rounded_up(mean * 10) : 1;
+    return {top * 1e-5f, top, true};
+}
+
+} // namespace
+
 ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions) {
+    if (family(buffer) == BufferFamily::variance)
+        return variance_range(image);
     if (family(buffer) != BufferFamily::error)
         return {0, top_value(buffer, image), false};
     const float mean = companions.reference && companions.reference->mean > 0 ? companions.reference->mean : 1;

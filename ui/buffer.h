@@ -15,7 +15,8 @@ namespace tessera {
 enum class Buffer {
     reconstruction, primal, dx, dy, reused, failed, very_direct,
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
-    albedo, normal, depth
+    albedo, normal, depth,
+    primal_variance, dx_variance, dy_variance
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -31,11 +32,15 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::error_relative,
                                          Buffer::albedo,
                                          Buffer::normal,
-                                         Buffer::depth};
+                                         Buffer::depth,
+                                         Buffer::primal_variance,
+                                         Buffer::dx_variance,
+                                         Buffer::dy_variance};
 
 /// What a buffer is made of.
 enum class BufferFamily {
     picture,   ///< a snapshot
+    variance,  ///< a snapshot of two or more passes; of gradients, of a method that measures these
     gradient,  ///< a snapshot of a method that measures gradients
     reuse,     ///< a snapshot of a method that shares paths
     error,     ///< a picture and a reference

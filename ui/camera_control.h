@@ -15,6 +15,9 @@ public:
     void set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius);
     void go_home();
 
+    /// Takes another camera; the place to come back to stays.
+    void put(const Camera& camera) { camera_ = camera; }
+
     const Camera& camera() const { return camera_; }
     glm::vec3 position() const;
     glm::vec3 forward() const; ///< unit

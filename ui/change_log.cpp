@@ -59,6 +59,12 @@ Values describe(const ViewerState& state) {
     values["theme"] = state.theme == Theme::dark ? "dark" : "light";
     values["ui scale"] = text(static_cast<double>(state.shown_ui_scale));
     values["magnifier"] = text(state.magnifier);
+    values["charts"] = text(state.show_charts);
+    values["tiles"] = text(state.show_tiles);
+    values["inspector"] = text(state.inspector.active);
+    if (const auto& sample = state.inspector.sample)
+        values["inspected"] = "pane " + std::to_string(sample->pane) + " pixel " +
+                              std::to_string(sample->pixel.x) + " " + std::to_string(sample->pixel.y);
     values["spp limit"] = std::to_string(state.pace.spp_limit);
     values["seconds limit"] = text(state.pace.seconds_limit);
     values["equal"] = state.pace.equal == Pace::Equal::time ? "time" : "spp";

@@ -33,14 +33,6 @@ int one_of(const std::string& name, const std::string& value, std::initializer_l
     throw std::invalid_argument(name + " is one of " + list + ", not " + value);
 }
 
-Buffer buffer_named(const std::string& value) {
-    for (Buffer buffer : all_buffers) {
-        if (short_name(buffer) == value)
-            return buffer;
-    }
-    throw std::invalid_argument("no buffer is called " + value);
-}
-
 Method method_named(const std::string& value) {
     if (const auto method = method_from_name(value))
         return *method;
@@ -114,6 +106,18 @@ constexpr Named table[] = {
      [](S& s, Text n, Text v) {
          s.magnifier = one_of(n, v, {"off", "on"}) == 1;
      }},
+    {"tiles",
+     [](S& s, Text n, Text v) {
+         s.show_tiles = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"inspector",
+     [](S& s, Text n, Text v) {
+         s.inspector.active = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"inspector_shows",
+     [](S& s, Text n, Text v) {
+         s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, {"to_pixel", "from_pixel"}));
+     }},
     {"mark_negative",
      [](S& s, Text n, Text v) {
          s.mark_negative = one_of(n, v, {"off", "on"}) == 1;
@@ -131,6 +135,14 @@ constexpr Named table[] = {
      [](S& s, Text n, Text v) {
          s.show_statistics = one_of(n, v, {"off", "on"}) == 1;
      }},
+    {"charts",
+     [](S& s, Text n, Text v) {
+         s.show_charts = one_of(n, v, {"off", "on"}) == 1;
+     }},
+    {"charts_axis",
+     [](S& s, Text n, Text v) {
+         s.charts_by_spp = one_of(n, v, {"seconds", "spp"}) == 1;
+     }},
     {"alpha",
      [](S& s, Text n, Text v) {
          s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, 0.001, 10));
@@ -147,6 +159,14 @@ constexpr Named table[] = {
 };
 
 } // namespace
+
+Buffer buffer_named(const std::string& value) {
+    for (Buffer buffer : all_buffers) {
+        if (short_name(buffer) == value)
+            return buffer;
+    }
+    throw std::invalid_argument("no buffer is called " + value);
+}
 
 void set_by_name(ViewerState& state, const std::string& name, const std::string& value) {
     const auto named =

@@ -6,8 +6,10 @@
 #include "ui/mouse.h"
 #include "ui/pane_header.h"
 #include "ui/pane_status.h"
+#include "ui/path_overlay.h"
 #include "ui/pixel_numbers.h"
 #include "ui/theme.h"
+#include "ui/tile_overlay.h"
 #include "ui/wipe.h"
 
 #include <algorithm>
@@ -135,6 +137,10 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         drag(index, frame, (mouse.position.x - mouse.previous.x) / frame.pixels_a_unit, tools);
         mouse.left = mouse.middle = mouse.right = false; // the wheel still works
     }
+    if (state.inspector.active && mouse.left && !mouse.ctrl && !mouse.shift) {
+        choose_sample(index, frame, state);
+        mouse.left = false;
+    }
     const glm::ivec2 image_size = state.request_size();
     apply_mouse(mouse, frame.placement, image_size, frame.pixels, state);
     frame.placement = state.view.place(image_size, frame.pixels);
@@ -144,6 +150,16 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
                         (mouse_position().x - frame.rect.min.x) / frame.rect.size().x};
     else if (state.cursor && state.cursor->pane == index)
         state.cursor.reset();
+}
+
+/// The pixel under the mouse is to be looked at.
+void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& state) {
+    const glm::vec2 place = frame.to_image(mouse_position());
+    if (place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
+        return;
+    const float share = (mouse_position().x - frame.rect.min.x) / frame.rect.size().x;
+    state.inspector.sample = {
+        showing_at(state, index, share).pane, glm::ivec2(place * glm::vec2(state.request_size())), {}};
 }
 
 PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {
@@ -194,6 +210,7 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
     ViewerState& state = tools.state;
     const ScreenRect& rect = frame.rect;
     const Showing left = showing_at(state, index, -1);
+    draw_shared(index, frame, state);
     draw_pixel_numbers(frame, index, state, tools.images);
     draw_comparison(frame, index, state);
     legend_ = {};
@@ -209,6 +226,22 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
         draw_magnifier_at_cursor(index, frame, tools);
     if (index == state.active_pane && state.panes.size() > 1 && !state.alone)
         ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
+}
+
+/// Who shares light with whom, on each side of a wipe's line.
+void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerState& state) {
+    const Showing left = showing_at(state, index, -1), right = showing_at(state, index, 2);
+    const auto draw = [&](const Showing& showing, const ScreenRect& clip) {
+        const auto& snapshot = state.panes[static_cast<std::size_t>(showing.pane)].snapshot;
+        if (state.show_tiles && snapshot)
+            draw_tiles(frame, clip, *snapshot, state.cursor ? std::optional(state.cursor->place) : std::nullopt);
+        draw_inspected_paths(frame, clip, showing.pane, state);
+    };
+    if (right == left)
+        return draw(left, frame.rect);
+    const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.wipe));
+    draw(left, {frame.rect.min, {middle, frame.rect.max.y}});
+    draw(right, {{middle, frame.rect.min.y}, frame.rect.max});
 }
 
 void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools) {

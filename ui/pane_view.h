@@ -33,10 +33,12 @@ private:
     void draw_picture(int index, const std::string& id, PaneTools& tools);
     PictureFrame place_picture(int index, const std::string& id, PaneTools& tools);
     void use_mouse(int index, PictureFrame& frame, PaneTools& tools);
+    static void choose_sample(int index, const PictureFrame& frame, ViewerState& state);
     Grip grip_at(int index, const PictureFrame& frame, PaneTools& tools) const;
     void drag(int index, const PictureFrame& frame, float by, PaneTools& tools) const;
     void draw_renditions(int index, const PictureFrame& frame, PaneTools& tools);
     void draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools);
+    static void draw_shared(int index, const PictureFrame& frame, const ViewerState& state);
     void draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools);
 
     Canvas canvas_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <imgui.h>
@@ -24,6 +25,19 @@ void draw_menu_item(Controls& controls, const Action& action, ViewerState& state
     controls.note((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
 }
 
+void draw_recent_scenes(Controls& controls, ViewerState& state) {
+    if (!state.recent_scenes.empty())
+        ImGui::Separator();
+    for (std::size_t i = 0; i < state.recent_scenes.size(); ++i) {
+        const std::string& file = state.recent_scenes[i];
+        const std::filesystem::path path(file);
+        const std::string name = (path.parent_path().filename() / path.filename()).string();
+        if (ImGui::MenuItem((name + "##recent" + std::to_string(i)).c_str()))
+            state.open_scene = file;
+        controls.note(("menu File/recent " + std::to_string(i)).c_str(), ("Opens " + file).c_str());
+    }
+}
+
 void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
     const bool open = ImGui::BeginMenu(menu);
     controls.note((std::string("menu ") + menu).c_str(), nullptr);
@@ -33,6 +47,8 @@ void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
         if (std::strcmp(action.menu, menu) == 0)
             draw_menu_item(controls, action, state);
     }
+    if (std::strcmp(menu, "File") == 0)
+        draw_recent_scenes(controls, state);
     ImGui::EndMenu();
 }
 
@@ -72,13 +88,22 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     controls.note("messages", "Shows or hides the messages (F2).");
 }
 
-void draw_message(const Message& message) {
+void draw_message(const Message& message, int index, Controls& controls, ViewerState& state) {
     const bool error = message.kind == Message::Kind::error;
     const char* icon = error ? icons().warning : icons().note;
     ImGui::PushStyleColor(ImGuiCol_Text, error ? colours::error : colours::dim_text);
     ImGui::TextUnformatted(*icon ? icon : error ? "error" : "note");
     ImGui::PopStyleColor();
     ImGui::SameLine();
+    if (message.sample) {
+        const std::string id = "inspect_message" + std::to_string(index);
+        if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector.")) {
+            state.inspector.active = true;
+            state.inspector.sample = message.sample;
+            state.show_messages = false;
+        }
+        ImGui::SameLine();
+    }
     ImGui::PushFont(mono_font());
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(message.text.c_str());
@@ -158,8 +183,9 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
             state.show_messages = false;
         // The buttons stay where they are while the list is scrolled.
         ImGui::BeginChild("list");
+        int index = 0;
         for (const Message& message : state.messages)
-            draw_message(message);
+            draw_message(message, index++, controls, state);
         if (std::exchange(state.scroll_to_newest, false))
             ImGui::SetScrollHereY(1.0f);
         ImGui::EndChild();

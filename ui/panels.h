@@ -25,8 +25,14 @@ void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerStat
 /// What the render on show in the active pane has counted.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
+/// Errors against time or samples, and the active pane's histogram.
+void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
+/// The vertices and shifts of the sample that is looked at; over the pictures.
+void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
 /// All actions and gestures, over everything.
 void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);

@@ -25,6 +25,8 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     refused_told_[pane] = snapshot->generation;
     state.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
                       Message::Origin::scene);
+    const RefusedSample& first = *snapshot->counters.first_refused;
+    state.messages.back().sample = SampleChoice{static_cast<int>(pane), {first.x, first.y}, first.pass};
 }
 
 void SessionLink::send(ViewerState& state) {

@@ -202,6 +202,10 @@ void draw_display_settings(Controls& controls, ViewerState& state) {
         "Pixels with a negative red, green or blue are blue (U). NaN is always magenta, infinity cyan.");
     controls.toggle("magnifier", "Magnifier", state.magnifier,
                     "Enlarges the pixels around the mouse, in all panes (L).");
+    controls.toggle(
+        "tiles", "Tiles", state.show_tiles,
+        "Which pixels share their paths in the newest pass (X). Lines closer than 4 units are left out: "
+        "zoom in with Ctrl + wheel.");
 }
 
 void draw_contents(Controls& controls, ViewerState& state) {

@@ -1,14 +1,10 @@
 #include "ui/viewer.h"
 
-#include "render/load/camera_file.h"
 #include "ui/actions.h"
-#include "ui/camera_store.h"
 #include "ui/panels.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <utility>
 
@@ -19,8 +15,7 @@ namespace tessera {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr float longest_step = 0.1f;    // seconds that a held key moves in one frame at the most
-constexpr float settings_share = 0.45f; // of the height beside the pictures, where statistics lie below
+constexpr float longest_step = 0.1f; // seconds that a held key moves in one frame at the most
 
 /// Panes beside each other; from three on in two rows.
 ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
@@ -29,18 +24,6 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
     const glm::vec2 cell = all.size() / glm::vec2(columns, rows);
     const glm::vec2 min = all.min + cell * glm::vec2(pane % columns, pane / columns);
     return {glm::floor(min), glm::floor(min + cell)};
-}
-
-/// The first file with the extension, in either case; null: there is none.
-const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
-    const auto has_it = [&](const std::filesystem::path& file) {
-        std::string own = file.extension().string();
-        std::transform(own.begin(), own.end(), own.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        return own == extension;
-    };
-    const auto found = std::find_if(files.begin(), files.end(), has_it);
-    return found == files.end() ? nullptr : &*found;
 }
 
 /// Whatever way it is named.
@@ -59,33 +42,14 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.pace.spp_limit = options_.spp_limit;
     state_.show_panel = options_.show_panel;
     state_.reference_file = options_.reference.string();
+    take_preferences();
 }
 
-// --- loading ---
-
-void Viewer::load(std::string name, SceneLoader loader, std::filesystem::path file) {
-    asked_ = {std::move(name), std::move(file), std::move(loader)};
-    load_.start(asked_, options_.wake);
+Viewer::~Viewer() {
+    remember();
 }
 
-void Viewer::reload() {
-    const SceneOrigin origin = load_.running() || !state_.scene ? asked_ : shown_;
-    if (origin.loader)
-        load(origin.name, origin.loader, origin.file);
-}
-
-void Viewer::drop(const std::vector<std::filesystem::path>& files) {
-    const std::filesystem::path* scene = options_.open ? find_file(files, ".xml") : nullptr;
-    const std::filesystem::path* reference = find_file(files, ".exr");
-    if (scene)
-        load(scene->string(), options_.open(*scene), *scene);
-    if (reference)
-        state_.reference_file = reference->string();
-    if (!files.empty() && options_.open && !scene && !reference)
-        state_.add_message(Message::Kind::error, files.front().string() +
-                                                     ": this is no scene; what can be dropped here is a Mitsuba "
-                                                     "scene, an .xml file, or a reference, an .exr file");
-}
+// --- a new scene ---
 
 void Viewer::take_scene() {
     std::optional<SceneLoadResult> result = load_.poll();
@@ -111,6 +75,10 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     shown_ = origin;
     state_.scene_name = origin.name;
     ++state_.scenes_shown;
+    if (!origin.file.empty())
+        preferences_.add_recent(origin.file);
+    state_.recent_scenes = preferences_.recent_scenes;
+    remember();
     if (!again || !(before->camera() == state_.scene->camera())) {
         state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
         state_.view.fit();
@@ -134,27 +102,6 @@ void Viewer::read_keyboard() {
     flying_ = !io.WantTextInput && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
-void Viewer::fulfil_wishes() {
-    if (std::exchange(state_.reload, false))
-        reload();
-    if (std::exchange(state_.save_camera, false) && state_.scene)
-        save_camera();
-    if (std::exchange(state_.copy_camera, false) && state_.scene) {
-        ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
-        state_.add_message(Message::Kind::note,
-                           "The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
-    }
-}
-
-void Viewer::save_camera() {
-    try {
-        const std::filesystem::path file = store_camera(shown_.file, state_.camera.camera());
-        state_.add_message(Message::Kind::note, "Saved the camera to " + file.string());
-    } catch (const std::exception& e) {
-        state_.add_message(Message::Kind::error, e.what());
-    }
-}
-
 // --- drawing ---
 
 void Viewer::draw_frame() {
@@ -165,10 +112,11 @@ void Viewer::draw_frame() {
     read_keyboard();
 
     const ImVec2 display = ImGui::GetIO().DisplaySize;
+    state_.window_size = {display.x, display.y};
     const float top = draw_menu_bar(controls_, state_);
     const float panel_width = std::floor(std::min(ImGui::GetFontSize() * 20, display.x * 0.5f));
     ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
-    if (state_.show_panel || state_.show_statistics) {
+    if (state_.show_panel || state_.show_statistics || state_.show_charts) {
         pictures.max.x -= panel_width;
         draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
     }
@@ -177,17 +125,30 @@ void Viewer::draw_frame() {
     fulfil_wishes();
     link_.send(state_);
     companion_jobs_.update(state_, options_.wake);
+    inspection_job_.update(state_, options_.wake);
+    chart_job_.update(state_, options_.wake);
     log_changes();
 }
 
-/// Settings above, statistics below: both scroll, and either may have all the room.
+/// Settings above, statistics and charts below: all scroll, and share the room evenly.
 void Viewer::draw_side(const ScreenRect& where) {
-    const float middle = std::floor(glm::mix(where.min.y, where.max.y, settings_share));
-    const float settings_end = !state_.show_panel ? where.min.y : state_.show_statistics ? middle : where.max.y;
+    const int panels = state_.show_panel + state_.show_statistics + state_.show_charts;
+    int drawn = 0;
+    const auto next = [&] {
+        const auto end = [&](int n) {
+            return std::floor(
+                glm::mix(where.min.y, where.max.y, static_cast<float>(n) / static_cast<float>(panels)));
+        };
+        const ScreenRect rect{{where.min.x, end(drawn)}, {where.max.x, end(drawn + 1)}};
+        ++drawn;
+        return rect;
+    };
     if (state_.show_panel)
-        draw_settings_panel({where.min, {where.max.x, settings_end}}, controls_, state_);
+        draw_settings_panel(next(), controls_, state_);
     if (state_.show_statistics)
-        draw_statistics_panel({{where.min.x, settings_end}, where.max}, controls_, state_);
+        draw_statistics_panel(next(), controls_, state_);
+    if (state_.show_charts)
+        draw_charts_panel(next(), controls_, state_);
 }
 
 void Viewer::draw_panes(const ScreenRect& where) {
@@ -206,10 +167,12 @@ void Viewer::draw_panes(const ScreenRect& where) {
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
-    if (state_.show_messages) {
-        const float height = std::min(ImGui::GetFontSize() * 11, pictures.size().y);
-        draw_message_panel({{pictures.min.x, pictures.max.y - height}, pictures.max}, controls_, state_);
-    }
+    const float height = std::min(ImGui::GetFontSize() * 11, pictures.size().y);
+    const ScreenRect bottom{{pictures.min.x, pictures.max.y - height}, pictures.max};
+    if (state_.inspector.active && !state_.show_messages)
+        draw_inspector_panel(bottom, controls_, state_);
+    if (state_.show_messages)
+        draw_message_panel(bottom, controls_, state_);
     if (state_.show_help) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         draw_help({display.x, display.y}, controls_, state_);

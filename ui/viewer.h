@@ -2,9 +2,12 @@
 
 #include "render/session/session.h"
 #include "ui/change_log.h"
+#include "ui/chart_job.h"
 #include "ui/companion_jobs.h"
+#include "ui/inspection_job.h"
 #include "ui/keyboard.h"
 #include "ui/pane_view.h"
+#include "ui/preferences.h"
 #include "ui/scene_load.h"
 #include "ui/session_link.h"
 
@@ -17,6 +20,12 @@
 
 namespace tessera {
 
+/// Writes a snapshot with its layers, camera and settings to an EXR file; called from a thread other than the
+/// UI's. Throws std::exception, whose what() is shown.
+using SnapshotWriter =
+    std::function<void(const std::filesystem::path& file, const std::filesystem::path& scene_file,
+                       const Snapshot& snapshot, const ReconstructionSettings& reconstruction)>;
+
 struct ViewerOptions {
     std::vector<PaneSettings> panes; ///< what each pane starts with; 1 to most_panes
     std::optional<int> max_depth;    ///< otherwise the scene decides
@@ -27,6 +36,8 @@ struct ViewerOptions {
     bool log_controls = false;                   ///< also where each control lies
     std::filesystem::path reference;             ///< EXR file to measure errors against; empty: none
     SceneOpener open;                            ///< for files dropped on the window; may be empty
+    SnapshotWriter write_exr;                    ///< may be empty
+    std::filesystem::path preferences;           ///< file that remembers the layout; empty: none does
     std::function<void()> wake;                  ///< called from other threads when there is something new to draw
 };
 
@@ -35,6 +46,7 @@ struct ViewerOptions {
 class Viewer {
 public:
     Viewer(Session& session, ViewerOptions options);
+    ~Viewer(); ///< remembers the layout
 
     /// Loads a scene in the background; the old one stays until it is there. One that is still being loaded is
     /// given up. `file` is where it comes from, empty: from no file.
@@ -68,7 +80,12 @@ private:
     void take_scene();
     void show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin);
     void fulfil_wishes();
-    void save_camera();
+    void load_settings(const std::filesystem::path& file);
+    void fulfil_saves();
+    void save(const std::function<std::string()>& write);
+    void save_exr();
+    void take_preferences();
+    void remember();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);
@@ -84,6 +101,10 @@ private:
     PaneImages images_;
     std::array<PaneView, most_panes> pane_views_;
     CompanionJobs companion_jobs_;
+    InspectionJob inspection_job_;
+    ChartJob chart_job_;
+    BackgroundJob<std::string> save_job_; // what to say when it is done
+    Preferences preferences_;             // as in the file
     SceneLoad load_;
     SceneOrigin shown_; // where the scene on show is from
     SceneOrigin asked_; // the last that was to be loaded

@@ -80,7 +80,7 @@ glm::ivec2 ViewerState::request_size() const {
 void ViewerState::add_message(Message::Kind kind, std::string text, Message::Origin origin) {
     if (messages.size() >= most_messages)
         messages.erase(messages.begin());
-    messages.push_back({kind, std::move(text), origin});
+    messages.push_back({kind, std::move(text), origin, {}});
     if (kind == Message::Kind::error)
         show_messages = scroll_to_newest = true;
 }

@@ -1,15 +1,19 @@
 #pragma once
 
+#include "render/method/inspection.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "ui/buffer.h"
 #include "ui/camera_control.h"
+#include "ui/error_history.h"
+#include "ui/histogram.h"
 #include "ui/image_view.h"
 #include "ui/render_size.h"
 #include "ui/theme.h"
 #include "ui/tone.h"
 #include "ui/value_range.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -51,6 +55,41 @@ struct PaneState {
     glm::ivec2 canvas_size{0};                ///< pixels of the place for its picture, as last drawn
 };
 
+/// What charts show of a pane.
+struct PaneChart {
+    std::uint64_t generation = 0;               ///< of the request whose errors these are, ...
+    std::shared_ptr<const Reference> reference; ///< ... against this
+    ErrorHistory errors;
+    std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none yet
+};
+
+/// One sample of one pixel that is to be looked at.
+struct SampleChoice {
+    int pane = 0;
+    glm::ivec2 pixel{0};
+    std::optional<int> pass; ///< from 0; empty: the newest
+
+    bool operator==(const SampleChoice&) const = default;
+};
+
+/// The sample that is looked at, and what is shown of it.
+struct Inspector {
+    enum class Direction {
+        to_pixel,   ///< which base paths reach the pixel
+        from_pixel, ///< where the pixel's own path is taken
+    };
+    bool active = false; ///< the mouse chooses a pixel
+    std::optional<SampleChoice> sample;
+    Direction direction = Direction::to_pixel;
+    bool follows = false; ///< from pass to pass; otherwise the one that was the newest stays
+    int marked = -1;      ///< the row of the table under the mouse; -1: none
+
+    /// The newest that has been found out; null: nothing yet.
+    std::shared_ptr<const Inspection> inspection;
+    int pane = 0;                 ///< whose it is, ...
+    std::uint64_t generation = 0; ///< ... and of which request
+};
+
 struct Message {
     enum class Kind { note, error };
     /// What it is about: a scene's messages go when another takes its place, a failed load's at the next load.
@@ -58,6 +97,7 @@ struct Message {
     Kind kind;
     std::string text;
     Origin origin = Origin::viewer;
+    std::optional<SampleChoice> sample{}; ///< that it is about
 };
 
 /// PT, G-PT, PR and G-PR, or fewer of them: what so many panes start with.
@@ -78,8 +118,9 @@ struct ViewerState {
     int scenes_shown = 0; ///< so far, reloaded ones counted again
     std::string loading;  ///< what of the next scene is being loaded; empty: none is
 
-    Companions companions;      ///< what some buffers need
-    std::string reference_file; ///< a wish: to be loaded as the reference
+    Companions companions;                  ///< what some buffers need
+    std::vector<std::string> recent_scenes; ///< files, the newest first
+    std::string reference_file;             ///< a wish: to be loaded as the reference
 
     std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
     std::vector<PaneSettings> spare_panes; ///< settings of panes taken away, the last one first
@@ -93,6 +134,8 @@ struct ViewerState {
     Tone tone;
     bool mark_negative = false; ///< as NaN and infinity always are
     bool magnifier = false;
+    bool show_tiles = false;
+    Inspector inspector;
     float wipe = 0.5f;    ///< where wiped pictures are divided, a share of a pane's width
     bool flicker = false; ///< while a key is held: the active pane shows the one that it is compared with
     std::map<Buffer, ValueRange> ranges; ///< of false colours, where the user has set them
@@ -101,10 +144,14 @@ struct ViewerState {
     bool paused = false;
 
     Theme theme = Theme::dark;
+    glm::ivec2 window_size{0};     ///< as last drawn, screen units
     std::optional<float> ui_scale; ///< of text and controls; empty: as the display says
     float shown_ui_scale = 1;      ///< at which this frame is drawn
     bool show_panel = true;
     bool show_statistics = false;
+    bool show_charts = false;
+    bool charts_by_spp = false; ///< errors against samples; otherwise against seconds
+    std::array<PaneChart, most_panes> charts;
     bool show_help = false;
     bool show_messages = false;
     std::vector<Message> messages;
@@ -117,6 +164,10 @@ struct ViewerState {
     bool save_camera = false;
     bool copy_camera = false;
     bool save_picture = false;
+    bool save_charts = false;
+    bool save_exr = false; ///< of the active pane
+    bool save_settings = false;
+    std::string open_scene; ///< a file
     bool quit = false;
 
     PaneState& active() { return panes[static_cast<std::size_t>(active_pane)]; }

@@ -1,8 +1,22 @@
 #include "render/bsdf/bsdf.h"
 
 #include <cmath>
+#include <iterator>
 
 namespace tessera {
+
+namespace {
+
+constexpr std::string_view kind_names[] = {"diffuse",    "roughdiffuse",    "roughconductor", "conductor",
+                                           "dielectric", "roughdielectric", "thindielectric", "plastic",
+                                           "phong",      "mixture",         "coating"}; // of Bsdf::kind
+static_assert(std::size(kind_names) == std::variant_size_v<decltype(Bsdf::kind)>);
+
+} // namespace
+
+std::string_view kind_name(const Bsdf& bsdf) {
+    return kind_names[bsdf.kind.index()];
+}
 
 float Bsdf::shadowing(glm::vec3 to_next) const {
     const float cosine = glm::dot(unbent_normal, to_next);

@@ -12,6 +12,7 @@
 #include "render/bsdf/scattering.h"
 
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 
@@ -81,6 +82,9 @@ private:
     float shadowing(glm::vec3 to_next) const;
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
+
+/// What kind of BSDF it is, in the words of scene files: "diffuse", "roughconductor", ...
+std::string_view kind_name(const Bsdf& bsdf);
 
 // Paths are made of these: plain numbers, and no more of them than a plastic takes. (libstdc++ visits up to 11
 // alternatives by a switch, more through a table of pointers.)

@@ -7,7 +7,7 @@ namespace {
 /// One tile: T is the tile and one more column and row, so that both pixels of every gradient are in it; without
 /// them the gradients across tile borders would be biased [Bauszat 2017, 3.2].
 void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) {
-    const PixelRect set = PixelRect{inner.x0, inner.y0, inner.x1 + 1, inner.y1 + 1}.clipped(pass.size);
+    const PixelRect set = inner.with_halo(pass.size);
     worker.set.clear();
     worker.set.add(set);
     share_light(pass, pass.settings.roulette, worker);
@@ -32,9 +32,8 @@ void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) 
 /// gradients are the differences of these shares: sum of (c_n - c_m) / R.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer,
-                      PixelRect{area.x0, area.y0, area.x1 + 1, area.y1 + 1}.clipped(pass.size));
-    for_each_part(pass, block, [&](PixelRect inner) { render_tile(pass, inner, worker, film); });
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
+    pass.grid.for_each_part(block, [&](PixelRect inner) { render_tile(pass, inner, worker, film); });
 }
 
 } // namespace tessera

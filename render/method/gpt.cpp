@@ -21,8 +21,7 @@ Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker, PixelSample& samp
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
-    worker.base.trace(pass, worker.tracer,
-                      PixelRect{area.x0, area.y0, area.x1 + 1, area.y1 + 1}.clipped(pass.size));
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);

@@ -1,7 +1,5 @@
 #include "render/method/pass.h"
 
-#include "render/method/reuse_roulette.h"
-
 #include <cmath>
 
 namespace tessera {
@@ -15,27 +13,12 @@ glm::vec2 subpixel_of(std::uint64_t seed, int index) {
     return {in_unit(start.x + index * 0.7548776662466927), in_unit(start.y + index * 0.5698402909980532)};
 }
 
-glm::ivec2 tile_origin_of(const RenderSettings& settings, int index) {
-    if (!settings.jitter)
-        return {0, 0};
-    const Random random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(index));
-    return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
-}
-
 } // namespace
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
-           const ReusePlan& plan_, int index_)
-    : scene(scene_), settings(settings_), plan(plan_), size(size_), index(index_),
-      tile_origin(tile_origin_of(settings_, index_)), projection_(camera, size_),
-      subpixel_(subpixel_of(settings_.seed, index_)) {}
-
-Random Pass::tile_random(PixelRect tile) const {
-    // Tiles may begin left of and above the image.
-    const int number = (tile.y0 + settings.tile) * (size.x + settings.tile) + tile.x0 + settings.tile;
-    return Random(settings.seed ^ 0x7469'6c65'7300'0000u, static_cast<std::uint32_t>(number),
-                  static_cast<std::uint32_t>(index));
-}
+           const ReusePlan& plan, int index_)
+    : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
+      projection_(camera, size_), subpixel_(subpixel_of(settings_.seed, index_)) {}
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
     rect_ = rect;
@@ -51,7 +34,7 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
     const int tile = pass.settings.tile;
     const int edge = tile * std::max(1, usual_edge / tile);
-    const glm::ivec2 origin = pass.tile_origin;
+    const glm::ivec2 origin = pass.grid.origin;
     std::vector<PixelRect> blocks;
     for (int y = origin.y; y < pass.size.y; y += edge)
         for (int x = origin.x; x < pass.size.x; x += edge)
@@ -81,26 +64,20 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
     path.reset(path.random, path.light_samples());
 }
 
-void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
-    SamplingSet& set = worker.set;
-    set.collect(worker.base);
-    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
-    worker.reuse.begin(set.paths);
-    for (int k = 0; k < set.size(); ++k) {
-        const BasePath& path = *set.paths[static_cast<std::size_t>(k)];
-        const Rgb light = worker.reuse.shared_light(path);
-        float scale = 0;
-        if (is_black(light)) {
-            ++worker.counters.dark_paths;
-        } else if (const float q = roulette.survival(light); path.random.draw(0, Draw::reuse_survival) < q) {
-            ++worker.counters.reused_paths;
-            scale = 1 / q;
-        } else {
-            ++worker.counters.skipped_paths;
-        }
-        worker.reuse.share(k, scale, set.radiance);
-        set.count(worker.reuse.outcomes(), k);
+float reuse_scale(const BasePath& path, const ReuseRoulette& roulette, Worker& worker) {
+    const Rgb light = worker.reuse.shared_light(path);
+    if (is_black(light)) {
+        ++worker.counters.dark_paths;
+        return 0;
     }
+    const float q = roulette.survival(light);
+    const bool survives = path.random.draw(0, Draw::reuse_survival) < q;
+    ++(survives ? worker.counters.reused_paths : worker.counters.skipped_paths);
+    return survives ? 1 / q : 0;
+}
+
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
+    share_light(pass, kind, worker, [](int, float) {});
 }
 
 } // namespace tessera

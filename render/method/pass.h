@@ -1,9 +1,10 @@
 #pragma once
 
 #include "render/film.h"
-#include "render/method/reuse_plan.h"
+#include "render/method/reuse_roulette.h"
 #include "render/method/sampling_set.h"
 #include "render/method/settings.h"
+#include "render/method/tile_grid.h"
 #include "render/path/path_reuse.h"
 
 #include <vector>
@@ -19,13 +20,9 @@ public:
 
     const Scene& scene;
     const RenderSettings& settings;
-    const ReusePlan& plan;
     const glm::ivec2 size;
     const int index;
-
-    /// Where the tile grid begins, in (-tile, 0]: with jitter, moved every pass, so that no pixel is always at a
-    /// tile's edge.
-    const glm::ivec2 tile_origin;
+    const TileGrid grid;
 
     /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that
     /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
@@ -36,9 +33,6 @@ public:
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
                       static_cast<std::uint32_t>(index));
     }
-
-    /// Numbers for decisions about a tile, not cut off, other ones than those of any path.
-    Random tile_random(PixelRect tile) const;
 
 private:
     Projection projection_;
@@ -83,26 +77,34 @@ std::vector<PixelRect> blocks_of(const Pass& pass);
 /// Renders one block of blocks_of() into the film with the pass's method.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
-/// Calls `render(part)` for the squares, not empty, into which the plan cuts the tiles of a block: rectangles of
-/// pixels of the image.
-template <class Render>
-void for_each_part(const Pass& pass, PixelRect block, Render&& render) {
-    for_each_square(block, pass.settings.tile, [&](PixelRect tile) {
-        for_each_square(tile, pass.plan.part_edge(tile), [&](PixelRect part) {
-            if (const PixelRect inner = part.clipped(pass.size); !inner.empty())
-                render(inner);
-        });
-    });
-}
-
 /// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
 /// would spoil all pixels that share it.
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
+
+/// One over the probability with which the path is reused; 0: it is not. Counted.
+float reuse_scale(const BasePath& path, const ReuseRoulette& roulette, Worker& worker);
 
 /// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
 /// holds what each has got.
 /// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
 ///              a path that is not adds nothing anywhere [Bauszat 2017, 3.3]
+/// @param watch is called as watch(k, scale) when the light of path k is shared out, with PathReuse::share's
+/// scale;
+///              worker.reuse then knows how that went
+template <class Watch>
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
+    SamplingSet& set = worker.set;
+    set.collect(worker.base);
+    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
+    worker.reuse.begin(set.paths);
+    for (int k = 0; k < set.size(); ++k) {
+        const float scale = reuse_scale(*set.paths[static_cast<std::size_t>(k)], roulette, worker);
+        worker.reuse.share(k, scale, set.radiance);
+        set.count(worker.reuse.outcomes(), k);
+        watch(k, scale);
+    }
+}
+/// The same, unwatched.
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
 
 // The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.

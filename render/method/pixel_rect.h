@@ -16,6 +16,10 @@ struct PixelRect {
     PixelRect clipped(glm::ivec2 size) const {
         return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
     }
+    /// With one more column and row, where the image of that size has them: the neighbours to which forward
+    /// gradients lead.
+    PixelRect with_halo(glm::ivec2 size) const { return PixelRect{x0, y0, x1 + 1, y1 + 1}.clipped(size); }
+    bool contains(glm::ivec2 p) const { return p.x >= x0 && p.y >= y0 && p.x < x1 && p.y < y1; }
 };
 
 /// Calls `visit(square)` for the squares of a given edge that fill a rectangle, row by row; the last ones are cut

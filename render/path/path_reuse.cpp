@@ -23,6 +23,8 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance) {
     tried_ = true;
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()));
     slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
+    if (trace_)
+        trace_->reset(paths_.offsets());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
     judge(base);
     balance(base, scale, radiance);
@@ -58,6 +60,8 @@ void PathReuse::replay_to_all(int base) {
             continue;
         replay_base_path(tracer_, offset[0].vertex, path.random, light_.vertex_of(light_.last_alive()) + 1,
                          replayed_);
+        for (int i = 1; trace_ && i < replayed_.size(); ++i)
+            trace_->add(m, replayed_[i].vertex.position);
         replayed_light_.reset(replayed_, settings_);
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))
@@ -121,11 +125,11 @@ void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
         if (!is_shared(slot))
             continue;
-        const float weight = scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot);
-        radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * weight;
+        const float factor = weight(slot, scale);
+        radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * factor;
         const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < paths_.offsets(); ++m)
-            radiance[static_cast<std::size_t>(m)] += row.value[m] * weight;
+            radiance[static_cast<std::size_t>(m)] += row.value[m] * factor;
     }
 }
 

@@ -41,6 +41,22 @@ public:
     /// shift was tried.
     std::span<const ShiftOutcome> outcomes() const { return {outcomes_.values.data(), tried_ ? set_.size() : 0}; }
 
+    // --- what became of the light paths of the last share(), for who wants to look; only where a shift was tried
+    // ---
+
+    const LightPaths& light_paths() const { return light_; }
+    const OffsetPaths& offset_paths() const { return paths_; }
+    /// 1/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
+    /// shared out.
+    float weight(int slot, float scale) const {
+        return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot) : 0;
+    }
+    /// From now on the vertices of offset paths are noted in `trace`, anew at each share(); null: no longer.
+    void record(OffsetTrace* trace) {
+        trace_ = trace;
+        shift_.record(trace);
+    }
+
 private:
     bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
     void shift_to_all(int base);
@@ -68,6 +84,7 @@ private:
         slot_scale_; ///< one over the probability that the roulette on small weights kept it; 0: it did not
     OutcomeLanes outcomes_;
     bool tried_ = false;
+    OffsetTrace* trace_ = nullptr;
     LaneMask arrived_; ///< where anything came through
     LaneMask lost_;    ///< where an edge was blocked
 };

@@ -13,6 +13,14 @@ namespace tessera {
 /// How a shift went, a lane a pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
 
+/// Where the vertices of offset paths beyond the first lie, for who wants to draw them: a list a pixel.
+struct OffsetTrace {
+    std::vector<std::vector<glm::vec3>> vertices;
+
+    void reset(int offsets) { vertices.assign(static_cast<std::size_t>(offsets), {}); }
+    void add(int m, glm::vec3 position) { vertices[static_cast<std::size_t>(m)].push_back(position); }
+};
+
 /// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
 /// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
 /// are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. The base path alone decides on every
@@ -28,6 +36,9 @@ public:
     /// @param outcomes receives ok, or why the first light path that failed did so
     void run(const BasePath& base, const LightPaths& light, const OffsetVertices& primary, int self,
              OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
+
+    /// From now on vertices are added to `trace`; null: no longer.
+    void record(OffsetTrace* trace) { trace_ = trace; }
 
 private:
     /// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single
@@ -75,6 +86,7 @@ private:
     OffsetPaths* paths_ = nullptr;
     PendingEdges* edges_ = nullptr;
     OutcomeLanes* outcomes_ = nullptr;
+    OffsetTrace* trace_ = nullptr;
 
     // The offsets.
     const OffsetVertices* y_ = nullptr; ///< y_i

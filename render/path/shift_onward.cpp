@@ -152,6 +152,9 @@ bool Shift::bounce(int i) {
     for (int m = 0; m < count; ++m)
         if (active_[m])
             moved_.set(m, moved_vertices_[static_cast<std::size_t>(m)]);
+    for (int m = 0; trace_ && m < count; ++m)
+        if (active_[m])
+            trace_->add(m, moved_.position[m]);
     y_ = &moved_;
     return any;
 }

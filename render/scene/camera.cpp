@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace tessera {
@@ -51,6 +52,10 @@ Projection::Projection(const Camera& camera, glm::ivec2 size) : origin_(camera.t
     corner_ = to_world * glm::vec3(w, w / aspect, 1);
     right_ = to_world * glm::vec3(-2 * w / static_cast<float>(size.x), 0, 0);
     down_ = to_world * glm::vec3(0, -2 * w / aspect / static_cast<float>(size.y), 0);
+}
+
+glm::vec3 Projection::project(glm::vec3 point) const {
+    return glm::inverse(glm::mat3(right_, down_, corner_)) * (point - origin_);
 }
 
 Ray Camera::ray(glm::vec2 pixel, glm::ivec2 size) const {

@@ -40,6 +40,10 @@ public:
         return {origin_, glm::normalize(corner_ + pixel.x * right_ + pixel.y * down_)};
     }
 
+    /// Where a point is seen: pixels from the top left corner times w, and w, which is linear in the point and
+    /// above 0 in front of the camera.
+    glm::vec3 project(glm::vec3 point) const;
+
 private:
     glm::vec3 origin_;
     glm::vec3 corner_;       // direction of the top left corner

@@ -36,7 +36,7 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
                const RenderSettings& settings)
     : scene_(std::move(scene)), camera_(camera), size_(size), settings_(settings),
       film_(checked("image width", size.x), checked("image height", size.y), buffers_of(settings)),
-      plan_(size, settings_) {
+      plan_(size, settings_), newest_plan_(plan_) {
     check(settings);
 }
 
@@ -72,6 +72,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
     }
+    newest_plan_ = plan_;
     plan_.learn(film_.base_luminance());
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++spp_;

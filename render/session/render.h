@@ -25,11 +25,14 @@ public:
     double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
+    const Camera& camera() const { return camera_; }
     GradientImages images() const { return with_patch(film_.means(spp_)); }
     /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
     /// counts stay.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
+    /// What the newest pass knew of where tiles are to be cut.
+    const ReusePlan& newest_plan() const { return newest_plan_; }
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
     /// filled with this goes on with the same bits.
     Memory memory();
@@ -43,6 +46,7 @@ private:
     RenderSettings settings_;
     Film film_;
     ReusePlan plan_;
+    ReusePlan newest_plan_; // plan_ before it learnt from the newest pass
     Counters counters_;
     int spp_ = 0;
     double seconds_ = 0;

@@ -245,6 +245,8 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->seconds = render.seconds();
     snapshot->cpu_seconds = render.cpu_seconds();
     snapshot->settings = render.settings();
+    snapshot->camera = render.camera();
+    snapshot->plan = std::make_shared<ReusePlan>(render.newest_plan());
     snapshot->counters = render.counters();
     snapshot->images = std::make_shared<GradientImages>(render.images());
     if (ReuseMaps maps = render.reuse_maps(); !maps.reused.empty())
@@ -256,6 +258,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
         if (pane.latest && pane.latest->generation == generation && !pane.latest->coarse) {
             snapshot->reconstruction = pane.latest->reconstruction;
             snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
+            snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
         }
         pane.latest = std::move(snapshot);
     }

@@ -60,6 +60,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
             auto updated = std::make_shared<Snapshot>(*pane.latest);
             updated->reconstruction = std::move(result);
             updated->reconstruction_spp = snapshot.spp;
+            updated->reconstruction_seconds = snapshot.seconds;
             pane.latest = std::move(updated);
         }
     }

@@ -3,8 +3,10 @@
 #include "recon/gradient_images.h"
 #include "recon/reconstruct.h"
 #include "render/film.h"
+#include "render/method/reuse_plan.h"
 #include "render/method/settings.h"
 #include "render/path/counters.h"
+#include "render/scene/camera.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,13 +21,16 @@ struct Snapshot {
     double seconds = 0;           ///< wall time spent on this pane's passes
     double cpu_seconds = 0;       ///< CPU time of all workers for these passes
     RenderSettings settings;
+    Camera camera;
+    std::shared_ptr<const ReusePlan> plan; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
     Counters counters;
     std::shared_ptr<const GradientImages> images;
     std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)
 
     /// Of the newest pass that has been reconstructed, perhaps an older one than `images`; empty at first.
     std::shared_ptr<const Reconstruction> reconstruction;
-    int reconstruction_spp = 0; ///< the samples a pixel that it stands on
+    int reconstruction_spp = 0;        ///< the samples a pixel that it stands on, ...
+    double reconstruction_seconds = 0; ///< ... and the wall time spent on these
 };
 
 } // namespace tessera

@@ -178,7 +178,7 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
     for (auto _ : state)
         for (std::size_t i = 0; i < base.size(); ++i) {
             std::swap(worker.base, base[i]);
-            for_each_part(stage.pass, stage.blocks[i], [&](PixelRect part) {
+            stage.pass.grid.for_each_part(stage.blocks[i], [&](PixelRect part) {
                 worker.set.clear();
                 worker.set.add(stage.traced(part));
                 tessera::share_light(stage.pass, roulette, worker);

@@ -17,6 +17,7 @@ fi
 
 work=$(mktemp -d)
 log=$work/log
+export XDG_CONFIG_HOME=$work/config # remembers nothing of the user's, and leaves nothing there
 trap 'kill $viewer 2>/dev/null; rm -rf "$work"' EXIT
 
 fail() {

@@ -1,4 +1,4 @@
-#include "app/chart_axis.h"
+#include "ui/chart_axis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,140 @@
+// One sample of one pixel, looked at: the same numbers as in the picture.
+#include "render/method/inspection.h"
+#include "render/session/render.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(23, 14);
+
+struct Case {
+    const char* name;
+    Method method;
+    ShiftKind shift = ShiftKind::half_vector;
+    Pattern pattern = Pattern::tile;
+};
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
+
+class Inspected : public testing::TestWithParam<Case> {
+protected:
+    Inspected() {
+        settings.method = GetParam().method;
+        settings.shift = GetParam().shift;
+        settings.pattern = GetParam().pattern;
+        settings.tile = 5;
+        settings.max_depth = 5;
+        settings.seed = 3;
+    }
+    std::shared_ptr<const Scene> scene = glossy_room();
+    RenderSettings settings;
+    ThreadPool pool{1};
+
+    static std::shared_ptr<const Scene> glossy_room() {
+        SceneBuilder room;
+        const int white = room.diffuse(Rgb(0.75f));
+        room.room({white, room.conductor(0.2f), white, room.mirror(), white});
+        room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
+        room.sphere({0.3f, -0.55f, 0.1f}, 0.45f, room.glass());
+        room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
+        return room.build();
+    }
+};
+
+TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
+    const glm::ivec2 pixels[] = {{0, 0}, {11, 7}, {22, 13}, {4, 9}, {15, 10}};
+    Render render(scene, scene->camera(), size, settings);
+    std::vector<Rgb> sums(std::size(pixels), Rgb(0));
+    for (int pass = 0; pass < 3; ++pass) {
+        render.pass(pool);
+        const GradientImages images = render.images();
+        for (std::size_t n = 0; n < std::size(pixels); ++n) {
+            const glm::ivec2 p = pixels[n];
+            const Inspection seen =
+                inspect(*scene, scene->camera(), size, settings, render.newest_plan(), pass, p);
+            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance;
+            const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.primal(p.x, p.y);
+            EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
+                << p.x << ',' << p.y << " pass " << pass;
+        }
+    }
+}
+
+TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
+    Render render(scene, scene->camera(), size, settings);
+    render.pass(pool);
+    int joined = 0;
+    for (int x = 0; x < size.x; ++x) {
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {x, 8});
+        for (const InspectedSet& set : seen.sets) {
+            EXPECT_EQ(set.to_k.size(), set.pixels.size());
+            for (const InspectedShift& s : set.from_k) {
+                EXPECT_EQ(s.from, seen.pixel);
+                EXPECT_NE(s.to, seen.pixel);
+                EXPECT_EQ(s.is_tried && s.outcome == ShiftOutcome::ok, !is_black(s.value));
+                EXPECT_EQ(s.ratio > 0, !is_black(s.value));
+                joined += !s.offset.empty() && !s.beyond.empty();
+                if (!s.beyond.empty()) { // it is the base path's own end
+                    EXPECT_EQ(s.beyond.back(), seen.path.back().position);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(joined > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
+}
+
+TEST(Inspection, TilesAreThoseOfThePass) {
+    RenderSettings settings;
+    settings.method = Method::pr;
+    settings.tile = 5;
+    settings.adapt_tile = false;
+    const auto scene = Room().build();
+    const ReusePlan plan(size, settings);
+    for (int pass = 0; pass < 4; ++pass) {
+        const TileGrid grid(size, settings, plan, pass);
+        const PixelRect part = grid.part_at({12, 7});
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, plan, pass, {12, 7});
+        ASSERT_EQ(seen.sets.size(), 1u);
+        EXPECT_EQ(seen.sets[0].pixels.size(), static_cast<std::size_t>(part.width() * part.height()));
+        for (const glm::ivec2 p : seen.sets[0].pixels)
+            EXPECT_TRUE(part.contains(p));
+        int parts_with_it = 0;
+        grid.for_each_part({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other) {
+            if (other.contains({12, 7})) {
+                ++parts_with_it;
+                EXPECT_EQ(other.x0, part.x0);
+                EXPECT_EQ(other.y1, part.y1);
+            }
+        });
+        EXPECT_EQ(parts_with_it, 1);
+    }
+}
+
+TEST(Inspection, ProjectingUndoesTheCamerasRay) {
+    const auto scene = Room().build();
+    const Projection projection(scene->camera(), size);
+    const Ray ray = projection.ray({3.25f, 9.5f});
+    const glm::vec3 p = projection.project(ray.origin + 2.5f * ray.direction);
+    EXPECT_GT(p.z, 0);
+    EXPECT_NEAR(p.x / p.z, 3.25f, 1e-3f);
+    EXPECT_NEAR(p.y / p.z, 9.5f, 1e-3f);
+    EXPECT_LT(projection.project(ray.origin - ray.direction).z, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Inspected,
+                         testing::Values(Case{"pt", Method::pt}, Case{"gpt", Method::gpt},
+                                         Case{"gpr", Method::gpr}, Case{"pr", Method::pr},
+                                         Case{"rooks", Method::pr, ShiftKind::half_vector, Pattern::rooks},
+                                         Case{"reconnection", Method::pr, ShiftKind::reconnection},
+                                         Case{"replay", Method::gpr, ShiftKind::replay},
+                                         Case{"replay_reconnection", Method::gpr, ShiftKind::replay_reconnection}),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+} // namespace
+
+} // namespace tessera::test

@@ -1,0 +1,95 @@
+// The overlay of tiles: it lies where the newest pass had its tiles, and in no image.
+
+#include "render/method/tile_grid.h"
+#include "tests/ui/viewer_harness.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+struct Tiles : testing::Test, ViewerHarness {
+    Tiles() { rest(3); }
+
+    glm::vec2 corner(int index, glm::ivec2 pixel) const {
+        const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
+        const auto& p = const_cast<Tiles*>(this)->pane(index);
+        const Placement placement = const_cast<Tiles*>(this)->state().view.place({48, 36}, p.canvas_size);
+        return rect.min + placement.origin + glm::vec2(pixel) / glm::vec2(48, 36) * placement.extent;
+    }
+    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
+        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return {p[0], p[1], p[2]};
+    }
+    int changed(const ScreenPixels& a, const ScreenPixels& b, glm::vec2 from, glm::vec2 to) const {
+        int count = 0;
+        for (int y = static_cast<int>(from.y); y < static_cast<int>(to.y); ++y)
+            for (int x = static_cast<int>(from.x); x < static_cast<int>(to.x); ++x)
+                count += colour(a, {x, y}) != colour(b, {x, y});
+        return count;
+    }
+};
+
+TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
+    const ScreenPixels before = screen();
+    const RgbImage image = viewer.pane_image(1).pixels();
+    type(Key::x);
+    EXPECT_TRUE(state().show_tiles);
+    save("tiles.png");
+    const ScreenPixels after = screen();
+    const Snapshot& snapshot = *pane(1).snapshot;
+    ASSERT_TRUE(snapshot.plan);
+    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
+    // In the middle of pixels that are cut by no line nothing has changed; on the lines it has.
+    const PixelRect tile = grid.tile_at({20, 16});
+    const glm::vec2 a = corner(1, {tile.x0, tile.y0}), b = corner(1, {tile.x0 + 1, tile.y0 + 1});
+    EXPECT_GT(changed(before, after, {a.x - 1, a.y + 2}, {a.x + 2, b.y - 2}), 0);
+    EXPECT_GT(changed(before, after, {a.x + 3, a.y - 1}, {b.x - 3, a.y + 2}), 0);
+    EXPECT_EQ(changed(before, after, a + 4.0f, b - 4.0f), 0);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            EXPECT_EQ(viewer.pane_image(1).pixels()(x, y), image(x, y));
+    type(Key::x);
+    EXPECT_EQ(screen().rgb, before.rgb);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST_F(Tiles, MarksTheSetOfThePixelUnderTheMouse) {
+    type(Key::x);
+    const Snapshot& snapshot = *pane(1).snapshot;
+    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
+    const PixelRect part = grid.part_at({20, 16});
+    const ScreenPixels before = screen();
+    move_to((corner(1, {20, 16}) + corner(1, {21, 17})) * 0.5f);
+    const ScreenPixels after = screen();
+    save("tiles-set.png");
+    const auto middle = [&](int x, int y) { return (corner(1, {x, y}) + corner(1, {x + 1, y + 1})) * 0.5f; };
+    // Its own pixels turn toward green, the border toward orange, others stay.
+    const glm::vec3 inner = colour(after, middle(part.x0, part.y0)) - colour(before, middle(part.x0, part.y0));
+    const glm::vec3 border = colour(after, middle(part.x1, part.y0)) - colour(before, middle(part.x1, part.y0));
+    EXPECT_GT(inner.g - inner.r, 10);
+    EXPECT_GT(border.r - border.b, 10);
+    const glm::vec2 outside = middle(part.x1 + 2, part.y0);
+    EXPECT_EQ(colour(after, outside), colour(before, outside));
+}
+
+TEST_F(Tiles, RooksAndSmallTilesAndZoom) {
+    state().panes[1].settings.render.method = Method::pr;
+    state().panes[1].settings.render.pattern = Pattern::rooks;
+    state().show_tiles = true;
+    wait_until([&] { return viewer.settled(3); });
+    move_to((corner(1, {20, 16}) + corner(1, {21, 17})) * 0.5f);
+    save("tiles-rooks.png");
+    modifiers(true, false);
+    wheel(14);
+    modifiers(false, false);
+    save("tiles-rooks-zoomed.png");
+    state().panes[1].settings.render.tile = 1;
+    wait_until([&] { return viewer.settled(3); });
+    resize({60, 40}); // hardly a pane
+    frames(3);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+} // namespace
+} // namespace tessera::test

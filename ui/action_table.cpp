@@ -1,0 +1,256 @@
+#include "ui/actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace tessera {
+
+namespace {
+
+void set_buffer(ViewerState& state, Buffer buffer) {
+    for (PaneState& pane : state.panes)
+        pane.settings.buffer = buffer;
+}
+
+template <Buffer buffer>
+void show_buffer(ViewerState& state) {
+    set_buffer(state, buffer);
+}
+
+template <Buffer buffer>
+bool shows_buffer(const ViewerState& state) {
+    return std::all_of(state.panes.begin(), state.panes.end(),
+                       [](const PaneState& pane) { return pane.settings.buffer == buffer; });
+}
+
+void step_method(ViewerState& state, int step) {
+    constexpr int count = static_cast<int>(std::size(all_methods));
+    Method& method = state.active().settings.render.method;
+    method = all_methods[(static_cast<int>(method) + step + count) % count];
+}
+
+void step_tile(ViewerState& state, int step) {
+    int& tile = state.active().settings.render.tile;
+    tile = std::clamp(tile + step, 1, 16);
+    state.share_settings();
+}
+
+void step_exposure(ViewerState& state, float stops) {
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, -10.0f, 10.0f);
+}
+
+void next_pane(ViewerState& state) {
+    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+void next_grid(ViewerState& state) {
+    const std::size_t count = state.panes.size();
+    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
+}
+
+template <int count>
+void set_panes(ViewerState& state) {
+    state.set_pane_count(count);
+}
+
+template <int count>
+bool has_panes(const ViewerState& state) {
+    return state.panes.size() == count;
+}
+
+template <Comparison::Kind kind>
+bool compares(const ViewerState& state) {
+    return state.active().settings.comparison.kind == kind;
+}
+
+template <Comparison::Kind kind>
+void toggle_comparison(ViewerState& state) {
+    if (state.panes.size() < 2)
+        state.set_pane_count(2);
+    state.active().settings.comparison.kind = compares<kind>(state) ? Comparison::Kind::off : kind;
+}
+
+void step_pass(ViewerState& state) {
+    state.paused = true;
+    ++state.steps;
+}
+
+void step_ui_scale(ViewerState& state, float by) {
+    const float now = state.ui_scale.value_or(state.shown_ui_scale);
+    state.ui_scale = std::clamp(std::round(now * 4) / 4 + by, 1.0f, 3.0f);
+}
+
+void next_tone(ViewerState& state) {
+    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
+}
+
+constexpr Shortcut key(Key k) {
+    return {k, false, false, 0};
+}
+constexpr Shortcut ctrl(Key k) {
+    return {k, true, false, 0};
+}
+constexpr Shortcut shift(Key k) {
+    return {k, false, true, 0};
+}
+constexpr Shortcut character(char c) {
+    return {Key::none, false, false, c};
+}
+constexpr Shortcut no_shortcut{};
+
+using State = ViewerState;
+
+constexpr Action table[] = {
+    {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
+     key(Key::f5), no_shortcut, [](State& s) { s.reload = true; }, nullptr},
+    {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
+     key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
+    {"File", "Save as EXR",
+     "Writes the active pane's picture with all its buffers, camera and settings to an EXR file in the current "
+     "folder.",
+     ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
+    {"File", "Save settings",
+     "Writes panes, camera, size and display to a JSON file in the current folder; drop it on the window to have "
+     "them "
+     "back.",
+     ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},
+    {"File", "Save charts as CSV",
+     "Writes the points of the error charts and the active pane's histogram to a file in the current folder.",
+     key(Key::z), no_shortcut, [](State& s) { s.save_charts = true; }, nullptr},
+    {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
+
+    {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
+     [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
+    {"Render", "Step one pass", "Pauses, and adds one sample a pixel in every pane.", character('.'), no_shortcut,
+     step_pass, nullptr},
+    {"Render", "Restart", "Renders all panes anew from the first sample.", key(Key::r), no_shortcut,
+     [](State& s) { s.restart = true; }, nullptr},
+    {"Render", "Next method", "The next method in the active pane.", key(Key::m), no_shortcut,
+     [](State& s) { step_method(s, 1); }, nullptr},
+    {"Render", "Previous method", "The previous method in the active pane.", shift(Key::m), no_shortcut,
+     [](State& s) { step_method(s, -1); }, nullptr},
+    {"Render", "Larger tile", "Lets a path be reused by more pixels.", character(']'), no_shortcut,
+     [](State& s) { step_tile(s, 1); }, nullptr},
+    {"Render", "Smaller tile", "Lets a path be reused by fewer pixels.", character('['), no_shortcut,
+     [](State& s) { step_tile(s, -1); }, nullptr},
+
+    {"Buffer", "Reconstruction", "Shows the reconstructed picture in all panes.", key(Key::digit1), no_shortcut,
+     show_buffer<Buffer::reconstruction>, shows_buffer<Buffer::reconstruction>},
+    {"Buffer", "Primal", "Shows the picture before reconstruction in all panes.", key(Key::digit2), no_shortcut,
+     show_buffer<Buffer::primal>, shows_buffer<Buffer::primal>},
+    {"Buffer", "Gradient dx", "Shows the differences between a pixel and its right neighbour in all panes.",
+     key(Key::digit3), no_shortcut, show_buffer<Buffer::dx>, shows_buffer<Buffer::dx>},
+    {"Buffer", "Gradient dy", "Shows the differences between a pixel and the one below in all panes.",
+     key(Key::digit4), no_shortcut, show_buffer<Buffer::dy>, shows_buffer<Buffer::dy>},
+    {"Buffer", "Reuse count", "Shows how many paths of other pixels brought light to each pixel, in all panes.",
+     key(Key::digit5), no_shortcut, show_buffer<Buffer::reused>, shows_buffer<Buffer::reused>},
+    {"Buffer", "Failed shifts", "Shows which share of the paths shifted to each pixel brought none, in all panes.",
+     key(Key::digit6), no_shortcut, show_buffer<Buffer::failed>, shows_buffer<Buffer::failed>},
+    {"Buffer", "Very direct", "Shows the emission that the camera itself sees, in all panes.", shift(Key::digit1),
+     no_shortcut, show_buffer<Buffer::very_direct>, shows_buffer<Buffer::very_direct>},
+    {"Buffer", "Error: relMSE", "Shows (I - r)^2 / (r^2 + 0.001) to the reference r, in all panes.",
+     key(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative_squared>,
+     shows_buffer<Buffer::error_relative_squared>},
+    {"Buffer", "Error: squared", "Shows (I - r)^2 to the reference r, in all panes.", key(Key::digit8),
+     no_shortcut, show_buffer<Buffer::error_squared>, shows_buffer<Buffer::error_squared>},
+    {"Buffer", "Error: absolute", "Shows |I - r| to the reference r, in all panes.", key(Key::digit9), no_shortcut,
+     show_buffer<Buffer::error_absolute>, shows_buffer<Buffer::error_absolute>},
+    {"Buffer", "Error: relative", "Shows |I - r| / (|r| + 0.01) to the reference r, in all panes.",
+     shift(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative>, shows_buffer<Buffer::error_relative>},
+    {"Buffer", "Albedo", "Shows how much light the surfaces scatter, in all panes.", shift(Key::digit2),
+     no_shortcut, show_buffer<Buffer::albedo>, shows_buffer<Buffer::albedo>},
+    {"Buffer", "Normal", "Shows where the surfaces face, in all panes.", shift(Key::digit3), no_shortcut,
+     show_buffer<Buffer::normal>, shows_buffer<Buffer::normal>},
+    {"Buffer", "Depth", "Shows how far from the camera the surfaces are, in all panes.", shift(Key::digit4),
+     no_shortcut, show_buffer<Buffer::depth>, shows_buffer<Buffer::depth>},
+    {"Buffer", "Variance of primal", "Shows how uncertain the primal still is, in all panes.", shift(Key::digit5),
+     no_shortcut, show_buffer<Buffer::primal_variance>, shows_buffer<Buffer::primal_variance>},
+    {"Buffer", "Variance of dx", "Shows how uncertain the gradients dx still are, in all panes.",
+     shift(Key::digit6), no_shortcut, show_buffer<Buffer::dx_variance>, shows_buffer<Buffer::dx_variance>},
+    {"Buffer", "Variance of dy", "Shows how uncertain the gradients dy still are, in all panes.",
+     shift(Key::digit8), no_shortcut, show_buffer<Buffer::dy_variance>, shows_buffer<Buffer::dy_variance>},
+
+    {"View", "Brighter", "Exposure up by half a stop.", character('+'), character('='),
+     [](State& s) { step_exposure(s, 0.5f); }, nullptr},
+    {"View", "Darker", "Exposure down by half a stop.", character('-'), no_shortcut,
+     [](State& s) { step_exposure(s, -0.5f); }, nullptr},
+    {"View", "Reset exposure", "Exposure back to 0 stops.", key(Key::digit0), no_shortcut,
+     [](State& s) { s.tone.exposure = 0; }, nullptr},
+    {"View", "Next tone curve", "sRGB, gamma or filmic: how radiance becomes brightness.", key(Key::y),
+     no_shortcut, next_tone, nullptr},
+    {"View", "Mark negative values",
+     "Shows pixels with a negative red, green or blue in blue. NaN is always magenta, infinity cyan.", key(Key::u),
+     no_shortcut, [](State& s) { s.mark_negative = !s.mark_negative; },
+     [](const State& s) { return s.mark_negative; }},
+    {"View", "Magnifier", "Enlarges the pixels around the mouse, in all panes.", key(Key::l), no_shortcut,
+     [](State& s) { s.magnifier = !s.magnifier; }, [](const State& s) { return s.magnifier; }},
+    {"View", "Tiles",
+     "Draws over the pictures which pixels share their paths in the newest pass, and marks those of the pixel "
+     "under "
+     "the mouse; the border of a G-PR tile is orange.",
+     key(Key::x), no_shortcut, [](State& s) { s.show_tiles = !s.show_tiles; },
+     [](const State& s) { return s.show_tiles; }},
+    {"View", "Path inspector",
+     "The left button chooses a pixel: its base path and the shifts of its tile are drawn over the picture, and "
+     "listed.",
+     key(Key::i), no_shortcut, [](State& s) { s.inspector.active = !s.inspector.active; },
+     [](const State& s) { return s.inspector.active; }},
+    {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
+     [](State& s) { s.view.fit(); }, nullptr},
+    {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,
+     [](State& s) { s.theme = s.theme == Theme::dark ? Theme::light : Theme::dark; },
+     [](const State& s) { return s.theme == Theme::light; }},
+    {"View", "Larger text", "Text and controls a quarter larger, up to 300 %.", ctrl(Key::up), no_shortcut,
+     [](State& s) { step_ui_scale(s, 0.25f); }, nullptr},
+    {"View", "Smaller text", "Text and controls a quarter smaller, down to 100 %.", ctrl(Key::down), no_shortcut,
+     [](State& s) { step_ui_scale(s, -0.25f); }, nullptr},
+    {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
+     [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
+    {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
+     key(Key::t), no_shortcut, [](State& s) { s.show_statistics = !s.show_statistics; },
+     [](const State& s) { return s.show_statistics; }},
+    {"View", "Charts", "Shows or hides how the errors fall against the reference, and a histogram.", key(Key::h),
+     no_shortcut, [](State& s) { s.show_charts = !s.show_charts; }, [](const State& s) { return s.show_charts; }},
+    {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
+     [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
+
+    {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
+     has_panes<1>},
+    {"Panes", "Two panes", "Renders two panes, beside each other.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
+     has_panes<2>},
+    {"Panes", "Four panes", "Renders four panes, two by two.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
+     has_panes<4>},
+    {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
+    {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
+    {"Panes", "Only the active pane", "Gives it all the room; the others go on rendering.", key(Key::o),
+     no_shortcut, [](State& s) { s.alone = !s.alone; }, [](const State& s) { return s.alone; }},
+    {"Panes", "Wipe",
+     "Divides the active pane by a line that can be dragged: its own picture to the left, another pane's to the "
+     "right.",
+     key(Key::v), no_shortcut, toggle_comparison<Comparison::Kind::wipe>, compares<Comparison::Kind::wipe>},
+    {"Panes", "Difference",
+     "Shows the active pane's picture minus another pane's: orange above zero, blue below; exposure enlarges it.",
+     key(Key::n), no_shortcut, toggle_comparison<Comparison::Kind::difference>,
+     compares<Comparison::Kind::difference>},
+
+    {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
+     [](State& s) { s.camera.go_home(); }, nullptr},
+    {"Camera", "Save camera",
+     "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
+     "--camera.",
+     key(Key::k), no_shortcut, [](State& s) { s.save_camera = true; }, nullptr},
+    {"Camera", "Copy camera as XML", "Puts fov and to_world for a Mitsuba <sensor> on the clipboard.",
+     shift(Key::k), no_shortcut, [](State& s) { s.copy_camera = true; }, nullptr},
+
+    {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),
+     [](State& s) { s.show_help = !s.show_help; }, [](const State& s) { return s.show_help; }},
+};
+
+} // namespace
+
+std::span<const Action> actions() {
+    return table;
+}
+
+} // namespace tessera

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "ui/background_job.h"
+#include "ui/viewer_state.h"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace tessera {
+
+/// Measures the panes' pictures in the background for the charts: errors against the reference, once there is one,
+/// and histograms while charts are on show.
+class ChartJob {
+public:
+    /// To be called every frame. `wake` is called from another thread when there is something new.
+    void update(ViewerState& state, const std::function<void()>& wake);
+
+private:
+    /// A picture to measure, and what came of it.
+    struct Measured {
+        std::size_t pane;
+        std::shared_ptr<const Snapshot> snapshot;
+        std::shared_ptr<const void> source; ///< picture_source()
+        std::shared_ptr<const Reference> reference;
+        bool wants_histogram;
+        std::optional<ErrorPoint> point{};
+        std::optional<Histogram> histogram{};
+    };
+    /// What was measured last in a pane.
+    struct Done {
+        std::shared_ptr<const void> source;
+        std::shared_ptr<const Reference> reference;
+        bool histogram = false;
+    };
+    static void measure(Measured& picture);
+    void take(ViewerState& state, Measured& measured);
+
+    BackgroundJob<std::vector<Measured>> job_;
+    std::array<Done, most_panes> done_;
+};
+
+} // namespace tessera

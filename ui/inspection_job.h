@@ -1,0 +1,28 @@
+#pragma once
+
+#include "ui/background_job.h"
+#include "ui/viewer_state.h"
+
+#include <functional>
+
+namespace tessera {
+
+/// Finds out in the background about the sample that the inspector is to show, and puts it into the state.
+class InspectionJob {
+public:
+    /// To be called every frame. `wake` is called from another thread when there is something new.
+    void update(ViewerState& state, const std::function<void()>& wake);
+
+private:
+    struct Asked {
+        std::uint64_t generation = 0;
+        SampleChoice sample; ///< with its pass
+        bool operator==(const Asked&) const = default;
+    };
+    void start(const ViewerState& state, const Asked& asked, const std::function<void()>& wake);
+
+    BackgroundJob<std::shared_ptr<const Inspection>> job_;
+    Asked asked_; // last
+};
+
+} // namespace tessera
