@@ -61,7 +61,8 @@ Experiment::Experiment(const ExperimentOptions& options)
     for (const Point& point : points_)
         check(point.settings.render);
     for (const std::filesystem::path& file : options.scenes)
-        scenes_.emplace_back(file, points_, options.references, options.recipe);
+        scenes_.emplace_back(SceneSource{file, options.variables, {}}, points_, options.references,
+                             options.recipe);
     check_names(scenes_);
     for (const MeasuredScene& scene : scenes_) {
         scene.check_seeds(options.settings.render.seed, options.seeds);
@@ -138,7 +139,8 @@ std::vector<Experiment::SharedRun> Experiment::unfinished_runs(const MeasuredSce
         settings.render.seed = seed;
         shared.run = std::make_unique<MeasuredRun>(
             Render(geometry, geometry->camera(), settings.size, settings.render), options_.effort,
-            options_.halvings, std::move(reconstructions), scene.reference(settings), pool(settings.threads));
+            options_.halvings, std::move(reconstructions), options_.looks_for_artefacts, scene.reference(settings),
+            pool(settings.threads));
         runs.push_back(std::move(shared));
     }
     return runs;

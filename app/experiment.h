@@ -14,6 +14,7 @@ namespace tessera {
 /// What is rendered and measured: scenes, each with all points, each with some seeds.
 struct ExperimentOptions {
     std::vector<std::filesystem::path> scenes;
+    SceneVariables variables; ///< of all scenes
     std::vector<Method> methods = {Method::gpr};
     std::vector<Norm> norms = {Norm::weighted};
     std::vector<Variation> variations;
@@ -25,7 +26,8 @@ struct ExperimentOptions {
     ReferenceRecipe recipe;
     std::filesystem::path output; ///< folder, made where there is none
     bool takes_any_build = false; ///< from the journal: what other builds of the program have recorded, too
-    bool keeps_images = false;    ///< of the first seed, at the end: see Experiment::image_file
+    bool looks_for_artefacts = false;
+    bool keeps_images = false; ///< of the first seed, at the end: see Experiment::image_file
 };
 
 /// Renders round by round: a round is a scene and a seed with all points, which take turns pass by pass, so that a

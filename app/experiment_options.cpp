@@ -21,9 +21,7 @@ void add_effort(CLI::App& command, ExperimentWords& words, const char* of_time) 
 
 void add_references(CLI::App& command, ExperimentOptions& options) {
     command.add_option("--reference", options.references, "folder of the references")->required();
-    command
-        .add_option("--reference-spp", options.recipe.spp,
-                    "samples a pixel of references that are missing, by G-PR")
+    command.add_option("--reference-spp", options.recipe.spp, "samples a pixel of references that are missing")
         ->check(CLI::Range(2, 100000000))
         ->capture_default_str();
 }
@@ -98,6 +96,34 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
                     "errors are also taken after a half, a quarter, ... of the time, this often")
         ->check(CLI::Range(0, 20))
         ->capture_default_str();
+}
+
+void add_stability(CLI::App& app, ExperimentWords& words) {
+    ExperimentOptions& options = words.options;
+    words.methods = "pt,pr,gpt,gpr";
+    words.norms = "none,l2,l1,mixed,weighted";
+    options.settings.size = {96, 72};
+    options.effort = {1, Effort::Unit::cpu_seconds};
+    options.seeds = 20;
+    options.output = "report";
+    options.references = "references";
+    options.recipe.spp = 8192;
+    CLI::App& command = *app.add_subcommand(
+        "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
+    command.footer(
+        std::string(
+            "Writes stability.md, stability.csv and SCENE.png to the output folder, anew after each round of "
+            "renders. References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
+        common_footer);
+    add_experiment(command, words, "CPU seconds of rendering each (default 1)");
+    command.get_option("scenes")->required(false)->description(
+        "Mitsuba scenes, XML (default: assets/stability), with <!-- fails: what and why --> and <!-- vary: NAME = "
+        "VALUE, VALUE -->");
+    command.get_option("--size")->default_str("96x72");
+    command.get_option("--reference")->required(false)->default_str("references");
+    command.get_option("--output")->required(false)->default_str("report");
+    for (const char* other : {"--max-depth", "--vary"})
+        command.remove_option(command.get_option(other));
 }
 
 ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words) {

@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// The words of `tessera sweep` and `tessera bench`, before they are given a meaning.
+/// The words of `tessera sweep`, `bench` and `stability`, before they are given a meaning.
 struct ExperimentWords {
     std::vector<std::string> scenes, variations;
     std::string size, methods, norms, clock = "cpu";
@@ -21,8 +21,9 @@ struct ExperimentWords {
 // They add the commands; `words` take what is given to them, and must live as long as `app`.
 void add_sweep(CLI::App& app, ExperimentWords& words);
 void add_bench(CLI::App& app, ExperimentWords& words);
+void add_stability(CLI::App& app, ExperimentWords& words);
 
-/// What the words mean that were given to either command. Throws BadInput that names the option.
+/// What the words mean that were given to one of these commands. Throws BadInput that names the option.
 ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words);
 
 } // namespace tessera

@@ -21,11 +21,12 @@ std::optional<TileSpectrum> tiles_of(const RgbImage& image, const RgbImage& refe
 } // namespace
 
 MeasuredRun::MeasuredRun(Render render, const Effort& effort, int halvings,
-                         std::vector<ReconstructionSettings> reconstructions, const ReferenceImage& reference,
-                         ThreadPool& pool)
+                         std::vector<ReconstructionSettings> reconstructions, bool looks_for_artefacts,
+                         const ReferenceImage& reference, ThreadPool& pool)
     : render_(std::move(render)), effort_(effort), next_halvings_(halvings),
-      reconstructions_(std::move(reconstructions)), reference_(reference), pool_(pool),
-      measurements_(reconstructions_.size()), images_(reconstructions_.size()) {}
+      reconstructions_(std::move(reconstructions)), looks_for_artefacts_(looks_for_artefacts),
+      reference_(reference), pool_(pool), measurements_(reconstructions_.size()),
+      images_(reconstructions_.size()) {}
 
 double MeasuredRun::done() const {
     switch (effort_.unit) {
@@ -59,11 +60,20 @@ void MeasuredRun::measure(int halvings) {
         const double cpu = process_cpu_seconds();
         Reconstruction r = reconstruct(buffers, reconstructions_[i], parallel_for);
         const double reconstruction_cpu = process_cpu_seconds() - cpu;
-        measurements_[i].push_back({halvings, render_.settings().seed, render_.spp(),
-                                    render_.cpu_seconds() + reconstruction_cpu, render_.seconds() + r.seconds,
-                                    reconstruction_cpu, measure_error(r.image, reference_.mean).relative_mse,
+        measurements_[i].push_back({halvings,
+                                    render_.settings().seed,
+                                    render_.spp(),
+                                    render_.cpu_seconds() + reconstruction_cpu,
+                                    render_.seconds() + r.seconds,
+                                    reconstruction_cpu,
+                                    measure_error(r.image, reference_.mean).relative_mse,
                                     measure_floor_free_error(r.image, reference_.halves[0], reference_.halves[1]),
-                                    tiles_of(r.image, reference_.mean, render_.settings()), render_.counters()});
+                                    tiles_of(r.image, reference_.mean, render_.settings()),
+                                    render_.counters(),
+                                    {}});
+        if (looks_for_artefacts_)
+            measurements_[i].back().artefacts =
+                measure_artefacts(r.image, reference_.halves[0], reference_.halves[1]);
         images_[i] = std::move(r.image);
     }
 }

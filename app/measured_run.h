@@ -15,10 +15,11 @@ namespace tessera {
 class MeasuredRun {
 public:
     /// Is measured after effort / 2^halvings, ..., effort / 2, effort: at the first pass that is not before. Where
-    /// one pass is past several of these, only the last counts. Keeps references to the reference and the pool.
+    /// one pass is past several of these, only the last counts. Artefacts are looked for on demand. Keeps
+    /// references to the reference and the pool.
     MeasuredRun(Render render, const Effort& effort, int halvings,
-                std::vector<ReconstructionSettings> reconstructions, const ReferenceImage& reference,
-                ThreadPool& pool);
+                std::vector<ReconstructionSettings> reconstructions, bool looks_for_artefacts,
+                const ReferenceImage& reference, ThreadPool& pool);
 
     double done() const; ///< share of the effort; 1 and more: it is at its end
     bool is_done() const { return done() >= 1; }
@@ -38,6 +39,7 @@ private:
     Effort effort_;
     int next_halvings_; ///< of the measurement to come
     std::vector<ReconstructionSettings> reconstructions_;
+    bool looks_for_artefacts_;
     const ReferenceImage& reference_;
     ThreadPool& pool_;
     std::vector<std::vector<Measurement>> measurements_;

@@ -6,22 +6,21 @@
 
 namespace tessera {
 
-namespace {
-
-std::string scene_name(const std::filesystem::path& file) {
-    const std::string stem = file.stem().string();
+std::string scene_name(const SceneSource& source) {
+    const std::string stem = source.file.stem().string();
     const std::string folder =
-        std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
-    return stem.rfind("scene", 0) == 0 && !folder.empty() ? folder : stem;
+        std::filesystem::absolute(source.file).lexically_normal().parent_path().filename().string();
+    std::string name = stem.rfind("scene", 0) == 0 && !folder.empty() ? folder : stem;
+    for (const auto& [variable, value] : source.variables)
+        name += "-" + value;
+    return name;
 }
 
-} // namespace
-
-MeasuredScene::MeasuredScene(const std::filesystem::path& file, const std::vector<Point>& points,
+MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Point>& points,
                              const std::filesystem::path& folder, const ReferenceRecipe& recipe)
-    : source_{file, {}, {}}, name_(scene_name(file)) {
-    if (!std::filesystem::is_regular_file(file))
-        throw BadInput(fmt::format("{}: there is no such scene file", file.string()));
+    : source_(std::move(source)), name_(scene_name(source_)) {
+    if (!std::filesystem::is_regular_file(source_.file))
+        throw BadInput(fmt::format("{}: there is no such scene file", source_.file.string()));
     for (const Point& point : points) {
         const Key key = key_of(point.settings);
         if (references_.count(key))

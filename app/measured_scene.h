@@ -8,16 +8,20 @@
 
 namespace tessera {
 
+/// The folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the file's; with the values of its
+/// variables, if it was given any: "glossy-0.01".
+std::string scene_name(const SceneSource& source);
+
 /// A scene to measure on, and the references it needs.
 class MeasuredScene {
 public:
     /// One reference for each size and depth of the points, in `folder`; those that are missing are made by the
     /// recipe, but for its size and depth. Throws BadInput for a file that is not there, and as FolderReference
     /// does.
-    MeasuredScene(const std::filesystem::path& file, const std::vector<Point>& points,
-                  const std::filesystem::path& folder, const ReferenceRecipe& recipe);
+    MeasuredScene(SceneSource source, const std::vector<Point>& points, const std::filesystem::path& folder,
+                  const ReferenceRecipe& recipe);
 
-    /// The folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the file's.
+    /// scene_name of its source.
     const std::string& name() const { return name_; }
     const SceneSource& source() const { return source_; }
 

@@ -25,6 +25,32 @@ std::optional<TileSpectrum> tiles_from_json(const nlohmann::json& json) {
     return TileSpectrum{number(json.at("error")), number(json.at("edges")), number(json.at("edge_ratio"))};
 }
 
+nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
+    if (!a)
+        return nullptr;
+    return {{"relmse", a->error.relative_mse},
+            {"relmse_standard_error", a->error.standard_error},
+            {"mean", a->mean},
+            {"worst", a->worst},
+            {"worst_pixel", {a->worst_pixel.x, a->worst_pixel.y}},
+            {"bad_pixels", a->bad_pixels},
+            {"pieces", a->pieces}};
+}
+
+/// Also of journals from before there were any.
+std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
+    if (json.is_null())
+        return {};
+    Artefacts a;
+    a.error = {number(json.at("relmse")), number(json.at("relmse_standard_error"))};
+    a.mean = number(json.at("mean"));
+    json.at("worst").get_to(a.worst);
+    a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
+    json.at("bad_pixels").get_to(a.bad_pixels);
+    json.at("pieces").get_to(a.pieces);
+    return a;
+}
+
 nlohmann::ordered_json to_json(const Counters& c) {
     return {{"camera_paths", c.camera_paths},
             {"path_vertices", c.path_vertices},
@@ -64,7 +90,8 @@ nlohmann::ordered_json to_json(const Measurement& m) {
             {"relmse_floor_free", m.floor_free.relative_mse},
             {"relmse_floor_free_standard_error", m.floor_free.standard_error},
             {"tiles", to_json(m.tiles)},
-            {"counters", to_json(m.counters)}};
+            {"counters", to_json(m.counters)},
+            {"artefacts", to_json(m.artefacts)}};
 }
 
 Measurement measurement_from_json(const nlohmann::json& json) {
@@ -77,7 +104,8 @@ Measurement measurement_from_json(const nlohmann::json& json) {
             number(json.at("relmse")),
             {number(json.at("relmse_floor_free")), number(json.at("relmse_floor_free_standard_error"))},
             tiles_from_json(json.at("tiles")),
-            counters_from_json(json.at("counters"))};
+            counters_from_json(json.at("counters")),
+            artefacts_from_json(json.value("artefacts", nlohmann::json()))};
 }
 
 } // namespace tessera

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/artefacts.h"
 #include "recon/metrics.h"
 #include "recon/tile_spectrum.h"
 #include "render/path/counters.h"
@@ -21,6 +22,7 @@ struct Measurement {
     FloorFreeError floor_free;
     std::optional<TileSpectrum> tiles; ///< of methods that share light within tiles of two pixels and more
     Counters counters;
+    std::optional<Artefacts> artefacts; ///< where they are looked for
 };
 
 /// All that is above; figures that are not finite become null.

@@ -12,6 +12,7 @@
 #include "app/reference_options.h"
 #include "app/render.h"
 #include "app/setting_options.h"
+#include "app/stability.h"
 #include "app/sweep.h"
 #include "app/view.h"
 #include "render/session/thread_pool.h"
@@ -191,7 +192,7 @@ int run_command_line(int argc, char** argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Words render_words, view_words, info_words;
     RenderOptions render_options;
-    ExperimentWords sweep_words, bench_words;
+    ExperimentWords sweep_words, bench_words, stability_words;
     ReferenceWords reference_words;
     CompareOptions compare_options;
     ViewOptions view_options;
@@ -201,6 +202,7 @@ int run_command_line(int argc, char** argv) {
     add_reference(app, reference_words);
     add_sweep(app, sweep_words);
     add_bench(app, bench_words);
+    add_stability(app, stability_words);
     add_reconstruct(app, reconstruct_words);
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
@@ -211,8 +213,9 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
     if (app.get_subcommands().empty())
-        throw BadInput("no command was given: view, render, reconstruct, reference, sweep, bench, compare or info "
-                       "(tessera --help)");
+        throw BadInput(
+            "no command was given: view, render, reconstruct, reference, sweep, bench, stability, compare or info "
+            "(tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("reconstruct"))
@@ -221,6 +224,8 @@ int run_command_line(int argc, char** argv) {
         return run_sweep(parse_experiment(*app.get_subcommand("sweep"), sweep_words));
     if (app.got_subcommand("bench"))
         return run_bench(parse_experiment(*app.get_subcommand("bench"), bench_words));
+    if (app.got_subcommand("stability"))
+        return run_stability(parse_experiment(*app.get_subcommand("stability"), stability_words));
     if (app.got_subcommand("reference"))
         return run_reference(parse_reference(*app.get_subcommand("reference"), reference_words));
     if (app.got_subcommand("view"))

@@ -1,5 +1,7 @@
 #include "app/speed_up.h"
 
+#include "app/significance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -100,12 +102,6 @@ std::set<std::uint64_t> seeds_of(const Curve& curve) {
     return seeds;
 }
 
-/// Student's t that 2.5 % are above of.
-double student_t(std::size_t freedom) {
-    constexpr double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-    return freedom <= std::size(table) ? table[freedom - 1] : 1.96 + 2.5 / static_cast<double>(freedom);
-}
-
 } // namespace
 
 SpeedUp speed_up(const Curve& slower, const Curve& faster) {
@@ -127,7 +123,7 @@ SpeedUp speed_up(const Curve& slower, const Curve& faster) {
         mean += log / n;
     for (double log : logs)
         squares += (log - mean) * (log - mean);
-    const double reach = student_t(seeds.size() - 1) * std::sqrt(squares * (n - 1) / n);
+    const double reach = student_t(0.05, n - 1) * std::sqrt(squares * (n - 1) / n);
     result.low = result.factor * std::exp(-reach);
     result.high = result.factor * std::exp(reach);
     return result;

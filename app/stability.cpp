@@ -1,0 +1,79 @@
+#include "app/stability.h"
+
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/output_file.h"
+#include "app/stability_report.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Those of the whole suite, for one of its scenes.
+ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptions& suite) {
+    ExperimentOptions options = suite;
+    options.scenes = {scene.source.file};
+    options.variables = scene.source.variables;
+    options.settings.render.max_depth = scene.depth;
+    options.looks_for_artefacts = true;
+    options.keeps_images = true;
+    options.output = suite.output / "scenes" / scene_name(scene.source);
+    return options;
+}
+
+/// A bias that a method has in common with its judge cannot be seen: only PT, which reuses nothing, may be it.
+void check_references(const MeasuredScene& scene) {
+    for (const FolderReference* reference : scene.references()) {
+        if (!reference->is_complete())
+            continue;
+        const auto settings = nlohmann::json::parse(reference->image().settings, nullptr, false);
+        if (!settings.is_object() || settings.value("method", "") != short_name(Method::pt))
+            throw BadInput(fmt::format("{} was not made by PT, which alone can judge the others",
+                                       reference->path().string()));
+    }
+}
+
+std::vector<StabilityCase> cases_of(const ExperimentOptions& suite) {
+    ThreadPool pool(suite.settings.threads);
+    std::vector<StabilityCase> cases;
+    const auto& files = suite.scenes.empty() ? built_in_stability_scenes() : suite.scenes;
+    for (const StabilityScene& scene : stability_scenes(files, pool)) {
+        const auto is_same = [&](const StabilityCase& c) {
+            return scene_name(c.scene.source) == scene_name(scene.source);
+        };
+        if (std::any_of(cases.begin(), cases.end(), is_same))
+            throw BadInput(fmt::format("two scenes are named \"{}\"", scene_name(scene.source)));
+        StabilityCase& c = cases.emplace_back();
+        c.scene = scene;
+        c.options = std::make_unique<ExperimentOptions>(options_for(scene, suite));
+        c.experiment = std::make_unique<Experiment>(*c.options);
+        check_references(c.experiment->scenes().front());
+    }
+    return cases;
+}
+
+} // namespace
+
+int run_stability(ExperimentOptions suite) {
+    if (std::find(suite.methods.begin(), suite.methods.end(), Method::pt) == suite.methods.end())
+        suite.methods.insert(suite.methods.begin(), Method::pt);
+    suite.recipe.settings.method = Method::pt;
+    suite.recipe.reconstruction.norm = Norm::none;
+    make_folder(suite.output);
+    check_writable(suite.output / "stability.md");
+    const std::vector<StabilityCase> cases = cases_of(suite);
+    for (std::size_t i = 0; i < cases.size() && !interrupted(); ++i) {
+        fmt::print(stderr, "{} ({} of {})\n", cases[i].name(), i + 1, cases.size());
+        cases[i].experiment->run([&] { write_stability(suite, cases); });
+        write_sheet(suite, cases[i]);
+    }
+    fmt::print("{}\n", (suite.output / "stability.md").string());
+    return exit_ok;
+}
+
+} // namespace tessera

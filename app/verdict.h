@@ -1,0 +1,57 @@
+#pragma once
+
+#include "app/result.h"
+
+#include <string>
+
+namespace tessera {
+
+/// Something measured, and what it is held against.
+struct Deviation {
+    double value = 0;  ///< measured minus expected
+    double error = 0;  ///< its standard error
+    double sigmas = 0; ///< how far from what is tolerated, as a normal variable would be; 0: within it
+};
+
+/// What the runs of a point say of it, with the same scene's PT for comparison.
+struct Findings {
+    std::size_t bad_pixels = 0; ///< not finite, in all runs together
+    std::size_t refused = 0;    ///< samples that were not finite, and left out
+    Deviation energy;           ///< mean luminance over the reference's, minus 1 (of a black one: itself)
+    Deviation squared_bias;     ///< mean of (bias / reference)^2 over pieces of the image: what no number of seeds
+                                ///< averages out
+    double spike = 0;           ///< 99.99th percentile of the pixels' relative errors, all runs together
+    double worst = 0;           ///< the largest of them
+    glm::ivec2 worst_pixel{0};
+    double worst_share = 0; ///< of the squared error, what the worst pixels (worst_count) have
+    double tile_edges = 0;  ///< mean of TileSpectrum::edges; not a number where there are none
+    double tile_edges_error = 0;
+    double error = 0;       ///< relMSE, of pictures in units of the reference's mean
+    double error_error = 0; ///< its standard error, references' noise included
+    double samples = 0;     ///< a pixel, over those of PT
+    /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its confidence interval; none
+    /// of them a number where either error is not certain.
+    double factor = 0, low = 0, high = 0;
+};
+
+struct Verdict {
+    enum class Kind { ok, worse, fails, undecided };
+    Kind kind = Kind::ok;
+    std::string cause; ///< empty for ok
+};
+
+/// `level`: the probability of a wrong interval. Both results must have runs with artefacts.
+Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level);
+
+/// Whether the point's picture is a linear function of the samples, and so has to be right in the mean.
+bool is_linear(const Point& point);
+
+/// `path_tracing`: what was found of PT on the same scene. Where that looks biased to references that are made by
+/// PT, rare light is missing in one of them, and nobody's bias can be told. `level`: the probability of calling
+/// something wrong that is not.
+Verdict judge(const Findings& findings, const Findings& path_tracing, const Point& point, double level);
+
+/// "ok", "worse than PT", "fails", "undecided".
+std::string to_string(Verdict::Kind kind);
+
+} // namespace tessera

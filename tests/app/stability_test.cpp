@@ -1,0 +1,104 @@
+// `tessera stability`: its files, what it takes up again, and what it refuses.
+#include "app/exit_codes.h"
+#include "app/stability_scene.h"
+#include "tests/app/program.h"
+#include "tests/load/temporary_folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const fs::path suite = fs::path(TESSERA_SOURCE_DIR) / "assets/stability";
+
+class StabilityCommand : public testing::Test {
+protected:
+    std::string text(const fs::path& name) const {
+        std::ostringstream out;
+        out << std::ifstream(folder_.path() / name, std::ios::binary).rdbuf();
+        return out.str();
+    }
+    Outcome stability(const std::string& rest) const {
+        return run(folder_.path(), "stability '" + (suite / "no-light.xml").string() + "' '" +
+                                       (suite / "texture.xml").string() + "' --size 24x18 --threads 1 --spp 4 " +
+                                       rest);
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJournal) {
+    const std::string options = "--seeds 3 --reference refs --reference-spp 32 -o out";
+    const Outcome o = stability(options);
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    const std::string csv = text("out/stability.csv"), page = text("out/stability.md");
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (2 + 2 * 5)) << "two methods with five norms";
+    EXPECT_THAT(csv, HasSubstr("\nno-light,pt,none,ok,"));
+    EXPECT_THAT(csv, HasSubstr("\nno-light,gpr,weighted,ok,"));
+    EXPECT_THAT(csv, Not(HasSubstr("fails"))) << csv;
+    for (const char* part :
+         {"| scene | pt | pr | gpt-none |", "## texture", "Known to fail: G-PT and G-PR", "24x18"})
+        EXPECT_THAT(page, HasSubstr(part));
+    for (const char* file : {"out/no-light.png", "out/texture.png", "refs/texture-24x18-d8.exr"})
+        EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
+
+    const std::string journal = text("out/scenes/texture/journal.jsonl");
+    ASSERT_EQ(stability(options).exit_code, 0);
+    EXPECT_EQ(text("out/scenes/texture/journal.jsonl"), journal) << "nothing is rendered again";
+    EXPECT_EQ(text("out/stability.csv"), csv);
+}
+
+TEST_F(StabilityCommand, NoReferenceButOfPathTracingWillDo) {
+    ASSERT_EQ(run(folder_.path(), "reference '" + (suite / "no-light.xml").string() +
+                                      "' --spp 4 --size 24x18 -m gpr -o refs/no-light-24x18-d8.exr")
+                  .exit_code,
+              exit_bad_input)
+        << "there is no such folder";
+    fs::create_directories(folder_.path() / "refs");
+    ASSERT_EQ(run(folder_.path(), "reference '" + (suite / "no-light.xml").string() +
+                                      "' --spp 4 --size 24x18 -m gpr -o refs/no-light-24x18-d8.exr")
+                  .exit_code,
+              0);
+    const Outcome o = stability("--seeds 2 --reference refs -o out");
+    EXPECT_EQ(o.exit_code, exit_bad_input);
+    EXPECT_THAT(o.output, HasSubstr("no-light-24x18-d8.exr was not made by PT"));
+}
+
+TEST(StabilityScenes, AllAreUnderstoodAndSayWhatFails) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(suite))
+        if (entry.path().extension() == ".xml")
+            files.push_back(entry.path());
+    ThreadPool pool(1);
+    for (const StabilityScene& scene : stability_scenes(files, pool)) {
+        for (const LoadNote& note : open_scene(scene.source, pool, nullptr).notes)
+            EXPECT_THAT(note.text, HasSubstr("is approximated by"))
+                << scene.source.file << ": of round shapes alone";
+        EXPECT_GT(scene.fails.size(), 20u) << scene.source.file;
+    }
+}
+
+TEST(StabilityScenes, VaryAsTheirCommentsSay) {
+    ThreadPool pool(1);
+    const std::vector<StabilityScene> scenes =
+        stability_scenes({suite / "units.xml", suite / "bounces.xml"}, pool);
+    ASSERT_EQ(scenes.size(), 4u);
+    EXPECT_EQ(scenes[0].source.variables.at("unit"), "0.0001");
+    EXPECT_EQ(scenes[2].source.variables.at("unit"), "100000");
+    EXPECT_EQ(scenes[0].depth, 8);
+    EXPECT_EQ(scenes[3].depth, 64);
+}
+
+} // namespace
+
+} // namespace tessera::test
