@@ -45,7 +45,7 @@ std::uint64_t Session::submit(int pane_index, RenderRequest request) {
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
         pane.stop.request_stop();
         pane.stop = std::stop_source();
-        pane.request = std::move(request);
+        std::swap(pane.request, request);
         pane.generation = generation = ++generation_;
         pane.failed = false;
         pane.steps = 0;
@@ -55,14 +55,18 @@ std::uint64_t Session::submit(int pane_index, RenderRequest request) {
 }
 
 void Session::withdraw(int pane_index) {
+    RenderRequest request; // what is large is given up without the lock, here and below
+    std::shared_ptr<const Snapshot> latest;
+    std::shared_ptr<const GradientImages> reconstructed;
     {
         const std::lock_guard lock(mutex_);
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
         pane.stop.request_stop();
         pane.stop = std::stop_source();
-        pane.request = {};
+        std::swap(pane.request, request);
+        std::swap(pane.latest, latest);
+        std::swap(pane.reconstructed, reconstructed);
         pane.generation = ++generation_; // what is still being made of the old request is dropped
-        pane.latest.reset();
     }
     render_wake_.notify_one();
 }
@@ -130,14 +134,20 @@ Session::Pane* Session::next_pane() {
         return std::tuple(!p.is_fresh(), had, p.served);
     };
     for (const auto& pane : panes_) {
-        if (!pane->request.scene)
-            pane->render.reset();
         if (pane->wants_pass(pace_, paused_) && (!next || order(*pane) < order(*next)))
             next = pane.get();
     }
     if (next)
         next->served = ++turn_;
     return next;
+}
+
+/// The film of a pane that has been withdrawn; null: none. Needs the lock.
+std::unique_ptr<Render> Session::withdrawn_render() {
+    for (const auto& pane : panes_)
+        if (pane->render && !pane->request.scene)
+            return std::move(pane->render);
+    return nullptr;
 }
 
 /// A pane that rests with passes that nobody has seen yet. Needs the lock.
@@ -153,16 +163,20 @@ void Session::render_loop(std::stop_token stop) {
     while (!stop.stop_requested()) { // wait() returns true, stopped or not, while there is work
         Pane* to_render = nullptr;
         Pane* to_publish = nullptr;
+        std::unique_ptr<Render> to_free;
         {
             std::unique_lock lock(mutex_);
-            const auto has_work = [&] { return (to_publish = unpublished_pane()) || (to_render = next_pane()); };
+            const auto has_work = [&] {
+                return (to_free = withdrawn_render()) || (to_publish = unpublished_pane()) ||
+                       (to_render = next_pane());
+            };
             if (!render_wake_.wait(lock, stop, has_work))
                 return;
         }
-        if (to_render) {
-            render_pass(*to_render);
+        if (to_render)
+            render_pass(*to_render, stop);
+        if (!to_publish)
             continue;
-        }
         try {
             publish(*to_publish, *to_publish->render, to_publish->render_generation, false);
         } catch (const std::exception& error) {
@@ -172,7 +186,8 @@ void Session::render_loop(std::stop_token stop) {
     }
 }
 
-void Session::render_pass(Pane& pane) {
+/// `session_stop` ends what no request would.
+void Session::render_pass(Pane& pane, std::stop_token session_stop) {
     RenderRequest request;
     std::uint64_t generation;
     std::stop_token stop;
@@ -186,10 +201,14 @@ void Session::render_pass(Pane& pane) {
         return; // withdrawn since it was chosen
     try {
         if (pane.render_generation != generation) {
+            pane.render.reset(); // there are never two films
+            render_coarse(pane, request, generation, session_stop);
+            if (stop.stop_requested())
+                return; // dragged on: a film would be for nothing
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
             pane.render_generation = generation;
             pane.published_spp = 0;
-            return render_coarse(pane, request, generation); // the other panes' first looks come next
+            return; // the other panes' first looks come next
         }
         if (!pane.render->pass(pool_, stop))
             return;
@@ -216,11 +235,12 @@ void Session::report(std::string message) {
 
 /// A first look: one sample a pixel of a small image, there at once. It is not stopped by a newer request: while a
 /// camera is dragged, each frame makes one, and a picture somewhat late is better than none.
-void Session::render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation) {
+void Session::render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
+                            std::stop_token session_stop) {
     const glm::ivec2 size = (request.size + coarse_divisor - 1) / coarse_divisor;
     Render coarse(request.scene, request.camera, size, request.settings);
-    coarse.pass(pool_);
-    publish(pane, coarse, generation, true);
+    if (coarse.pass(pool_, session_stop))
+        publish(pane, coarse, generation, true);
 }
 
 /// Nothing more to do for this generation.
@@ -238,7 +258,8 @@ void Session::count_step(Pane& pane, std::uint64_t generation) {
 }
 
 void Session::publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse) {
-    auto snapshot = std::make_shared<Snapshot>();
+    const auto snapshot = std::make_shared<Snapshot>();
+    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before
     snapshot->generation = generation;
     snapshot->coarse = coarse;
     snapshot->spp = render.spp();
@@ -260,7 +281,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
             snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
             snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
         }
-        pane.latest = std::move(snapshot);
+        std::swap(pane.latest, latest);
     }
     if (!coarse) {
         pane.published_spp = render.spp();

@@ -47,7 +47,8 @@ public:
     Session(int panes, int threads, std::function<void()> on_publish = {});
     ~Session();
 
-    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped.
+    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped,
+    /// all but a first look.
     /// Returns the generation that snapshots of this request will carry.
     std::uint64_t submit(int pane, RenderRequest request);
 
@@ -74,10 +75,12 @@ private:
     void render_loop(std::stop_token stop);
     void reconstruct_loop(std::stop_token stop);
     Pane* next_pane();
+    std::unique_ptr<Render> withdrawn_render();
     Pane* unpublished_pane();
-    void render_pass(Pane& pane);
+    void render_pass(Pane& pane, std::stop_token session_stop);
     void report(std::string message);
-    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation);
+    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
+                       std::stop_token session_stop);
     void give_up(Pane& pane, std::uint64_t generation);
     void count_step(Pane& pane, std::uint64_t generation);
     void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);

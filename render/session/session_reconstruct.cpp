@@ -2,6 +2,8 @@
 #include "render/session/session_pane.h"
 #include "render/session/thread_priority.h"
 
+#include <utility>
+
 #include <fmt/core.h>
 
 namespace tessera {
@@ -38,6 +40,8 @@ void Session::reconstruct_loop(std::stop_token stop) {
 void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                                    std::stop_token stop) {
     auto result = std::make_shared<Reconstruction>();
+    std::shared_ptr<const GradientImages> reconstructed = snapshot.images; // and then the one before
+    std::shared_ptr<const Snapshot> latest;
     std::string failure;
     try {
         *result = pane.solver_for(snapshot, settings).reconstruct(*snapshot.images, settings, serial_for, stop);
@@ -50,7 +54,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
         if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
             pane.latest->coarse != snapshot.coarse)
             return;
-        pane.reconstructed = snapshot.images;
+        std::swap(pane.reconstructed, reconstructed);
         pane.reconstructed_with = settings;
         if (!failure.empty()) {
             messages_.push_back(std::move(failure));
@@ -61,7 +65,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
             updated->reconstruction = std::move(result);
             updated->reconstruction_spp = snapshot.spp;
             updated->reconstruction_seconds = snapshot.seconds;
-            pane.latest = std::move(updated);
+            latest = std::exchange(pane.latest, std::move(updated));
         }
     }
     if (on_publish_)
