@@ -7,8 +7,7 @@ namespace tessera {
 
 namespace {
 
-// The best of what was tried on Veach, Ajar and Country Kitchen, G-PT and G-PR, 32 samples a pixel; half or twice
-// as much of any costs some percent.
+// The best of what was tried on Veach, Ajar and Country Kitchen, G-PT and G-PR, 32 samples a pixel.
 constexpr float noise_factor = 0.4f; // k
 constexpr int gradient_radius = 2, primal_radius = 4;
 constexpr float own_share = 0.5f; // of a gradient's own variance against the mean around

@@ -40,15 +40,14 @@ Norm norm_for(const GradientImages& images, Norm wanted) {
 }
 
 /// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
-/// smoothed over the squares. The square root has been tried out on tiles of 6 pixels: 1 leaves blobs, the edge
-/// itself too little.
+/// smoothed over the squares. Tried out on tiles of 6 pixels: alpha 0.2 leaves blobs, 0.1 and 0.07 are level.
 float alpha_of_patches(float alpha, float patch) {
     return alpha / std::sqrt(patch);
 }
 
 } // namespace
 
-/// The solvers of one size; each is made when it is first asked for. Solves return the number of inner solves.
+/// The solvers of one size; each is made when it is first asked for.
 struct Reconstructor::Solvers {
     template <class Solver>
     Solver& made(std::optional<Solver>& solver) {

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include <fmt/core.h>
+
 namespace tessera {
 
 namespace {
@@ -39,6 +41,15 @@ Method method_named(const std::string& value) {
     throw std::invalid_argument("method is one of pt, pr, gpt, gpr, not " + value);
 }
 
+Norm norm_named(const std::string& value) {
+    if (const auto norm = norm_from_name(value))
+        return *norm;
+    std::string list;
+    for (Norm norm : all_norms)
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", to_string(norm));
+    throw std::invalid_argument("norm is one of " + list + ", not " + value);
+}
+
 glm::ivec2 size_of(const std::string& value) {
     glm::ivec2 size(0);
     char rest = 0;
@@ -55,6 +66,12 @@ struct Named {
 
 using S = ViewerState;
 using Text = const std::string&;
+
+/// Sets the bool that `of` picks.
+template <auto of>
+void flag(S& s, Text name, Text value) {
+    of(s) = one_of(name, value, {"off", "on"}) == 1;
+}
 
 constexpr Named table[] = {
     {"method", [](S& s, Text, Text v) { s.active().settings.render.method = method_named(v); }},
@@ -73,19 +90,10 @@ constexpr Named table[] = {
          s.active_pane = static_cast<int>(number(n, v, 1, static_cast<double>(s.panes.size()))) - 1;
      }},
     {"panes", [](S& s, Text n, Text v) { s.set_pane_count(static_cast<int>(number(n, v, 1, most_panes))); }},
-    {"alone",
-     [](S& s, Text n, Text v) {
-         s.alone = one_of(n, v, {"off", "on"}) == 1;
-     }},
+    {"alone", flag<[](S& s) -> bool& { return s.alone; }>},
     {"wipe", [](S& s, Text n, Text v) { s.wipe = static_cast<float>(number(n, v, 0, 1)); }},
-    {"linked",
-     [](S& s, Text n, Text v) {
-         s.linked = one_of(n, v, {"off", "on"}) == 1;
-     }},
-    {"paused",
-     [](S& s, Text n, Text v) {
-         s.paused = one_of(n, v, {"off", "on"}) == 1;
-     }},
+    {"linked", flag<[](S& s) -> bool& { return s.linked; }>},
+    {"paused", flag<[](S& s) -> bool& { return s.paused; }>},
     {"spp_limit", [](S& s, Text n, Text v) { s.pace.spp_limit = static_cast<int>(number(n, v, 0, 1 << 24)); }},
     {"seconds_limit", [](S& s, Text n, Text v) { s.pace.seconds_limit = number(n, v, 0, 1e7); }},
     {"equal",
@@ -102,43 +110,22 @@ constexpr Named table[] = {
      [](S& s, Text n, Text v) {
          s.tone.curve = static_cast<Tone::Curve>(one_of(n, v, {"srgb", "gamma", "filmic"}));
      }},
-    {"magnifier",
-     [](S& s, Text n, Text v) {
-         s.magnifier = one_of(n, v, {"off", "on"}) == 1;
-     }},
-    {"tiles",
-     [](S& s, Text n, Text v) {
-         s.show_tiles = one_of(n, v, {"off", "on"}) == 1;
-     }},
-    {"inspector",
-     [](S& s, Text n, Text v) {
-         s.inspector.active = one_of(n, v, {"off", "on"}) == 1;
-     }},
+    {"magnifier", flag<[](S& s) -> bool& { return s.magnifier; }>},
+    {"tiles", flag<[](S& s) -> bool& { return s.show_tiles; }>},
+    {"inspector", flag<[](S& s) -> bool& { return s.inspector.active; }>},
     {"inspector_shows",
      [](S& s, Text n, Text v) {
          s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, {"to_pixel", "from_pixel"}));
      }},
-    {"mark_negative",
-     [](S& s, Text n, Text v) {
-         s.mark_negative = one_of(n, v, {"off", "on"}) == 1;
-     }},
+    {"mark_negative", flag<[](S& s) -> bool& { return s.mark_negative; }>},
     {"theme",
      [](S& s, Text n, Text v) {
          s.theme = static_cast<Theme>(one_of(n, v, {"dark", "light"}));
      }},
     {"ui_scale", [](S& s, Text n, Text v) { s.ui_scale = static_cast<float>(number(n, v, 1, 3)); }},
-    {"panel",
-     [](S& s, Text n, Text v) {
-         s.show_panel = one_of(n, v, {"off", "on"}) == 1;
-     }},
-    {"statistics",
-     [](S& s, Text n, Text v) {
-         s.show_statistics = one_of(n, v, {"off", "on"}) == 1;
-     }},
-    {"charts",
-     [](S& s, Text n, Text v) {
-         s.show_charts = one_of(n, v, {"off", "on"}) == 1;
-     }},
+    {"panel", flag<[](S& s) -> bool& { return s.show_panel; }>},
+    {"statistics", flag<[](S& s) -> bool& { return s.show_statistics; }>},
+    {"charts", flag<[](S& s) -> bool& { return s.show_charts; }>},
     {"charts_axis",
      [](S& s, Text n, Text v) {
          s.charts_by_spp = one_of(n, v, {"seconds", "spp"}) == 1;
@@ -150,10 +137,7 @@ constexpr Named table[] = {
      }},
     {"norm",
      [](S& s, Text, Text v) {
-         const auto norm = norm_from_name(v);
-         if (!norm)
-             throw std::invalid_argument("norm is one of none, l2, l1, mixed, not " + v);
-         s.active().settings.reconstruction.norm = *norm;
+         s.active().settings.reconstruction.norm = norm_named(v);
          s.share_settings();
      }},
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -116,16 +115,6 @@ TEST(PoissonSolver, ServesManyProblemsOfItsSize) {
     }
 }
 
-/// Three threads, which take their iterations backwards.
-void threaded_for(int count, const std::function<void(int)>& body) {
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < 3; ++t)
-        threads.emplace_back([&, t] {
-            for (int i = count - 1 - t; i >= 0; i -= 3)
-                body(i);
-        });
-}
-
 TEST(PoissonSolver, SameBitsForAnyNumberOfThreads) {
     for (const int width : {240, 241}) {
         const Inputs inputs(width, 101);
@@ -133,7 +122,7 @@ TEST(PoissonSolver, SameBitsForAnyNumberOfThreads) {
             PoissonSolver solver(width, 101);
             RgbImage alone, together;
             solver.solve(inputs.problem(alpha), alone);
-            solver.solve(inputs.problem(alpha), together, threaded_for);
+            solver.solve(inputs.problem(alpha), together, backwards_for);
             EXPECT_EQ(std::memcmp(alone.data(), together.data(), alone.size() * sizeof(Rgb)), 0);
         }
     }

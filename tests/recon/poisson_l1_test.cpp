@@ -2,7 +2,6 @@
 #include "tests/recon/test_images.h"
 
 #include <cmath>
-#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -135,17 +134,9 @@ TEST(PoissonL1, SpikesLeaveTheRestAsItIs) {
 
 TEST(PoissonL1, ThreadsDoNotMatter) {
     const GradientImages images = noisy_images(79, 61);
-    const ParallelFor backwards = [](int count, const std::function<void(int)>& body) {
-        std::jthread other([&] {
-            for (int i = count - 1; i >= 0; i -= 2)
-                body(i);
-        });
-        for (int i = count - 2; i >= 0; i -= 2)
-            body(i);
-    };
     L1Solver solver(79, 61);
     RgbImage image;
-    solver.solve(problem_of(images), {}, image, backwards);
+    solver.solve(problem_of(images), {}, image, backwards_for);
     EXPECT_EQ(relative_difference(image, solve_cold(images, {})), 0);
 }
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -157,18 +156,10 @@ TEST(PoissonWeighted, KeepsTheMeanOfThePrimal) {
 
 TEST(PoissonWeighted, ThreadsDoNotMatter) {
     const GradientImages images = noisy_images(79, 61);
-    const ParallelFor backwards = [](int count, const std::function<void(int)>& body) {
-        std::jthread other([&] {
-            for (int i = count - 1; i >= 0; i -= 2)
-                body(i);
-        });
-        for (int i = count - 2; i >= 0; i -= 2)
-            body(i);
-    };
-    const EdgeWeights weights = weights_of_gradients(images, 0.2f, backwards);
+    const EdgeWeights weights = weights_of_gradients(images, 0.2f, backwards_for);
     WeightedSolver solver(79, 61);
     RgbImage image;
-    solver.solve(problem_of(images), weights, {}, image, backwards);
+    solver.solve(problem_of(images), weights, {}, image, backwards_for);
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights_of_gradients(images, 0.2f), {})), 0);
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <random>
+#include <thread>
 
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
@@ -36,6 +38,16 @@ inline RgbImage y_differences(const RgbImage& image) {
         for (int x = 0; x < image.width(); ++x)
             result(x, y) = image(x, y + 1) - image(x, y);
     return result;
+}
+
+/// A ParallelFor of two threads, which take their iterations backwards.
+inline void backwards_for(int count, const std::function<void(int)>& body) {
+    const auto every_second = [&](int last) {
+        for (int i = last; i >= 0; i -= 2)
+            body(i);
+    };
+    std::jthread other(every_second, count - 1);
+    every_second(count - 2);
 }
 
 inline glm::dvec3 mean_color(const RgbImage& image) {
