@@ -20,6 +20,12 @@ ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptio
     options.scenes = {scene.source.file};
     options.variables = scene.source.variables;
     options.settings.render.max_depth = scene.depth;
+    options.settings.size = options.recipe.size = scene.needs.size.value_or(suite.settings.size);
+    options.seeds = scene.needs.seeds.value_or(suite.seeds);
+    if (scene.needs.spp) {
+        options.effort = {static_cast<double>(*scene.needs.spp), Effort::Unit::spp};
+        options.recipe.spp = std::max(suite.recipe.spp, 2 * *scene.needs.spp); // each half as good as a picture
+    }
     options.looks_for_artefacts = true;
     options.keeps_images = true;
     options.output = suite.output / "scenes" / scene_name(scene.source);

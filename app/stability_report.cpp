@@ -177,16 +177,22 @@ std::string table(const std::vector<Row>& rows) {
 
 std::string section(const StabilityCase& c, const std::vector<Row>& rows) {
     const FloorFreeError error = error_of(reference_of(c));
-    return fmt::format("\n## {}\n\n{}\n\nReference: relMSE of its own {:.2g} ± {:.1g}. ![{}]({}.png)\n\n{}",
-                       c.name(), c.scene.fails.empty() ? "" : "Known to fail: " + c.scene.fails,
-                       error.relative_mse, error.standard_error, c.name(), c.name(), table(rows));
+    const ExperimentOptions& options = *c.options;
+    const glm::ivec2 size = options.settings.size;
+    return fmt::format(
+        "\n## {}\n\n{}\n\n{}x{} pixels, {}, {} seeds. Reference: relMSE of its own {:.2g} ± {:.1g}. "
+        "![{}]({}.png)\n\n{}",
+        c.name(), c.scene.fails.empty() ? "" : "Known to fail: " + c.scene.fails, size.x, size.y,
+        to_string(options.effort), options.seeds, error.relative_mse, error.standard_error, c.name(), c.name(),
+        table(rows));
 }
 
 std::string introduction(const ExperimentOptions& suite, double level) {
     const glm::ivec2 size = suite.settings.size;
     return fmt::format(
         "# Stability\n\n"
-        "{}x{} pixels, {} each, {} seeds, {}. References are by path tracing.\n\n"
+        "{}x{} pixels, {} each, {} seeds, unless a scene says what it needs; {}. References are by path "
+        "tracing.\n\n"
         "- **fails**: not finite; or the mean over the seeds is not the reference's, by more than {:.1f} sigma: "
         "of "
         "the energy (mean luminance), or of the squared bias of pieces of 8x8 pixels. Where a method is linear in "

@@ -4,6 +4,7 @@
 #include "render/path/path_settings.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -56,6 +57,32 @@ std::vector<SceneVariables> variants_of(const std::string& text, const fs::path&
     return variants;
 }
 
+/// "100000 spp, 3 seeds, 16x16 pixels".
+StabilityNeeds needs_of(const std::string& text, const fs::path& file) {
+    StabilityNeeds needs;
+    std::istringstream list(text);
+    for (std::string need; std::getline(list, need, ',');) {
+        int a = 0, b = 0, end = 0;
+        const auto is = [&](const char* form) {
+            end = 0;
+            std::sscanf(need.c_str(), form, &a, &end);
+            return end == static_cast<int>(need.size()) && a > 0;
+        };
+        if (is(" %d spp%n"))
+            needs.spp = a;
+        else if (is(" %d seeds%n"))
+            needs.seeds = a;
+        else if (std::sscanf(need.c_str(), " %dx%d pixels%n", &a, &b, &end) == 2 &&
+                 end == static_cast<int>(need.size()) && a > 0 && b > 0)
+            needs.size = glm::ivec2(a, b);
+        else
+            throw BadInput(
+                fmt::format("{}: <!-- needs: {} -->: must be N spp, N seeds, WxH pixels, or some of these",
+                            file.string(), text));
+    }
+    return needs;
+}
+
 /// Of this folder, or the nearest that it lies in.
 std::optional<fs::path> stability_folder(const fs::path& from) {
     for (fs::path folder = from;; folder = folder.parent_path()) {
@@ -78,7 +105,7 @@ std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files,
         for (const SceneVariables& variables : variants_of(comment_of(xml, "vary"), file)) {
             const SceneSource source{file, variables, {}};
             const int depth = std::min(open_scene(source, pool, nullptr).scene->max_depth(), most_edges);
-            scenes.push_back({source, depth, comment_of(xml, "fails")});
+            scenes.push_back({source, depth, comment_of(xml, "fails"), needs_of(comment_of(xml, "needs"), file)});
         }
     }
     return scenes;

@@ -164,6 +164,30 @@ std::string bias_text(const Findings& f, double level) {
                        f.squared_bias.sigmas);
 }
 
+/// "only 31 % of the shifts bring light (mostly kind_mismatch)"; empty where most do, or none was tried.
+std::string shift_text(const Counters& counters) {
+    const auto& shifts = counters.shifts;
+    const auto all = static_cast<double>(counters.shift_attempts());
+    const double arrived = static_cast<double>(shifts[static_cast<int>(ShiftOutcome::ok)]) / all;
+    if (!(arrived < 0.5))
+        return "";
+    const auto most = std::max_element(shifts.begin() + static_cast<int>(ShiftOutcome::ok) + 1, shifts.end());
+    return fmt::format("; only {:.0f} % of the shifts bring light (mostly {})", 100 * arrived,
+                       to_string(static_cast<ShiftOutcome>(most - shifts.begin())));
+}
+
+/// The error at equal time is that of a sample times its cost.
+std::string cause_of_worse(const Findings& f) {
+    std::string text =
+        fmt::format("{:.3g} times the error: a sample has {:.2g} times that of PT's, and costs {:.2g} "
+                    "times as much",
+                    f.factor, f.factor * f.samples, 1 / f.samples);
+    text += shift_text(f.counters);
+    if (f.worst_share > 0.5)
+        text += fmt::format("; {:.0f} % of it is in the worst pixels", 100 * f.worst_share);
+    return text;
+}
+
 } // namespace
 
 bool is_linear(const Point& point) {
@@ -177,6 +201,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     for (const Measurement& run : result.runs) {
         f.bad_pixels += run.artefacts->bad_pixels;
         f.refused += run.counters.refused_samples;
+        f.counters += run.counters;
         errors.push_back(run.artefacts->error.relative_mse);
         if (run.tiles)
             edges.push_back(run.tiles->edges);
@@ -205,10 +230,7 @@ Verdict judge(const Findings& findings, const Findings& path_tracing, const Poin
     if (is_biased_by_itself && (is_linear(point) || findings.energy.sigmas > sigmas(level)))
         return {Kind::fails, bias_text(findings, level)};
     if (findings.low > 1)
-        return {Kind::worse,
-                fmt::format(
-                    "{:.3g} times the error, with {:.2g} times the samples, {:.0f} % of it in the worst pixels",
-                    findings.factor, findings.samples, 100 * findings.worst_share)};
+        return {Kind::worse, cause_of_worse(findings)};
     return {};
 }
 

@@ -29,6 +29,7 @@ struct Findings {
     double error = 0;       ///< relMSE, of pictures in units of the reference's mean
     double error_error = 0; ///< its standard error, references' noise included
     double samples = 0;     ///< a pixel, over those of PT
+    Counters counters;      ///< of all runs together
     /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its confidence interval; none
     /// of them a number where either error is not certain.
     double factor = 0, low = 0, high = 0;
@@ -37,7 +38,7 @@ struct Findings {
 struct Verdict {
     enum class Kind { ok, worse, fails, undecided };
     Kind kind = Kind::ok;
-    std::string cause; ///< empty for ok
+    std::string cause; ///< empty for ok; of what is worse, what of it is cost, and where shifts fail
 };
 
 /// `level`: the probability of a wrong interval. Both results must have runs with artefacts.

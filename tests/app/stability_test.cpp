@@ -99,6 +99,22 @@ TEST(StabilityScenes, VaryAsTheirCommentsSay) {
     EXPECT_EQ(scenes[3].depth, 64);
 }
 
+TEST(StabilityScenes, SayWhatTheyNeed) {
+    ThreadPool pool(1);
+    const auto scenes = stability_scenes({suite / "long-run.xml", suite / "bounces.xml"}, pool);
+    EXPECT_EQ(scenes[0].needs.spp, 100000);
+    EXPECT_EQ(scenes[0].needs.seeds, 3);
+    EXPECT_EQ(scenes[0].needs.size, glm::ivec2(16, 16));
+    EXPECT_FALSE(scenes[1].needs.spp || scenes[1].needs.seeds || scenes[1].needs.size);
+
+    TemporaryFolder folder;
+    const fs::path file = folder.path() / "odd.xml";
+    for (const char* needs : {"64 samples", "-3 seeds", "16x pixels", "3 seeds, , 4 spp", "3 spp more"}) {
+        std::ofstream(file) << "<!-- needs: " << needs << " --><scene version=\"3.0.0\"/>";
+        EXPECT_THROW(stability_scenes({file}, pool), BadInput) << needs;
+    }
+}
+
 } // namespace
 
 } // namespace tessera::test

@@ -15,6 +15,7 @@ namespace tessera::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int width = 64, height = 48, seeds = 12;
 constexpr double level = 1e-5;
@@ -147,7 +148,9 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     EXPECT_GT(f.low, 2.5);
     const Verdict v = suite.verdict(truth, 0.6);
     EXPECT_EQ(v.kind, Verdict::Kind::worse);
-    EXPECT_THAT(v.cause, HasSubstr("times the error"));
+    EXPECT_THAT(v.cause, HasSubstr("times the error: a sample has "));
+    EXPECT_THAT(v.cause, HasSubstr("costs 1 times"));
+    EXPECT_THAT(v.cause, Not(HasSubstr("shifts"))) << "none was tried";
 
     Result slow = suite.result(truth, 0.3);
     for (Measurement& m : slow.runs)
@@ -155,6 +158,24 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     EXPECT_NEAR(suite.findings(slow).factor, 3, 0.3) << "error at equal time";
     EXPECT_EQ(suite.verdict(truth, 0.1).kind, Verdict::Kind::ok);
     EXPECT_NEAR(suite.findings(suite.result(truth, 0.1)).factor, 1.0 / 9, 0.02);
+}
+
+TEST(Verdict, AWorseMethodIsToldWhatSamplesCostAndWhereShiftsFail) {
+    Suite suite;
+    Result result = suite.result(truth, 0.6, Method::gpr);
+    for (Measurement& m : result.runs) {
+        m.spp = 4; // in the time of PT's 16
+        m.counters.shifts[static_cast<int>(ShiftOutcome::ok)] = 10;
+        m.counters.shifts[static_cast<int>(ShiftOutcome::occluded)] = 30;
+        m.counters.shifts[static_cast<int>(ShiftOutcome::kind_mismatch)] = 60;
+    }
+    const Verdict v = suite.verdict(result);
+    EXPECT_EQ(v.kind, Verdict::Kind::worse);
+    EXPECT_THAT(v.cause,
+                HasSubstr("costs 4 times as much; only 10 % of the shifts bring light (mostly kind_mismatch)"));
+    for (Measurement& m : result.runs)
+        m.counters.shifts[static_cast<int>(ShiftOutcome::ok)] = 1000;
+    EXPECT_THAT(suite.verdict(result).cause, Not(HasSubstr("shifts")));
 }
 
 TEST(Verdict, ErrorsBelowTheReferencesNoiseAreNoFactor) {
