@@ -63,6 +63,7 @@ ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const Recon
     if (wanted.buffers && !maps.reused.empty()) {
         file.layers.push_back({"reused", grey(maps.reused)});
         file.layers.push_back({"failed", grey(maps.failed)});
+        file.layers.push_back({"survival", grey(maps.survival)});
     }
     return file;
 }

@@ -42,8 +42,8 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
         dx_ = Image<Moments>(width, height);
         dy_ = Image<Moments>(width, height);
     }
-    if (buffers.shifts)
-        shifts_ = Image<Shifts>(width, height);
+    if (buffers.reuse)
+        reuse_ = Image<ReuseCounts>(width, height);
     if (buffers.base_luminance)
         base_luminance_ = Image<float>(width, height);
 }
@@ -56,10 +56,8 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     }
     if (!base_luminance_.empty())
         base_luminance_(x, y) = sample.base_luminance;
-    if (!shifts_.empty()) {
-        shifts_(x, y).arrived += sample.arrived;
-        shifts_(x, y).failed += sample.failed;
-    }
+    if (!reuse_.empty())
+        reuse_(x, y) += sample.reuse;
     primal_(x, y) += sample.primal;
     very_direct_(x, y) += sample.very_direct;
     if (dx_.empty())
@@ -72,13 +70,18 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
 }
 
 ReuseMaps Film::reuse_maps(int passes) const {
-    ReuseMaps maps{Image<float>(shifts_.width(), shifts_.height()),
-                   Image<float>(shifts_.width(), shifts_.height())};
-    for (std::size_t i = 0; i < shifts_.size(); ++i) {
-        const auto arrived = static_cast<float>(shifts_.data()[i].arrived);
-        const auto failed = static_cast<float>(shifts_.data()[i].failed);
-        maps.reused.data()[i] = arrived / static_cast<float>(std::max(passes, 1));
-        maps.failed.data()[i] = failed / std::max(arrived + failed, 1.0f);
+    ReuseMaps maps;
+    for (Image<float>* map : {&maps.reused, &maps.failed, &maps.survival})
+        *map = Image<float>(reuse_.width(), reuse_.height());
+    const auto share = [](std::uint32_t part, std::uint32_t rest) {
+        const auto of = static_cast<float>(part) + static_cast<float>(rest);
+        return static_cast<float>(part) / std::max(of, 1.0f);
+    };
+    for (std::size_t i = 0; i < reuse_.size(); ++i) {
+        const ReuseCounts& c = reuse_.data()[i];
+        maps.reused.data()[i] = static_cast<float>(c.arrived) / static_cast<float>(std::max(passes, 1));
+        maps.failed.data()[i] = share(c.failed, c.arrived);
+        maps.survival.data()[i] = share(c.reused, c.skipped);
     }
     return maps;
 }
@@ -93,7 +96,7 @@ GradientImages Film::means(int passes) const {
 }
 
 GradientImages Film::take_means(int passes) {
-    shifts_ = {};
+    reuse_ = {};
     base_luminance_ = {};
     GradientImages images;
     const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
@@ -109,7 +112,7 @@ GradientImages Film::take_means(int passes) {
 
 Memory Film::memory() {
     return {memory_of(primal_), memory_of(very_direct_), memory_of(dx_),
-            memory_of(dy_),     memory_of(shifts_),      memory_of(base_luminance_)};
+            memory_of(dy_),     memory_of(reuse_),       memory_of(base_luminance_)};
 }
 
 } // namespace tessera

@@ -9,28 +9,44 @@
 
 namespace tessera {
 
+/// How sharing went at one pixel.
+struct ReuseCounts {
+    std::uint32_t arrived = 0; ///< base paths of other pixels that brought light here
+    std::uint32_t failed = 0;  ///< those that were shifted here and brought none
+    std::uint32_t reused = 0; ///< its own base paths that carry light, once a sampling set of its own: reused, ...
+    std::uint32_t skipped = 0; ///< ... and ended by the reuse roulette
+
+    void operator+=(const ReuseCounts& other) {
+        arrived += other.arrived;
+        failed += other.failed;
+        reused += other.reused;
+        skipped += other.skipped;
+    }
+};
+
 /// What one pass found at one pixel.
 struct PixelSample {
     Rgb primal{0};
     Rgb dx{0}; ///< to the pixel on the right
     Rgb dy{0}; ///< to the pixel below
     Rgb very_direct{0};
-    std::uint32_t arrived = 0; ///< base paths of other pixels that brought light here
-    std::uint32_t failed = 0;  ///< those that were shifted here and brought none
+    ReuseCounts reuse{};
     float base_luminance = -1; ///< of what its own base path has to share; negative: it sees nothing
 };
 
 /// What a film keeps beside primal and very direct light.
 struct FilmBuffers {
     bool gradients = false;
-    bool shifts = false;         ///< how shifts to a pixel went
+    bool reuse = false;          ///< how sharing went
     bool base_luminance = false; ///< of the last pass
 };
 
 /// How sharing went, per pixel.
 struct ReuseMaps {
-    Image<float> reused; ///< base paths of other pixels that brought light here, a pass
-    Image<float> failed; ///< share of the shifts to here that brought none, in [0, 1]; 0 without any
+    Image<float> reused;   ///< base paths of other pixels that brought light here, a pass
+    Image<float> failed;   ///< share of the shifts to here that brought none, in [0, 1]; 0 without any
+    Image<float> survival; ///< share of its own base paths with light that the reuse roulette left, in [0, 1]; 0
+                           ///< where none has carried light
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -46,9 +62,6 @@ class Film {
             sum += v;
             squares += glm::dot(v, v);
         }
-    };
-    struct Shifts {
-        std::uint32_t arrived, failed;
     };
 
 public:
@@ -75,7 +88,7 @@ public:
 private:
     Image<Moments> primal_, dx_, dy_;
     Image<glm::dvec3> very_direct_;
-    Image<Shifts> shifts_;
+    Image<ReuseCounts> reuse_;
     Image<float> base_luminance_;
 };
 

@@ -85,6 +85,27 @@ void next_tone(ViewerState& state) {
     state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
 }
 
+// Both have the mouse's left button: one gives way.
+void toggle_inspector(ViewerState& state) {
+    state.inspector.active = !state.inspector.active;
+    state.slow_motion.active = false;
+}
+
+void toggle_slow_motion(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    slow.active = !slow.active;
+    state.inspector.active = false;
+    slow.frames = true;
+    slow.held = false;
+    slow.sample.reset();
+}
+
+void next_tile(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (slow.tile)
+        slow.start({slow.pane, slow.next_pixel(state.request_size()), {}});
+}
+
 constexpr Shortcut key(Key k) {
     return {k, false, false, 0};
 }
@@ -147,6 +168,9 @@ constexpr Action table[] = {
      key(Key::digit5), no_shortcut, show_buffer<Buffer::reused>, shows_buffer<Buffer::reused>},
     {"Buffer", "Failed shifts", "Shows which share of the paths shifted to each pixel brought none, in all panes.",
      key(Key::digit6), no_shortcut, show_buffer<Buffer::failed>, shows_buffer<Buffer::failed>},
+    {"Buffer", "Roulette survival",
+     "Shows which share of each pixel's base paths with light the roulette let be reused, in all panes.",
+     shift(Key::digit9), no_shortcut, show_buffer<Buffer::survival>, shows_buffer<Buffer::survival>},
     {"Buffer", "Very direct", "Shows the emission that the camera itself sees, in all panes.", shift(Key::digit1),
      no_shortcut, show_buffer<Buffer::very_direct>, shows_buffer<Buffer::very_direct>},
     {"Buffer", "Error: relMSE", "Shows (I - r)^2 / (r^2 + 0.001) to the reference r, in all panes.",
@@ -194,8 +218,21 @@ constexpr Action table[] = {
     {"View", "Path inspector",
      "The left button chooses a pixel: its base path and the shifts of its tile are drawn over the picture, and "
      "listed.",
-     key(Key::i), no_shortcut, [](State& s) { s.inspector.active = !s.inspector.active; },
-     [](const State& s) { return s.inspector.active; }},
+     key(Key::i), no_shortcut, toggle_inspector, [](const State& s) { return s.inspector.active; }},
+    {"View", "Slow motion",
+     "Draws one tile of the active pane's newest pass, its base paths one after the other, with the pixels that "
+     "each "
+     "reaches; the left button chooses a tile.",
+     key(Key::j), no_shortcut, toggle_slow_motion, [](const State& s) { return s.slow_motion.active; }},
+    {"View", "Hold slow motion", "Stops the slow motion where it is, or lets it go on.", shift(Key::space),
+     no_shortcut, [](State& s) { s.slow_motion.held = !s.slow_motion.held; },
+     [](const State& s) { return s.slow_motion.held; }},
+    {"View", "Next base path", "The slow motion takes one step, and waits.", character('>'), no_shortcut,
+     [](State& s) { s.slow_motion.step(1); }, nullptr},
+    {"View", "Previous base path", "The slow motion takes one step back, and waits.", character('<'), no_shortcut,
+     [](State& s) { s.slow_motion.step(-1); }, nullptr},
+    {"View", "Next tile", "The slow motion goes on with the next tile, of the newest pass.", shift(Key::j),
+     no_shortcut, next_tile, nullptr},
     {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
      [](State& s) { s.view.fit(); }, nullptr},
     {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,

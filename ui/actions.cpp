@@ -20,6 +20,7 @@ constexpr Gesture gesture_table[] = {
     {"Ctrl + wheel", "Zoom the picture itself, in all panes; near enough, pixels show their numbers"},
     {"Ctrl + left drag", "Move the picture itself"},
     {"Left button with the path inspector (I)", "Choose the pixel that is looked at"},
+    {"Left button with the slow motion (J)", "Choose the tile that is drawn"},
     {"Drag on a legend's colours", "Move an end of their range; double click: back to the image's"},
     {"Ctrl + click on a slider", "Type a value"},
 };

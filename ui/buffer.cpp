@@ -29,6 +29,12 @@ constexpr BufferInfo table[] = {
     {Buffer::failed, "failed", "Failed shifts",
      "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT.", Family::reuse,
      ColourMap::false_colour, "%", 100},
+    {Buffer::survival, "survival", "Roulette survival",
+     "Of a pixel's own base paths that carry light, the share that the roulette on reuse let be shifted to the "
+     "others of its tile (all passes; 0 where none has carried light). A survivor weighs 1/q for its probability "
+     "q; "
+     "roulette none and G-PT reuse all: 100 %. Not for PT.",
+     Family::reuse, ColourMap::false_colour, "%", 100},
     {Buffer::very_direct, "very_direct", "Very direct",
      "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
      ColourMap::radiance, "", 1},
@@ -194,6 +200,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return scratch = grey(snapshot.reuse->reused);
     case Buffer::failed:
         return scratch = grey(snapshot.reuse->failed);
+    case Buffer::survival:
+        return scratch = grey(snapshot.reuse->survival);
     case Buffer::dx:
         return snapshot.images->dx;
     case Buffer::dy:
@@ -235,7 +243,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
 }
 
 float top_value(Buffer buffer, const RgbImage& image) {
-    if (buffer == Buffer::failed)
+    if (buffer == Buffer::failed || buffer == Buffer::survival)
         return 1;
     float top = 0;
     for (const Rgb& pixel : image)

@@ -13,7 +13,7 @@ namespace tessera {
 /// What a pane can show.
 // clang-format off
 enum class Buffer {
-    reconstruction, primal, dx, dy, reused, failed, very_direct,
+    reconstruction, primal, dx, dy, reused, failed, survival, very_direct,
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
     albedo, normal, depth,
     primal_variance, dx_variance, dy_variance
@@ -25,6 +25,7 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::dy,
                                          Buffer::reused,
                                          Buffer::failed,
+                                         Buffer::survival,
                                          Buffer::very_direct,
                                          Buffer::error_relative_squared,
                                          Buffer::error_squared,

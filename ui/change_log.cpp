@@ -65,6 +65,11 @@ Values describe(const ViewerState& state) {
     if (const auto& sample = state.inspector.sample)
         values["inspected"] = "pane " + std::to_string(sample->pane) + " pixel " +
                               std::to_string(sample->pixel.x) + " " + std::to_string(sample->pixel.y);
+    values["slow motion"] = text(state.slow_motion.active);
+    if (state.slow_motion.active && state.slow_motion.tile)
+        values["slow motion at"] = "tile " + std::to_string(state.slow_motion.tile->tile.x0) + " " +
+                                   std::to_string(state.slow_motion.tile->tile.y0) + " path " +
+                                   std::to_string(state.slow_motion.current);
     values["spp limit"] = std::to_string(state.pace.spp_limit);
     values["seconds limit"] = text(state.pace.seconds_limit);
     values["equal"] = state.pace.equal == Pace::Equal::time ? "time" : "spp";

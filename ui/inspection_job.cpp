@@ -8,10 +8,14 @@ namespace tessera {
 void InspectionJob::update(ViewerState& state, const std::function<void()>& wake) {
     Inspector& inspector = state.inspector;
     if (const auto outcome = job_.poll()) {
+        const auto& found = outcome->result;
+        const bool is_same = found && inspector.inspection && inspector.pane == asked_.sample.pane &&
+                             inspector.inspection->pixel == (*found)->pixel;
+        state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
         inspector.pane = asked_.sample.pane;
         inspector.generation = asked_.generation;
-        inspector.inspection = outcome->result.value_or(nullptr);
-        if (!outcome->result)
+        inspector.inspection = found.value_or(nullptr);
+        if (!found)
             state.add_message(Message::Kind::error, outcome->error);
     }
     if (!inspector.active || !inspector.sample || !state.scene ||

@@ -112,7 +112,22 @@ constexpr Named table[] = {
      }},
     {"magnifier", flag<[](S& s) -> bool& { return s.magnifier; }>},
     {"tiles", flag<[](S& s) -> bool& { return s.show_tiles; }>},
-    {"inspector", flag<[](S& s) -> bool& { return s.inspector.active; }>},
+    {"inspector",
+     [](S& s, Text n, Text v) {
+         s.inspector.active = one_of(n, v, {"off", "on"}) == 1;
+         s.slow_motion.active = s.slow_motion.active && !s.inspector.active;
+     }},
+    {"slow_motion",
+     [](S& s, Text n, Text v) {
+         s.slow_motion.active = one_of(n, v, {"off", "on"}) == 1;
+         s.inspector.active = s.inspector.active && !s.slow_motion.active;
+     }},
+    {"slow_motion_held", flag<[](S& s) -> bool& { return s.slow_motion.held; }>},
+    {"slow_motion_speed",
+     [](S& s, Text n, Text v) {
+         s.slow_motion.speed =
+             static_cast<float>(number(n, v, double{SlowMotion::least_speed}, double{SlowMotion::most_speed}));
+     }},
     {"inspector_shows",
      [](S& s, Text n, Text v) {
          s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, {"to_pixel", "from_pixel"}));

@@ -8,6 +8,7 @@
 #include "ui/pane_status.h"
 #include "ui/path_overlay.h"
 #include "ui/pixel_numbers.h"
+#include "ui/slow_motion_overlay.h"
 #include "ui/theme.h"
 #include "ui/tile_overlay.h"
 #include "ui/wipe.h"
@@ -110,12 +111,29 @@ PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools
     frame.rect = {{min.x, min.y}, glm::vec2(min.x, min.y) + size};
     frame.pixels = glm::max(glm::ivec2(size * frame.pixels_a_unit), glm::ivec2(1));
     tools.state.panes[static_cast<std::size_t>(index)].canvas_size = frame.pixels;
+    frame_tile(index, frame, tools.state);
     frame.placement = tools.state.view.place(tools.state.request_size(), frame.pixels);
     ImGui::InvisibleButton((id + ".picture").c_str(), {size.x, size.y},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
     tools.controls.note((id + ".picture").c_str(), nullptr);
     return frame;
+}
+
+/// Moves the picture once, so that the slow motion's tile is seen well.
+void PaneView::frame_tile(int index, const PictureFrame& frame, ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (!slow.frames || !shows_slow_motion(index, state))
+        return;
+    slow.frames = false;
+    if (!slow.view_before)
+        slow.view_before = state.view;
+    const PixelRect& t = slow.tile->tile; // with its border, and half a pixel about it
+    const glm::vec2 image(state.request_size());
+    const glm::vec2 min = (glm::vec2(t.x0, t.y0) - 0.75f) / image, max = (glm::vec2(t.x1, t.y1) + 1.75f) / image;
+    const float free = std::clamp(state.covered_from - frame.rect.min.y, 1.0f, frame.rect.size().y);
+    const glm::vec2 room(frame.rect.size().x, free);
+    state.view.show(min, max, glm::ivec2(room * frame.pixels_a_unit), state.request_size(), frame.pixels);
 }
 
 // --- the mouse ---
@@ -137,7 +155,7 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         drag(index, frame, (mouse.position.x - mouse.previous.x) / frame.pixels_a_unit, tools);
         mouse.left = mouse.middle = mouse.right = false; // the wheel still works
     }
-    if (state.inspector.active && mouse.left && !mouse.ctrl && !mouse.shift) {
+    if ((state.inspector.active || state.slow_motion.active) && mouse.left && !mouse.ctrl && !mouse.shift) {
         choose_sample(index, frame, state);
         mouse.left = false;
     }
@@ -158,8 +176,12 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
     if (place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
         return;
     const float share = (mouse_position().x - frame.rect.min.x) / frame.rect.size().x;
-    state.inspector.sample = {
+    const SampleChoice choice{
         showing_at(state, index, share).pane, glm::ivec2(place * glm::vec2(state.request_size())), {}};
+    if (state.slow_motion.active)
+        state.slow_motion.start({index, choice.pixel, {}});
+    else
+        state.inspector.choose(choice);
 }
 
 PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {
@@ -211,7 +233,8 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
     const ScreenRect& rect = frame.rect;
     const Showing left = showing_at(state, index, -1);
     draw_shared(index, frame, state);
-    draw_pixel_numbers(frame, index, state, tools.images);
+    if (!shows_slow_motion(index, state)) // which has numbers of its own
+        draw_pixel_numbers(frame, index, state, tools.images);
     draw_comparison(frame, index, state);
     legend_ = {};
     const PaneState& shown = state.panes[static_cast<std::size_t>(left.pane)];
@@ -236,6 +259,7 @@ void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerSta
         if (state.show_tiles && snapshot)
             draw_tiles(frame, clip, *snapshot, state.cursor ? std::optional(state.cursor->place) : std::nullopt);
         draw_inspected_paths(frame, clip, showing.pane, state);
+        draw_slow_motion(frame, clip, showing.pane, state);
     };
     if (right == left)
         return draw(left, frame.rect);

@@ -32,6 +32,7 @@ private:
 
     void draw_picture(int index, const std::string& id, PaneTools& tools);
     PictureFrame place_picture(int index, const std::string& id, PaneTools& tools);
+    static void frame_tile(int index, const PictureFrame& frame, ViewerState& state);
     void use_mouse(int index, PictureFrame& frame, PaneTools& tools);
     static void choose_sample(int index, const PictureFrame& frame, ViewerState& state);
     Grip grip_at(int index, const PictureFrame& frame, PaneTools& tools) const;

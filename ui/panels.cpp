@@ -99,7 +99,8 @@ void draw_message(const Message& message, int index, Controls& controls, ViewerS
         const std::string id = "inspect_message" + std::to_string(index);
         if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector.")) {
             state.inspector.active = true;
-            state.inspector.sample = message.sample;
+            state.slow_motion.active = false;
+            state.inspector.choose(*message.sample);
             state.show_messages = false;
         }
         ImGui::SameLine();

@@ -34,6 +34,9 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
 /// The vertices and shifts of the sample that is looked at; over the pictures.
 void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
+/// The slow motion's controls, and what is happening; over the pictures.
+void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+
 /// All actions and gestures, over everything.
 void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 

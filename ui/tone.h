@@ -1,5 +1,7 @@
 #pragma once
 
+#include "recon/image.h"
+
 namespace tessera {
 
 /// How radiance becomes brightness on the screen.
@@ -15,5 +17,8 @@ struct Tone {
 
     bool operator==(const Tone&) const = default;
 };
+
+/// What the canvas shows for a radiance, in [0, 1]: the shader's curves for drawings beside it.
+Rgb displayed(const Rgb& radiance, const Tone& tone);
 
 } // namespace tessera

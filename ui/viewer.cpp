@@ -126,6 +126,8 @@ void Viewer::draw_frame() {
     link_.send(state_);
     companion_jobs_.update(state_, options_.wake);
     inspection_job_.update(state_, options_.wake);
+    slow_motion_job_.update(state_, std::min(ImGui::GetIO().DeltaTime, longest_step), options_.wake);
+    surroundings_job_.update(state_, options_.wake);
     chart_job_.update(state_, options_.wake);
     log_changes();
 }
@@ -167,12 +169,20 @@ void Viewer::draw_panes(const ScreenRect& where) {
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
-    const float height = std::min(ImGui::GetFontSize() * 11, pictures.size().y);
-    const ScreenRect bottom{{pictures.min.x, pictures.max.y - height}, pictures.max};
-    if (state_.inspector.active && !state_.show_messages)
-        draw_inspector_panel(bottom, controls_, state_);
+    const auto bottom = [&](float height) {
+        const float top = std::max(pictures.max.y - std::floor(height), pictures.min.y);
+        state_.covered_from = top;
+        return ScreenRect{{pictures.min.x, top}, pictures.max};
+    };
+    const float least = ImGui::GetFontSize() * 11;
+    const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, pictures.size().y * 0.36f));
+    state_.covered_from = pictures.max.y;
     if (state_.show_messages)
-        draw_message_panel(bottom, controls_, state_);
+        draw_message_panel(bottom(least), controls_, state_);
+    else if (state_.slow_motion.active)
+        draw_slow_motion_panel(bottom(large), controls_, state_);
+    else if (state_.inspector.active)
+        draw_inspector_panel(bottom(large), controls_, state_);
     if (state_.show_help) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         draw_help({display.x, display.y}, controls_, state_);
@@ -182,7 +192,7 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
 }
 
 double Viewer::next_frame_in() const {
-    if (flying_)
+    if (flying_ || state_.slow_motion.is_playing())
         return 0;
     if (load_.running() || controls_.tooltip_pending())
         return 0.1;

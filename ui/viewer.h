@@ -10,6 +10,8 @@
 #include "ui/preferences.h"
 #include "ui/scene_load.h"
 #include "ui/session_link.h"
+#include "ui/slow_motion_job.h"
+#include "ui/surroundings_job.h"
 
 #include <array>
 #include <filesystem>
@@ -102,6 +104,8 @@ private:
     std::array<PaneView, most_panes> pane_views_;
     CompanionJobs companion_jobs_;
     InspectionJob inspection_job_;
+    SlowMotionJob slow_motion_job_;
+    SurroundingsJob surroundings_job_;
     ChartJob chart_job_;
     BackgroundJob<std::string> save_job_; // what to say when it is done
     Preferences preferences_;             // as in the file

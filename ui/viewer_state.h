@@ -1,6 +1,5 @@
 #pragma once
 
-#include "render/method/inspection.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "ui/buffer.h"
@@ -8,7 +7,10 @@
 #include "ui/error_history.h"
 #include "ui/histogram.h"
 #include "ui/image_view.h"
+#include "ui/inspector.h"
 #include "ui/render_size.h"
+#include "ui/slow_motion.h"
+#include "ui/space_view.h"
 #include "ui/theme.h"
 #include "ui/tone.h"
 #include "ui/value_range.h"
@@ -63,33 +65,6 @@ struct PaneChart {
     std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none yet
 };
 
-/// One sample of one pixel that is to be looked at.
-struct SampleChoice {
-    int pane = 0;
-    glm::ivec2 pixel{0};
-    std::optional<int> pass; ///< from 0; empty: the newest
-
-    bool operator==(const SampleChoice&) const = default;
-};
-
-/// The sample that is looked at, and what is shown of it.
-struct Inspector {
-    enum class Direction {
-        to_pixel,   ///< which base paths reach the pixel
-        from_pixel, ///< where the pixel's own path is taken
-    };
-    bool active = false; ///< the mouse chooses a pixel
-    std::optional<SampleChoice> sample;
-    Direction direction = Direction::to_pixel;
-    bool follows = false; ///< from pass to pass; otherwise the one that was the newest stays
-    int marked = -1;      ///< the row of the table under the mouse; -1: none
-
-    /// The newest that has been found out; null: nothing yet.
-    std::shared_ptr<const Inspection> inspection;
-    int pane = 0;                 ///< whose it is, ...
-    std::uint64_t generation = 0; ///< ... and of which request
-};
-
 struct Message {
     enum class Kind { note, error };
     /// What it is about: a scene's messages go when another takes its place, a failed load's at the next load.
@@ -136,6 +111,8 @@ struct ViewerState {
     bool magnifier = false;
     bool show_tiles = false;
     Inspector inspector;
+    SlowMotion slow_motion;
+    SpaceView space;      ///< of the inspector, or the slow motion
     float wipe = 0.5f;    ///< where wiped pictures are divided, a share of a pane's width
     bool flicker = false; ///< while a key is held: the active pane shows the one that it is compared with
     std::map<Buffer, ValueRange> ranges; ///< of false colours, where the user has set them
@@ -144,6 +121,7 @@ struct ViewerState {
     bool paused = false;
 
     Theme theme = Theme::dark;
+    float covered_from = 0;        ///< below this, panels lie over the pictures; as last drawn, screen units
     glm::ivec2 window_size{0};     ///< as last drawn, screen units
     std::optional<float> ui_scale; ///< of text and controls; empty: as the display says
     float shown_ui_scale = 1;      ///< at which this frame is drawn

@@ -9,8 +9,7 @@ Rgb gradient(const Pass& pass, PixelRect pair, Worker& worker, PixelSample& samp
     worker.set.clear();
     worker.set.add(pair);
     share_light(pass, RouletteKind::none, worker);
-    sample.arrived += worker.set.arrived[0];
-    sample.failed += worker.set.failed[0];
+    sample.reuse += worker.set.reuse[0];
     return worker.set.radiance[1] - worker.set.radiance[0];
 }
 

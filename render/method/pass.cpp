@@ -64,20 +64,24 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
     path.reset(path.random, path.light_samples());
 }
 
-float reuse_scale(const BasePath& path, const ReuseRoulette& roulette, Worker& worker) {
+ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker) {
+    const BasePath& path = *worker.set.paths[static_cast<std::size_t>(k)];
     const Rgb light = worker.reuse.shared_light(path);
+    ReuseDecision decision;
     if (is_black(light)) {
         ++worker.counters.dark_paths;
-        return 0;
+        return decision;
     }
-    const float q = roulette.survival(light);
-    const bool survives = path.random.draw(0, Draw::reuse_survival) < q;
-    ++(survives ? worker.counters.reused_paths : worker.counters.skipped_paths);
-    return survives ? 1 / q : 0;
+    decision.survival = roulette.survival(light);
+    if (path.random.draw(0, Draw::reuse_survival) < decision.survival)
+        decision.scale = 1 / decision.survival;
+    ++(decision.survives() ? worker.counters.reused_paths : worker.counters.skipped_paths);
+    worker.set.count(decision, k);
+    return decision;
 }
 
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
-    share_light(pass, kind, worker, [](int, float) {});
+    share_light(pass, kind, worker, [](int, const ReuseDecision&) {});
 }
 
 } // namespace tessera

@@ -81,16 +81,15 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 /// would spoil all pixels that share it.
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
 
-/// One over the probability with which the path is reused; 0: it is not. Counted.
-float reuse_scale(const BasePath& path, const ReuseRoulette& roulette, Worker& worker);
+/// Whether base path k of worker.set is reused. Counted.
+ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);
 
 /// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
 /// holds what each has got.
 /// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
 ///              a path that is not adds nothing anywhere [Bauszat 2017, 3.3]
-/// @param watch is called as watch(k, scale) when the light of path k is shared out, with PathReuse::share's
-/// scale;
-///              worker.reuse then knows how that went
+/// @param watch is called as watch(k, decision) when the light of path k has been shared out; worker.reuse then
+///              knows how that went
 template <class Watch>
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
     SamplingSet& set = worker.set;
@@ -98,10 +97,10 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
     worker.reuse.begin(set.paths);
     for (int k = 0; k < set.size(); ++k) {
-        const float scale = reuse_scale(*set.paths[static_cast<std::size_t>(k)], roulette, worker);
-        worker.reuse.share(k, scale, set.radiance);
+        const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
+        worker.reuse.share(k, decision.scale, set.radiance);
         set.count(worker.reuse.outcomes(), k);
-        watch(k, scale);
+        watch(k, decision);
     }
 }
 /// The same, unwatched.

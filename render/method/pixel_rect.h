@@ -19,6 +19,7 @@ struct PixelRect {
     /// With one more column and row, where the image of that size has them: the neighbours to which forward
     /// gradients lead.
     PixelRect with_halo(glm::ivec2 size) const { return PixelRect{x0, y0, x1 + 1, y1 + 1}.clipped(size); }
+    bool operator==(const PixelRect&) const = default;
     bool contains(glm::ivec2 p) const { return p.x >= x0 && p.y >= y0 && p.x < x1 && p.y < y1; }
 };
 

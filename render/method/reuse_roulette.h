@@ -7,6 +7,15 @@
 
 namespace tessera {
 
+/// What the roulette decided on one base path.
+struct ReuseDecision {
+    float survival = 0; ///< q, the probability that it is reused; 0: it is dark, there is nothing to reuse
+    float scale = 0;    ///< 1/q, what it weighs; 0: it is not reused
+
+    bool is_dark() const { return survival <= 0; }
+    bool survives() const { return scale > 0; }
+};
+
 /// The roulette that decides which base paths of one sampling set are shifted to all its pixels. A path whose
 /// light has luminance L is reused with probability
 ///   q = clamp(L / threshold, q_min, 1).

@@ -15,21 +15,26 @@ void SamplingSet::collect(const BaseBlock& base) {
     for (glm::ivec2 p : pixels)
         paths.push_back(&base.at(p.x, p.y));
     radiance.assign(pixels.size(), Rgb(0));
-    arrived.assign(pixels.size(), 0);
-    failed.assign(pixels.size(), 0);
+    reuse.assign(pixels.size(), {});
 }
 
 void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
     for (std::size_t m = 0; m < outcomes.size(); ++m)
         if (m != static_cast<std::size_t>(k))
-            ++(outcomes[m] == ShiftOutcome::ok ? arrived : failed)[m];
+            ++(outcomes[m] == ShiftOutcome::ok ? reuse[m].arrived : reuse[m].failed);
 }
 
-PixelSample SamplingSet::sample(int i, const PathReuse& reuse) const {
+void SamplingSet::count(const ReuseDecision& decision, int k) {
+    ReuseCounts& counts = reuse[static_cast<std::size_t>(k)];
+    if (!decision.is_dark())
+        ++(decision.survives() ? counts.reused : counts.skipped);
+}
+
+PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    const float base_luminance = path.empty() ? -1 : luminance(reuse.shared_light(path));
-    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, arrived[m], failed[m], base_luminance};
+    const float base_luminance = path.empty() ? -1 : luminance(estimator.shared_light(path));
+    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], base_luminance};
 }
 
 } // namespace tessera

@@ -2,7 +2,7 @@
 
 #include "render/film.h"
 #include "render/method/pixel_rect.h"
-#include "render/path/path_reuse.h"
+#include "render/method/reuse_roulette.h"
 
 #include <span>
 #include <vector>
@@ -17,8 +17,7 @@ struct SamplingSet {
     std::vector<glm::ivec2> pixels;
     std::vector<const BasePath*> paths;
     std::vector<Rgb> radiance;
-    std::vector<std::uint32_t> arrived; ///< shifts to the pixel that brought light, ...
-    std::vector<std::uint32_t> failed;  ///< ... and that did not
+    std::vector<ReuseCounts> reuse;
 
     int size() const { return static_cast<int>(pixels.size()); }
 
@@ -31,8 +30,10 @@ struct SamplingSet {
     void collect(const BaseBlock& base);
     /// Counts how the shifts of base path k ended; none: no shift was tried.
     void count(std::span<const ShiftOutcome> outcomes, int k);
+    /// Counts what the roulette on reuse decided on base path k.
+    void count(const ReuseDecision& decision, int k);
     /// What entry i got, without gradients.
-    PixelSample sample(int i, const PathReuse& reuse) const;
+    PixelSample sample(int i, const PathReuse& estimator) const;
 };
 
 } // namespace tessera

@@ -24,7 +24,7 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance) {
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()));
     slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
     if (trace_)
-        trace_->reset(paths_.offsets());
+        trace_->reset(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
     judge(base);
     balance(base, scale, radiance);
@@ -60,12 +60,34 @@ void PathReuse::replay_to_all(int base) {
             continue;
         replay_base_path(tracer_, offset[0].vertex, path.random, light_.vertex_of(light_.last_alive()) + 1,
                          replayed_);
-        for (int i = 1; trace_ && i < replayed_.size(); ++i)
-            trace_->add(m, replayed_[i].vertex.position);
         replayed_light_.reset(replayed_, settings_);
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))
                 paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
+        if (trace_)
+            trace_replay(m);
+    }
+}
+
+/// In the space of random numbers all Jacobians are 1.
+void PathReuse::trace_replay(int m) {
+    Rgb throughput(1);
+    for (int i = 0; i < replayed_.size(); ++i) {
+        const BaseVertex& y = replayed_[i];
+        trace_->add(m, y.vertex);
+        const auto end = [&](int slot, float pdf_w, bool is_delta) {
+            if (slot <= std::min(light_.last_alive(), replayed_light_.last_alive()) && light_.is_alive(slot))
+                trace_->end(m, slot, {i, pdf_w, is_delta, 1, paths_.density(slot, m), paths_.value(slot, m)});
+        };
+        for (int sample = 0; sample < replayed_.light_samples(); ++sample)
+            end(light_.emitter_slot(i, sample), replayed_.lights(i)[static_cast<std::size_t>(sample)].pdf_sum,
+                false);
+        if (i + 1 == replayed_.size() && !y.escapes)
+            return;
+        end(light_.hit_slot(i), y.pdf_w + y.hit_pdf_w, y.is_delta);
+        throughput *= y.throughput();
+        if (i + 1 < replayed_.size())
+            trace_->bounce(m, {i, y.pdf_w, y.is_delta, 1, 1, throughput});
     }
 }
 

@@ -51,7 +51,7 @@ public:
     float weight(int slot, float scale) const {
         return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot) : 0;
     }
-    /// From now on the vertices of offset paths are noted in `trace`, anew at each share(); null: no longer.
+    /// From now on what the shifts do is noted in `trace`, anew at each share(); null: no longer.
     void record(OffsetTrace* trace) {
         trace_ = trace;
         shift_.record(trace);
@@ -61,6 +61,7 @@ private:
     bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
     void shift_to_all(int base);
     void replay_to_all(int base);
+    void trace_replay(int m);
     void judge(int base);
     void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;

@@ -26,6 +26,9 @@ bool Shift::start(const OffsetVertices& primary, int self) {
         (*outcomes_)[m] = primary.exists[m] ? ShiftOutcome::ok : ShiftOutcome::outside;
     if (self >= 0)
         active_[self] = 0;
+    for (int m = 0; trace_ && m < primary.count(); ++m)
+        if (active_[m])
+            trace_->add(m, primary[m]);
     std::int32_t any = 0;
     for (int m = 0; m < padded(primary.count()); ++m)
         any |= active_[m];
@@ -131,6 +134,9 @@ void Shift::connect_light(int i, int sample) {
                  prefix_.value.z[m] * bsdf_.f_cos.z[m] * arriving_.radiance.z[m] * scale});
         edges.exists[m] = row.density[m] > 0 ? -1 : 0;
     }
+    for (int m = 0; trace_ && m < y_->count(); ++m)
+        if (edges.exists[m])
+            trace_end(slot, m, bsdf_.pdf_w[m] * bsdf_counts + arriving_.pdf_w[m], x.pdf_w / arriving_.pdf_w[m]);
     edges_to_light(tracer_, *y_, seen_.direction, x.light, edges.segments);
     note_others(asked_, edges.exists, ShiftOutcome::no_light);
 }
@@ -142,7 +148,12 @@ void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
     Segment way;
     if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, sample, drawn, way))
         return note(m, ShiftOutcome::no_light);
-    paths_->row(light_->emitter_slot(i, sample)).set(m, prefix_.density[m], prefix_.value[m] * drawn.brings);
+    const int slot = light_->emitter_slot(i, sample);
+    paths_->row(slot).set(m, prefix_.density[m], prefix_.value[m] * drawn.brings);
+    if (trace_) {
+        const float base_pdf_sum = base_->lights(i)[static_cast<std::size_t>(sample)].pdf_sum;
+        trace_end(slot, m, drawn.pdf_sum, base_pdf_sum / drawn.pdf_sum);
+    }
     edges.exists[m] = -1;
     edges.segments.from.set(m, way.from);
     edges.segments.to.set(m, way.to);
@@ -173,6 +184,8 @@ void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 orig
     const float scale = replays() ? 1 / pdf_sum : s.jacobian / base_pdf_sum;
     paths_->row(slot).set(m, prefix_.density[m] * pdf_sum * scale,
                           prefix_.value[m] * s.f_cos * seen->radiance * scale);
+    if (trace_)
+        trace_end(slot, m, pdf_sum, scale * base_pdf_sum, is_delta);
 }
 
 } // namespace tessera

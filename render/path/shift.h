@@ -3,6 +3,7 @@
 #include "render/path/connections.h"
 #include "render/path/half_vector.h"
 #include "render/path/light_paths.h"
+#include "render/path/offset_trace.h"
 #include "render/path/offset_vertices.h"
 #include "render/path/pending_edges.h"
 
@@ -12,14 +13,6 @@ namespace tessera {
 
 /// How a shift went, a lane a pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
-
-/// Where the vertices of offset paths beyond the first lie, for who wants to draw them: a list a pixel.
-struct OffsetTrace {
-    std::vector<std::vector<glm::vec3>> vertices;
-
-    void reset(int offsets) { vertices.assign(static_cast<std::size_t>(offsets), {}); }
-    void add(int m, glm::vec3 position) { vertices[static_cast<std::size_t>(m)].push_back(position); }
-};
 
 /// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
 /// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
@@ -37,7 +30,7 @@ public:
     void run(const BasePath& base, const LightPaths& light, const OffsetVertices& primary, int self,
              OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
 
-    /// From now on vertices are added to `trace`; null: no longer.
+    /// From now on all is noted in `trace`, which starts anew before each run(); null: no longer.
     void record(OffsetTrace* trace) { trace_ = trace; }
 
 private:
@@ -77,6 +70,11 @@ private:
     std::optional<CopiedScatter> copy_scatter(int i, int m);
     std::optional<CopiedScatter> replay_scatter(int i, int m);
 
+    // For the onlooker: only where there is a trace.
+    void trace_end(int slot, int m, float pdf_w, float jacobian, bool is_delta = false);
+    void trace_join(int i);
+    void trace_beyond(int slot, const LaneMask& arrived, float bsdf_share, float other_pdf_w);
+
     Tracer tracer_;
     ShiftSettings settings_;
 
@@ -87,6 +85,7 @@ private:
     PendingEdges* edges_ = nullptr;
     OutcomeLanes* outcomes_ = nullptr;
     OffsetTrace* trace_ = nullptr;
+    std::vector<OffsetStep> traced_joins_; ///< of the connection at hand
 
     // The offsets.
     const OffsetVertices* y_ = nullptr; ///< y_i

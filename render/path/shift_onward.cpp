@@ -46,6 +46,9 @@ void Shift::connect_infinity(int i) {
         row.set(m, asked_[m] ? density : 0.0f, prefix_.value[m] * bsdf_.f_cos[m] * x.hit_brings / x.pdf_w);
         edges.exists[m] = row.density[m] > 0 ? -1 : 0;
     }
+    for (int m = 0; trace_ && m < y_->count(); ++m)
+        if (edges.exists[m])
+            trace_end(slot, m, bsdf_.pdf_w[m] + x.hit_pdf_w, 1);
     edges_to_light(tracer_, *y_, seen_.direction, infinity, edges.segments);
     note_others(asked_, edges.exists, ShiftOutcome::no_light);
 }
@@ -79,6 +82,8 @@ void Shift::connect_vertex(int i) {
         joined_.value.z[m] = prefix_.value.z[m] * bsdf_.f_cos.z[m] * scale;
         to_previous_.set(m, next.to_local(-seen_.direction[m]));
     }
+    if (trace_)
+        trace_join(i);
     if (first == light_->hit_slot(i) && light_->is_alive(first))
         set_hits(i, edges.exists);
     connect_beyond(i + 1, edges.exists);
@@ -105,6 +110,10 @@ void Shift::set_hits(int i, const LaneMask& arrived) {
         row.set(m, faces && arrived[m] ? density : 0.0f,
                 prefix_.value[m] * bsdf_.f_cos[m] * front.radiance * scale);
     }
+    for (int m = 0; trace_ && m < y_->count(); ++m)
+        if (arrived[m])
+            trace_end(light_->hit_slot(i), m, bsdf_.pdf_w[m] + front.pdf / seen_.geometry[m],
+                      seen_.geometry[m] / x.next_geometry);
 }
 
 /// The light that comes to x_next, seen from other directions than the base's. Nothing else changes.
@@ -125,6 +134,8 @@ void Shift::connect_beyond(int next, const LaneMask& arrived) {
         for (int m = 0; m < padded(count); ++m)
             row.set(m, joined_.density[m] * (bsdf_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
                     joined_.value[m] * bsdf_.f_cos[m] * seen->radiance * scale);
+        if (trace_)
+            trace_beyond(slot, arrived, bsdf_counts, l.pdf_w);
     }
     if (light_->join() != next || light_->last_alive() < light_->hit_slot(next))
         return;
@@ -136,6 +147,10 @@ void Shift::connect_beyond(int next, const LaneMask& arrived) {
         // hit_brings is the radiance times pdf_w over the summed pdfs.
         hit.set(m, joined_.density[m] * (bsdf_.pdf_w[m] + x.hit_pdf_w) * hit_scale, value * x.hit_brings);
         tail.set(m, joined_.density[m] * bsdf_.pdf_w[m] / x.pdf_w, value * x.arriving);
+    }
+    if (trace_) {
+        trace_beyond(light_->hit_slot(next), arrived, 1, x.hit_pdf_w);
+        trace_beyond(light_->tail_slot(), arrived, 1, 0);
     }
 }
 
@@ -154,7 +169,7 @@ bool Shift::bounce(int i) {
             moved_.set(m, moved_vertices_[static_cast<std::size_t>(m)]);
     for (int m = 0; trace_ && m < count; ++m)
         if (active_[m])
-            trace_->add(m, moved_.position[m]);
+            trace_->add(m, moved_[m]);
     y_ = &moved_;
     return any;
 }
@@ -182,6 +197,8 @@ bool Shift::bounce(int i, int m) {
     const float scale = s->jacobian / x.pdf_w;
     prefix_.density[m] *= s->pdf_w * scale;
     prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
+    if (trace_)
+        trace_->bounce(m, {i, s->pdf_w, x.is_delta, s->jacobian, prefix_.density[m], prefix_.value[m]});
     return true;
 }
 

@@ -25,9 +25,9 @@ TEST(Film, RefusesWhatIsNotFinite) {
         for (Rgb PixelSample::*part :
              {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy, &PixelSample::very_direct})
             for (int channel = 0; channel < 3; ++channel) {
-                Film film(3, 2, {.gradients = true, .shifts = true, .base_luminance = true});
+                Film film(3, 2, {.gradients = true, .reuse = true, .base_luminance = true});
                 Counters counters;
-                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), 1, 1, 1};
+                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), {1, 1, 1, 1}, 1};
                 (sample.*part)[channel] = bad;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
@@ -52,7 +52,7 @@ TEST(Film, AddsTheLargestFloat) {
 /// Sums of floats would lose all of the small values: the mean is right to half a unit in the last place.
 TEST(Film, SumsOfManyPassesDoNotDrift) {
     constexpr int passes = 100'001;
-    Film film(1, 1, {.gradients = true, .shifts = true});
+    Film film(1, 1, {.gradients = true, .reuse = true});
     Counters counters;
     film.add(0, 0, 0, {Rgb(1e8f, 1, 0), Rgb(0), Rgb(0), Rgb(-1e8f, 0, 1e8f)}, counters);
     for (int pass = 1; pass < passes; ++pass)

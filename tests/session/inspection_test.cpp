@@ -57,7 +57,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
             const glm::ivec2 p = pixels[n];
             const Inspection seen =
                 inspect(*scene, scene->camera(), size, settings, render.newest_plan(), pass, p);
-            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance;
+            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance(p);
             const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.primal(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
                 << p.x << ',' << p.y << " pass " << pass;
@@ -72,8 +72,10 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
     for (int x = 0; x < size.x; ++x) {
         const Inspection seen = inspect(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {x, 8});
         for (const InspectedSet& set : seen.sets) {
-            EXPECT_EQ(set.to_k.size(), set.pixels.size());
-            for (const InspectedShift& s : set.from_k) {
+            EXPECT_EQ(set.to(seen.pixel).size(), set.pixels.size());
+            EXPECT_EQ(set.from(seen.pixel).size() + 1, set.pixels.size());
+            for (const InspectedShift* shift : set.from(seen.pixel)) {
+                const InspectedShift& s = *shift;
                 EXPECT_EQ(s.from, seen.pixel);
                 EXPECT_NE(s.to, seen.pixel);
                 EXPECT_EQ(s.is_tried && s.outcome == ShiftOutcome::ok, !is_black(s.value));
@@ -86,6 +88,71 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
         }
     }
     EXPECT_EQ(joined > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
+}
+
+/// What the table of vertices says, multiplied out, is what the estimator weighs with.
+TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
+    Render render(scene, scene->camera(), size, settings);
+    render.pass(pool);
+    int seen_steps = 0, stretched = 0;
+    for (int x = 0; x < size.x; ++x) {
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {x, 9});
+        for (const InspectedSet& set : seen.sets)
+            for (const InspectedShift* s : set.to(seen.pixel)) {
+                if (is_black(s->value) || !s->is_tried)
+                    continue;
+                ASSERT_FALSE(s->steps.empty());
+                float jacobian = 1;
+                for (const InspectedStep& step : s->steps)
+                    jacobian *= step.shifted.jacobian;
+                EXPECT_FLOAT_EQ(s->jacobian, jacobian);
+                EXPECT_GT(jacobian, 0);
+                EXPECT_FALSE(s->ending.empty());
+                if (s->from == s->to) {
+                    EXPECT_FLOAT_EQ(jacobian, 1);
+                    continue;
+                }
+                ++seen_steps;
+                stretched += std::abs(jacobian - 1) > 1e-3f;
+                EXPECT_FLOAT_EQ(s->steps.back().shifted.ratio, s->ratio);
+                // Of all light paths together, the pixel gets at least that of this one.
+                EXPECT_GE(luminance(s->value) * 1.0001f, luminance(s->steps.back().shifted.value) * s->weight);
+            }
+    }
+    EXPECT_EQ(seen_steps > 0, settings.method != Method::pt);
+    EXPECT_EQ(stretched > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
+}
+
+/// The tile whole: what its pixels get is what the pass adds, whichever of its pixels was asked for.
+TEST_P(Inspected, TheTileIsThatOfThePass) {
+    Render render(scene, scene->camera(), size, settings);
+    render.pass(pool);
+    const RgbImage primal = render.images().primal;
+    const TileInspection tile =
+        inspect_tile(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {12, 7});
+    EXPECT_TRUE(tile.tile.contains({12, 7}));
+    int bases = 0, served = 0;
+    for (const InspectedSet& set : tile.sets) {
+        bases += set.size();
+        ASSERT_EQ(set.bases.size(), set.pixels.size());
+        ASSERT_EQ(set.shifts.size(), set.pixels.size() * set.pixels.size());
+        for (int m = 0; m < set.size(); ++m) {
+            const InspectedBase& base = set.base(m);
+            EXPECT_TRUE(base.reuse.survives() || is_black(set.shift(m, (m + 1) % set.size()).value) ||
+                        set.size() == 1);
+            if (set.is_border[static_cast<std::size_t>(m)] || settings.method == Method::gpt)
+                continue;
+            ++served;
+            const glm::ivec2 p = set.pixels[static_cast<std::size_t>(m)];
+            EXPECT_LE(glm::distance(set.radiance(p), primal(p.x, p.y)),
+                      1e-4f * (1e-2f + glm::length(primal(p.x, p.y))));
+        }
+    }
+    EXPECT_EQ(bases, tile.base_count());
+    const PixelRect inside = tile.tile.clipped(size);
+    if (settings.method != Method::gpt) {
+        EXPECT_EQ(served, inside.width() * inside.height());
+    }
 }
 
 TEST(Inspection, TilesAreThoseOfThePass) {

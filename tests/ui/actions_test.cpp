@@ -120,6 +120,23 @@ TEST(Actions, MethodsOfTheActivePaneInTurn) {
     EXPECT_EQ(state.panes[0].settings.render.method, Method::gpr);
 }
 
+TEST(Actions, SlowMotionAndInspectorTakeTurns) {
+    ViewerState state = two_panes();
+    type(state, key(Key::j));
+    EXPECT_TRUE(state.slow_motion.active);
+    type(state, {Key::space, false, true, 0});
+    EXPECT_TRUE(state.slow_motion.held);
+    EXPECT_FALSE(state.paused);
+    type(state, key(Key::i));
+    EXPECT_TRUE(state.inspector.active);
+    EXPECT_FALSE(state.slow_motion.active);
+    type(state, key(Key::j));
+    EXPECT_FALSE(state.inspector.active);
+    EXPECT_FALSE(state.slow_motion.held);
+    type(state, character('>')); // there is no tile yet
+    EXPECT_TRUE(state.slow_motion.held);
+}
+
 TEST(Actions, BuffersInAllPanes) {
     const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal}, {Key::digit3, Buffer::dx},
                                            {Key::digit4, Buffer::dy},     {Key::digit5, Buffer::reused},
@@ -130,6 +147,9 @@ TEST(Actions, BuffersInAllPanes) {
         for (const PaneState& pane : state.panes)
             EXPECT_EQ(pane.settings.buffer, buffer);
     }
+    type(state, {Key::digit9, false, true, 0});
+    EXPECT_TRUE(action("Roulette survival").checked(state));
+    type(state, key(Key::digit1));
     EXPECT_TRUE(action("Reconstruction").checked(state));
     EXPECT_FALSE(action("Primal").checked(state));
 }

@@ -20,7 +20,7 @@ Snapshot snapshot_of(Method method) {
     snapshot.settings.method = method;
     snapshot.images = images;
     if (method != Method::pt)
-        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, 17.0f}, {4, 3, 0.25f}});
+        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, 17.0f}, {4, 3, 0.25f}, {4, 3, 0.75f}});
     return snapshot;
 }
 
@@ -64,9 +64,10 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     const Snapshot snapshot = snapshot_of(Method::pr);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 17);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::failed), 0.25f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::survival), 0.75f);
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
     EXPECT_EQ(picture_source(snapshot, Buffer::failed), snapshot.reuse);
-    for (Buffer map : {Buffer::reused, Buffer::failed}) {
+    for (Buffer map : {Buffer::reused, Buffer::failed, Buffer::survival}) {
         EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
         EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
         EXPECT_EQ(colour_map(map), ColourMap::false_colour);
@@ -147,6 +148,7 @@ TEST(Buffer, TopValuesReadWell) {
     EXPECT_FLOAT_EQ(top(0), 1);
     EXPECT_FLOAT_EQ(top_value(Buffer::reused, RgbImage()), 1);
     EXPECT_FLOAT_EQ(top_value(Buffer::failed, RgbImage(2, 2, Rgb(0.3f))), 1);
+    EXPECT_FLOAT_EQ(top_value(Buffer::survival, RgbImage(2, 2, Rgb(0.3f))), 1);
 }
 
 TEST(Buffer, LegendSaysWhatTheColoursStandFor) {

@@ -62,6 +62,10 @@ TEST_F(CountersView, MapsAreShownAfterTheirKeys) {
     expect_map(maps->failed, 1);
     EXPECT_TRUE(has("pane1.legend"));
     save("failed.png");
+    type(Key::digit9, false, true);
+    expect_map(maps->survival, 1);
+    EXPECT_TRUE(has("pane1.legend"));
+    save("survival.png");
     type(Key::digit1);
     EXPECT_FALSE(has("pane1.legend"));
 }

@@ -3,6 +3,10 @@
 #include "tests/ui/viewer_harness.h"
 #include "ui/path_overlay.h"
 
+#include <algorithm>
+#include <vector>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -57,6 +61,97 @@ TEST_F(PathInspector, DirectionsListDifferentShifts) {
     EXPECT_EQ(inspector().direction, Inspector::Direction::from_pixel);
     EXPECT_EQ(shown_shifts(inspector()).size(), all - 1);
     save("inspector-from.png");
+}
+
+TEST_F(PathInspector, ARowListsTheVerticesOfItsShift) {
+    type(Key::i);
+    inspect_pixel(1, {16, 14});
+    EXPECT_TRUE(has("vertices.Jacobian"));
+    EXPECT_TRUE(has("vertices.value"));
+    EXPECT_TRUE(has("vertices.ratio"));
+    EXPECT_TRUE(has("shifts.Jacobian"));
+    const ScreenPixels base = screen();
+    const ControlRect first = place("shifts.row0");
+    click(glm::vec2(first.min.x + 20, first.center().y));
+    EXPECT_EQ(inspector().chosen, 0);
+    move_to({20, 200});
+    EXPECT_EQ(inspector().marked, -1);
+    save("inspector-row.png");
+    EXPECT_NE(screen().rgb, base.rgb); // other vertices, and the shift stands out
+    click(glm::vec2(first.min.x + 20, first.center().y));
+    EXPECT_EQ(inspector().chosen, -1);
+    click(glm::vec2(first.min.x + 20, first.center().y));
+    inspect_pixel(1, {20, 20});
+    EXPECT_EQ(inspector().chosen, -1);
+}
+
+TEST_F(PathInspector, ThePixelsTileIsMarked) {
+    type(Key::i);
+    const ScreenPixels before = screen();
+    inspect_pixel(1, {16, 14});
+    const ScreenPixels after = screen();
+    const InspectedSet& set = inspector().inspection->sets[0];
+    ASSERT_GT(set.size(), 1);
+    int changed = 0, brings = 0;
+    for (const InspectedShift* s : set.to({16, 14})) {
+        if (s->from == s->to || is_black(s->value))
+            continue;
+        const glm::vec2 at = middle(1, s->from) + glm::vec2(3, 4); // beside lines
+        const std::uint8_t* a = before.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        const std::uint8_t* b = after.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        changed += b[1] - a[1] > b[0] - a[0]; // toward the green of success
+        ++brings;
+    }
+    EXPECT_GT(brings, 0);
+    EXPECT_GE(changed * 4, brings * 3);
+}
+
+TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
+    type(Key::i);
+    inspect_pixel(1, {16, 14});
+    ASSERT_TRUE(wait_until([&] { return state().space.surroundings != nullptr; }));
+    frames(3);
+    const ControlRect rect = place("space");
+    const auto pictured = [&] {
+        const ScreenPixels pixels = screen();
+        std::vector<std::uint8_t> part;
+        for (int y = static_cast<int>(rect.min.y) + 2; y < static_cast<int>(rect.max.y) - 2; ++y)
+            for (int x = static_cast<int>(rect.min.x) + 2; x < static_cast<int>(rect.max.x) - 2; ++x)
+                part.insert(part.end(), pixels.at(x, y), pixels.at(x, y) + 3);
+        return part;
+    };
+    const auto at_first = pictured();
+    EXPECT_GT(std::count(at_first.begin(), at_first.end(), 255), 100); // the base path is white
+    const Camera fitted = state().space.camera.camera(), scene = state().camera.camera();
+    // All vertices are in view.
+    const glm::ivec2 size(glm::vec2(rect.max - rect.min));
+    for (const InspectedVertex& x : inspector().inspection->path) {
+        const glm::vec3 p = Projection(fitted, size).project(x.position);
+        ASSERT_GT(p.z, 0);
+        EXPECT_TRUE(p.x / p.z > 0 && p.y / p.z > 0 && p.x / p.z < static_cast<float>(size.x) &&
+                    p.y / p.z < static_cast<float>(size.y));
+    }
+    save("space.png");
+    drag(rect.center(), {40, 15});
+    EXPECT_FALSE(state().space.camera.camera() == fitted);
+    EXPECT_NE(pictured(), at_first);
+    const float distance = state().space.camera.distance();
+    wheel(3);
+    EXPECT_LT(state().space.camera.distance(), distance);
+    modifiers(false, true);
+    const glm::vec3 forward = state().space.camera.forward();
+    drag(rect.center(), {10, 0});
+    modifiers(false, false);
+    EXPECT_LT(glm::distance(state().space.camera.forward(), forward), 1e-4f);
+    EXPECT_TRUE(state().camera.camera() == scene); // the scene's own stays
+    press();
+    release();
+    press(); // a double click
+    release();
+    frames(2);
+    EXPECT_FALSE(state().space.fits);
+    EXPECT_NEAR(state().space.camera.distance(), distance, distance); // all is shown again
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 TEST_F(PathInspector, TheSampleStaysUntilItIsToFollow) {

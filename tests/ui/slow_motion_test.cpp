@@ -1,0 +1,199 @@
+// The slow motion: the base paths of one tile arrive one after the other over the active pane's picture.
+
+#include "tests/ui/viewer_harness.h"
+#include "ui/path_drawing.h"
+#include "ui/slow_motion_overlay.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+struct SlowMotionView : testing::Test, ViewerHarness {
+    SlowMotionView() { rest(3); }
+
+    SlowMotion& slow() { return state().slow_motion; }
+    void open(bool held = true) {
+        type(Key::j);
+        slow().held = held;
+        ASSERT_TRUE(wait_until([&] { return slow().shows_choice(); }));
+        frames(3);
+    }
+    void character(char c) {
+        viewer.keyboard().type(c);
+        frames(2);
+    }
+    glm::vec2 middle(glm::ivec2 pixel) {
+        const Placement placement = state().view.place({48, 36}, pane(slow().pane).canvas_size);
+        const ControlRect rect = place("pane" + std::to_string(slow().pane) + ".picture");
+        return rect.min + placement.origin + (glm::vec2(pixel) + 0.5f) / glm::vec2(48, 36) * placement.extent;
+    }
+    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
+        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return {p[0], p[1], p[2]};
+    }
+};
+
+TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
+    const ImageView before = state().view;
+    const ScreenPixels untouched = screen();
+    open();
+    EXPECT_TRUE(has("slow.step"));
+    EXPECT_EQ(slow().pane, state().active_pane);
+    EXPECT_EQ(slow().tile->pass, 2);
+    EXPECT_TRUE(slow().tile->tile.contains({24, 18}));
+    EXPECT_GT(state().view.zoom(), 2);
+    const ControlRect picture = place("pane1.picture");
+    for (const InspectedSet& set : slow().tile->sets)
+        for (const glm::ivec2 p : set.pixels) { // nothing of it lies below the panel
+            EXPECT_GT(middle(p).x, picture.min.x);
+            EXPECT_LT(middle(p).x, picture.max.x);
+            EXPECT_LT(middle(p).y, state().covered_from);
+        }
+    save("slow-motion.png");
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    type(Key::j);
+    frames(2);
+    EXPECT_FALSE(has("slow.step"));
+    EXPECT_TRUE(state().view == before);
+    EXPECT_EQ(screen().rgb, untouched.rgb);
+}
+
+TEST_F(SlowMotionView, GoesStepByStepAndFillsThePixels) {
+    state().panes[1].settings.render.roulette = RouletteKind::none;
+    wait_until([&] { return viewer.settled(3); });
+    open();
+    EXPECT_EQ(slow().current, 0);
+    character('>'); // the first arrives
+    EXPECT_EQ(slow().current, 0);
+    EXPECT_EQ(slow().arrived, 1);
+    const ScreenPixels first = screen();
+    int steps = 0;
+    while (slow().place().base + 1 < slow().set().size()) {
+        character('>');
+        ++steps;
+    }
+    EXPECT_EQ(slow().current, steps);
+    const InspectedSet& set = slow().set();
+    save("slow-motion-last.png");
+    // The set's first pixel has the colour of all that it has got, beside the numbers and arrows.
+    const Rgb expected = 255.0f * displayed(set.radiance(0, set.size()), state().tone);
+    const float unit = middle({1, 0}).x - middle({0, 0}).x;
+    const glm::vec3 seen = colour(screen(), middle(set.pixels[0]) + glm::vec2(-0.38f, -0.02f) * unit);
+    const glm::vec3 before = colour(first, middle(set.pixels[0]) + glm::vec2(-0.38f, -0.02f) * unit);
+    EXPECT_LT(glm::distance(seen, expected), 12);
+    EXPECT_GT(glm::length(seen), glm::length(before));
+    character('<');
+    EXPECT_EQ(slow().current, steps - 1);
+    click("slow.step");
+    EXPECT_EQ(slow().current, steps);
+    click("slow.back");
+    EXPECT_EQ(slow().current, steps - 1);
+}
+
+TEST_F(SlowMotionView, DrawsArrowsInTheColoursOfTheOutcomes) {
+    state().panes[1].settings.render.roulette = RouletteKind::none;
+    wait_until([&] { return viewer.settled(3); });
+    open();
+    character('>');
+    const InspectedSet& set = slow().set();
+    int looked = 0;
+    for (int m = 1; m < set.size(); ++m) {
+        const InspectedShift& s = set.shift(0, m);
+        if (!s.is_tried)
+            continue;
+        // The mark lies within the pixel's edge.
+        const float unit = middle({1, 0}).x - middle({0, 0}).x;
+        const glm::vec3 wanted(outcome_colour(s) & 255, outcome_colour(s) >> 8 & 255,
+                               outcome_colour(s) >> 16 & 255);
+        float nearest = 1e9f;
+        const ScreenPixels pixels = screen();
+        for (float in = 0.3f; in < 0.5f; in += 0.5f / unit)
+            nearest = std::min(nearest,
+                               glm::distance(colour(pixels, middle(s.to) + glm::vec2(-in, 0.2f) * unit), wanted));
+        EXPECT_LT(nearest, 110) << m;
+        ++looked;
+    }
+    EXPECT_GT(looked, 0);
+}
+
+TEST_F(SlowMotionView, PlaysHoldsAndTakesTheNextTile) {
+    open(false);
+    slow().speed = 20;
+    ASSERT_TRUE(wait_until([&] { return slow().current > 2; }));
+    EXPECT_EQ(viewer.next_frame_in(), 0);
+    type(Key::space, false, true);
+    EXPECT_TRUE(slow().held);
+    EXPECT_GT(viewer.next_frame_in(), 1e6); // nothing moves, so nothing is drawn
+    const int held_at = slow().current;
+    frames(10);
+    EXPECT_EQ(slow().current, held_at);
+    click("slow.hold");
+    EXPECT_FALSE(slow().held);
+    slow().speed = 60;
+    const auto tile = slow().tile;
+    ASSERT_TRUE(wait_until([&] { return slow().tile != tile; }));
+    EXPECT_EQ(slow().tile->tile.x0, tile->tile.x1);
+    type(Key::j, false, true);
+    ASSERT_TRUE(wait_until([&] { return slow().shows_choice() && slow().tile->tile.x0 > tile->tile.x1; }));
+}
+
+TEST_F(SlowMotionView, AClickChoosesTheTileAndTheActivePaneDecides) {
+    open();
+    const auto camera = state().camera.camera();
+    const auto tile = slow().tile;
+    const glm::ivec2 other(tile->tile.x1 + 1, tile->tile.y0);
+    click(middle(other));
+    ASSERT_TRUE(wait_until([&] { return slow().tile->tile.contains(other); }));
+    EXPECT_TRUE(state().camera.camera() == camera);
+    type(Key::tab);
+    ASSERT_TRUE(wait_until([&] { return slow().pane == 0 && slow().shows_choice(); }));
+    EXPECT_EQ(slow().tile->settings.method, Method::pt);
+    EXPECT_EQ(slow().tile->base_count(), 1);
+    frames(3);
+    save("slow-motion-pt.png");
+    type(Key::i); // the inspector takes over
+    EXPECT_FALSE(slow().active);
+    EXPECT_TRUE(has("inspector.direction"));
+    EXPECT_FALSE(has("slow.step"));
+}
+
+TEST_F(SlowMotionView, StandsChangesOfAllKinds) {
+    open(false);
+    slow().speed = 60;
+    for (const Method method : {Method::pr, Method::gpt, Method::gpr}) {
+        state().panes[1].settings.render.method = method;
+        state().panes[1].settings.render.pattern = method == Method::pr ? Pattern::rooks : Pattern::tile;
+        ASSERT_TRUE(wait_until([&] { return slow().tile && slow().tile->settings.method == method; }));
+        frames(30);
+        save("slow-motion-" + std::string(short_name(method)) + ".png");
+    }
+    state().camera.orbit({20, 5}, 300);
+    frames(30);
+    resize({90, 60});
+    frames(10);
+    resize({1, 1});
+    frames(3);
+    resize({1280, 720});
+    state().theme = Theme::light;
+    state().ui_scale = 2.0f;
+    frames(30);
+    save("slow-motion-200.png");
+    type(Key::digit1, true);
+    frames(10);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(SlowMotionBeforeAnyScene, IsHarmless) {
+    ViewerHarness h;
+    h.type(Key::j);
+    h.type(Key::j, false, true);
+    h.viewer.keyboard().type('>');
+    h.viewer.keyboard().type('<');
+    h.frames(5);
+    EXPECT_TRUE(h.state().slow_motion.active);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "render/method/inspection.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace tessera {
+
+/// One sample of one pixel that is to be looked at.
+struct SampleChoice {
+    int pane = 0;
+    glm::ivec2 pixel{0};
+    std::optional<int> pass; ///< from 0; empty: the newest
+
+    bool operator==(const SampleChoice&) const = default;
+};
+
+/// The sample that is looked at, and what is shown of it.
+struct Inspector {
+    enum class Direction {
+        to_pixel,   ///< which base paths reach the pixel
+        from_pixel, ///< where the pixel's own path is taken
+    };
+    bool active = false; ///< the mouse chooses a pixel
+    std::optional<SampleChoice> sample;
+    Direction direction = Direction::to_pixel;
+    bool follows = false; ///< from pass to pass; otherwise the one that was the newest stays
+    int marked = -1;      ///< the row of the table under the mouse; -1: none
+    int chosen = -1;      ///< the row whose vertices are listed; -1: those of the base path are
+
+    /// The newest that has been found out; null: nothing yet.
+    std::shared_ptr<const Inspection> inspection;
+    int pane = 0;                 ///< whose it is, ...
+    std::uint64_t generation = 0; ///< ... and of which request
+
+    int shown_row() const { return marked >= 0 ? marked : chosen; }
+    void choose(const SampleChoice& choice) {
+        if (sample != choice)
+            chosen = -1;
+        sample = choice;
+    }
+};
+
+} // namespace tessera

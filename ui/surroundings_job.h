@@ -1,0 +1,29 @@
+#pragma once
+
+#include "ui/background_job.h"
+#include "ui/viewer_state.h"
+
+#include <functional>
+
+namespace tessera {
+
+/// Finds out in the background what lies around the paths that are looked at.
+class SurroundingsJob {
+public:
+    /// To be called every frame. `wake` is called from another thread when there is something new.
+    void update(ViewerState& state, const std::function<void()>& wake);
+
+private:
+    struct View {
+        std::shared_ptr<const Scene> scene;
+        Camera camera;
+        glm::ivec2 size{0};
+        bool operator==(const View&) const = default;
+    };
+    static std::shared_ptr<const Surroundings> find(const View& view, std::stop_token stop);
+
+    BackgroundJob<std::shared_ptr<const Surroundings>> job_;
+    View asked_; // last
+};
+
+} // namespace tessera
