@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/chart.h"
 #include "app/curve.h"
 #include "app/experiment.h"
+#include "ui/chart.h"
 
 namespace tessera {
 

@@ -1,9 +1,9 @@
 #include "app/compare.h"
 
-#include "app/reference_image.h"
 #include "recon/metrics.h"
 #include "recon/tile_spectrum.h"
 #include "render/load/exr.h"
+#include "render/session/reference_image.h"
 
 #include <array>
 #include <cstdio>

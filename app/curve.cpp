@@ -1,7 +1,6 @@
 #include "app/curve.h"
 
-#include <cmath>
-#include <limits>
+#include "recon/slope.h"
 
 namespace tessera {
 
@@ -23,20 +22,11 @@ std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
 }
 
 double slope_of(const Curve& curve) {
-    double n = 0, x_sum = 0, y_sum = 0, xx_sum = 0, xy_sum = 0;
-    for (const Result& result : curve) {
-        if (!is_certain(result))
-            continue;
-        const double x = std::log(cpu_seconds_of(result)), y = std::log(error_of(result));
-        n += 1;
-        x_sum += x;
-        y_sum += y;
-        xx_sum += x * x;
-        xy_sum += x * y;
-    }
-    const double spread = n * xx_sum - x_sum * x_sum;
-    return spread > 1e-9 * n * xx_sum ? (n * xy_sum - x_sum * y_sum) / spread
-                                      : std::numeric_limits<double>::quiet_NaN();
+    std::vector<glm::dvec2> points;
+    for (const Result& result : curve)
+        if (is_certain(result))
+            points.emplace_back(cpu_seconds_of(result), error_of(result));
+    return log_log_slope(points);
 }
 
 const Curve* best_curve(const SceneCurves& scene, Method method) {

@@ -19,8 +19,8 @@ struct SceneCurves {
 /// The results, in the order of their scenes and points, as curves.
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results);
 
-/// The exponent b of error ~ (CPU seconds)^b, fitted to the certain results by least squares of the logarithms: -1
-/// for methods without bias. Not a number for fewer than two.
+/// The exponent b of error ~ (CPU seconds)^b of the certain results (recon/slope.h): -1 for methods without bias.
+/// Not a number for fewer than two.
 double slope_of(const Curve& curve);
 
 /// The result after the most time.

@@ -5,10 +5,10 @@
 #include "app/load_notes.h"
 #include "app/machine.h"
 #include "app/output_file.h"
-#include "app/picture_identity.h"
 #include "app/stats.h"
 #include "render/load/exr.h"
 #include "render/method/settings_table.h"
+#include "render/session/picture_identity.h"
 
 #include <algorithm>
 #include <cctype>
@@ -94,7 +94,7 @@ void Experiment::run_scene(MeasuredScene& scene, const std::function<void()>& re
     if (!scene.make_references(opened.scene, usual))
         return;
     triangles_ = opened.scene->triangle_count();
-    scene_checksum_ = scene_checksum(scene.source(), opened.scene, {}, usual);
+    scene_checksum_ = scene_checksum({scene.source(), opened.scene, opened.scene->camera()}, {}, usual);
     progress_.emplace("measuring");
     for (int i = 0; i < options_.seeds && !interrupted(); ++i) {
         run_round(scene, opened.scene, options_.settings.render.seed + static_cast<std::uint64_t>(i));

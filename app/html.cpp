@@ -25,23 +25,6 @@ std::string base64(const std::vector<char>& bytes) {
 
 } // namespace
 
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < ' ' ? ' ' : c; // XML has no control characters
-    }
-    return out;
-}
-
 std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes) {
     return fmt::format(R"(<img width="{}" height="{}" {} src="data:image/png;base64,{}">)", image.width(),
                        image.height(), attributes, base64(encode_png(image, exposure)));

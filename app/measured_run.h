@@ -2,8 +2,8 @@
 
 #include "app/effort.h"
 #include "app/measurement.h"
-#include "app/reference_image.h"
 #include "recon/reconstruct.h"
+#include "render/session/reference_image.h"
 #include "render/session/render.h"
 
 #include <memory>

@@ -6,16 +6,6 @@
 
 namespace tessera {
 
-std::string scene_name(const SceneSource& source) {
-    const std::string stem = source.file.stem().string();
-    const std::string folder =
-        std::filesystem::absolute(source.file).lexically_normal().parent_path().filename().string();
-    std::string name = stem.rfind("scene", 0) == 0 && !folder.empty() ? folder : stem;
-    for (const auto& [variable, value] : source.variables)
-        name += "-" + value;
-    return name;
-}
-
 MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Point>& points,
                              const std::filesystem::path& folder, const ReferenceRecipe& recipe)
     : source_(std::move(source)), name_(scene_name(source_)) {

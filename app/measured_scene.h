@@ -8,10 +8,6 @@
 
 namespace tessera {
 
-/// The folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the file's; with the values of its
-/// variables, if it was given any: "glossy-0.01".
-std::string scene_name(const SceneSource& source);
-
 /// A scene to measure on, and the references it needs.
 class MeasuredScene {
 public:

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "render/load/temporary_file.h"
+
 #include <filesystem>
 #include <string>
 
 namespace tessera {
-
-/// Throws BadInput where no file can be made at `path`: better before a render than after it.
-void check_writable(const std::filesystem::path& path);
 
 /// Makes the folder and those that it lies in, where there are none. Throws BadInput.
 void make_folder(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 #include "app/interrupt.h"
 #include "app/load_notes.h"
 #include "app/output_file.h"
+#include "app/scene_source.h"
 #include "render/load/image_files.h"
 #include "render/method/settings_table.h"
 

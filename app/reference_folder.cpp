@@ -9,8 +9,7 @@ namespace tessera {
 
 FolderReference::FolderReference(const std::filesystem::path& folder, const std::string& scene_name,
                                  ReferenceRecipe recipe)
-    : path_(folder /
-            fmt::format("{}-{}x{}-d{}.exr", scene_name, recipe.size.x, recipe.size.y, recipe.settings.max_depth)),
+    : path_(reference_file(folder, scene_name, recipe.size, recipe.settings.max_depth)),
       recipe_(std::move(recipe)) {
     if (!std::filesystem::exists(path_))
         return;

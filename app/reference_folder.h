@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/reference_render.h"
+#include "app/reference_run.h"
 
 #include <string>
 

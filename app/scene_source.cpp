@@ -10,10 +10,6 @@
 
 namespace tessera {
 
-std::string to_string(const SceneSource& source) {
-    return source.file.empty() ? "the built-in Cornell box" : source.file.string();
-}
-
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
         pool.parallel_for(count, [&body](int i, int) { body(i); });

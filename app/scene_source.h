@@ -1,20 +1,12 @@
 #pragma once
 
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/session/thread_pool.h"
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 namespace tessera {
-
-/// Where a command takes its scene from.
-struct SceneSource {
-    std::filesystem::path file;        ///< empty: the Cornell box inside the program
-    SceneVariables variables;          ///< -D name=value
-    std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
-};
 
 /// A scene ready to render and how it came to be so.
 struct OpenedScene {
@@ -31,8 +23,5 @@ struct OpenedScene {
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress);
 /// The same, telling on a terminal how far it is.
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool);
-
-/// The name to show for it.
-std::string to_string(const SceneSource& source);
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 
 #include "app/reconstruction_layers.h"
 #include "app/scene_source.h"
+#include "render/session/picture_settings.h"
 #include "render/session/render.h"
 
 #include <vector>
@@ -9,10 +10,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 namespace tessera {
-
-/// Everything that decides the picture: goes into the header of every image and into the stats.
-nlohmann::json settings_json(const SceneSource& scene, const RenderSettings& settings, glm::ivec2 size, int spp,
-                             float alpha);
 
 /// An array of what each cost.
 nlohmann::json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions);

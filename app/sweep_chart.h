@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/chart.h"
 #include "app/experiment.h"
+#include "ui/chart.h"
 
 namespace tessera {
 

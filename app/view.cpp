@@ -4,7 +4,7 @@
 #include "app/stats.h"
 #include "render/load/camera_file.h"
 #include "render/load/png.h"
-#include "ui/output_files.h"
+#include "ui/picture_saver.h"
 #include "ui/preferences.h"
 #include "ui/screenshot.h"
 #include "ui/script_player.h"
@@ -42,8 +42,9 @@ void write_snapshot(const std::filesystem::path& file, const std::filesystem::pa
     const Norm norm = has_gradients(snapshot.settings.method) ? reconstruction.norm : Norm::none;
     ThreadPool pool(1, ThreadPool::Priority::background);
     std::vector<ReconstructionStats> stats;
-    ExrFile picture = picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
-                                     {{norm}, reconstruction.alpha, !reconstruction.joint_colour, true}, pool, stats);
+    ExrFile picture =
+        picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
+                       {{norm}, reconstruction.alpha, !reconstruction.joint_colour, true}, pool, stats);
     const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
     picture.attributes["tessera:version"] = TESSERA_VERSION;
     picture.attributes["tessera:settings"] =
@@ -62,7 +63,8 @@ public:
     bool after_frame() {
         log_times();
         set_title();
-        save_if_wished();
+        if (saver_.after_frame(viewer_, surface_.pixels()))
+            surface_.wake();
         return options_.screenshot.empty() || take_screenshot();
     }
 
@@ -88,24 +90,6 @@ private:
             return;
         titled_ = viewer_.state().scene_name;
         surface_.set_title(title(titled_));
-    }
-
-    // Waits for the menu that the wish came from to close.
-    void save_if_wished() {
-        ViewerState& state = viewer_.state();
-        wish_age_ = state.save_picture ? wish_age_ + 1 : 0;
-        if (wish_age_ < 3)
-            return;
-        state.save_picture = false;
-        try {
-            const std::filesystem::path file = dated_file(".png");
-            const ScreenPixels screen = read_screen(surface_.pixels());
-            write_png(file, screen.size, screen.rgb);
-            state.add_message(Message::Kind::note, "Saved " + file.string());
-        } catch (const std::exception& e) {
-            state.add_message(Message::Kind::error, e.what());
-        }
-        surface_.wake();
     }
 
     bool take_screenshot() {
@@ -137,7 +121,7 @@ private:
     bool window_seen_ = false;
     std::ptrdiff_t pictures_seen_ = 0;
     std::string titled_; // the scene that the window is named after
-    int wish_age_ = 0;
+    PictureSaver saver_;
     int exit_code_ = 0;
 };
 
@@ -169,6 +153,7 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.panes = options.panes;
     result.max_depth = options.max_depth;
     result.size = options.render_size;
+    result.threads = options.threads;
     result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
     result.show_panel = options.show_panel;
     if (options.log_actions)

@@ -123,21 +123,29 @@ constexpr Shortcut no_shortcut{};
 using State = ViewerState;
 
 constexpr Action table[] = {
+    {"File", "Open scene ...", "Chooses a Mitsuba scene, an .xml file.", ctrl(Key::o), no_shortcut,
+     [](State& s) { s.choosing = FilePurpose::scene; }, nullptr},
     {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
      key(Key::f5), no_shortcut, [](State& s) { s.reload = true; }, nullptr},
+    {"File", "Open reference ...", "Chooses an EXR file to measure errors against.", ctrl(Key::r), no_shortcut,
+     [](State& s) { s.choosing = FilePurpose::reference; }, nullptr},
+    {"File", "Make reference ...",
+     "Renders a reference of what the panes show, in the background; after an end it goes on from its checkpoint.",
+     ctrl(Key::m), no_shortcut, [](State& s) { s.reference_making.show = true; }, nullptr},
+    {"File", "Load settings ...", "Chooses settings or a camera that was saved, a .json file.", ctrl(Key::l),
+     no_shortcut, [](State& s) { s.choosing = FilePurpose::settings; }, nullptr},
     {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
      key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
     {"File", "Save as EXR",
      "Writes the active pane's picture with all its buffers, camera and settings to an EXR file in the current "
      "folder.",
      ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
-    {"File", "Save settings",
-     "Writes panes, camera, size and display to a JSON file in the current folder; drop it on the window to have "
-     "them "
-     "back.",
+    {"File", "Save settings", "Writes panes, camera, size and display to a JSON file in the current folder.",
      ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},
-    {"File", "Save charts as CSV",
-     "Writes the points of the error charts and the active pane's histogram to a file in the current folder.",
+    {"File", "Save charts",
+     "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "
+     "current "
+     "folder.",
      key(Key::z), no_shortcut, [](State& s) { s.save_charts = true; }, nullptr},
     {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
 
@@ -247,7 +255,7 @@ constexpr Action table[] = {
     {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
      key(Key::t), no_shortcut, [](State& s) { s.show_statistics = !s.show_statistics; },
      [](const State& s) { return s.show_statistics; }},
-    {"View", "Charts", "Shows or hides how the errors fall against the reference, and a histogram.", key(Key::h),
+    {"View", "Charts", "Shows or hides how errors fall, efficiency, how shifts end, and a histogram.", key(Key::h),
      no_shortcut, [](State& s) { s.show_charts = !s.show_charts; }, [](const State& s) { return s.show_charts; }},
     {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
      [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},

@@ -33,6 +33,13 @@ bool counts_in_text(const Shortcut& typed) {
     return typed.ctrl || (typed.key >= Key::f1 && typed.key <= Key::f12);
 }
 
+void close_overlays(ViewerState& state) {
+    state.show_help = false;
+    state.large_charts = false;
+    state.reference_making.show = false;
+    state.choosing.reset();
+}
+
 } // namespace
 
 std::span<const Gesture> gestures() {
@@ -50,7 +57,7 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
     }
     // A closing key that every overlay has.
     if (std::find(typed.begin(), typed.end(), Shortcut{Key::escape}) != typed.end())
-        state.show_help = false;
+        close_overlays(state);
 }
 
 bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state) {

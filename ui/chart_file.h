@@ -6,8 +6,12 @@
 
 namespace tessera {
 
-/// The points of the panes' error charts, a line each: pane (from 1), method, norm, spp, seconds, relMSE; then an
-/// empty line and the bins of the active pane's histogram. Without any, the header alone.
+/// All that charts show, in blocks with a header each and an empty line between them: the panes' errors (pane from
+/// 1, method, norm, spp, seconds, relMSE, efficiency), the shares of their shifts by outcome, and the bins of the
+/// active pane's histogram. Blocks without lines are left out, but for the first.
 std::string chart_csv(const ViewerState& state);
+
+/// The chart that is chosen, and the active pane's histogram.
+std::string chart_svg(const ViewerState& state);
 
 } // namespace tessera

@@ -24,19 +24,26 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     if (auto outcome = job_.poll(); outcome && outcome->result)
         for (Measured& measured : *outcome->result)
             take(state, measured);
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        note_shifts(state.panes[i], state.charts[i]);
+    for (std::size_t i = state.panes.size(); i < state.charts.size(); ++i) {
+        state.charts[i] = {}; // the pane is gone
+        done_[i] = {};
+    }
     if (job_.running())
         return;
+    const bool wants_histograms = state.show_charts || state.large_charts || state.save_charts;
     std::vector<Measured> work;
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         const auto& reference = state.companions.reference;
         std::shared_ptr<const void> source = final_source(state.panes[i]);
         Done& done = done_[i];
         const bool wants_error = reference && (source != done.source || reference != done.reference);
-        const bool wants_histogram = state.show_charts && (source != done.source || !done.histogram);
+        const bool wants_histogram = wants_histograms && (source != done.source || !done.histogram);
         if (!source || !(wants_error || wants_histogram))
             continue;
-        done = {source, reference, state.show_charts};
-        work.push_back({i, state.panes[i].snapshot, std::move(source), reference, state.show_charts});
+        done = {source, reference, wants_histograms};
+        work.push_back({i, state.panes[i].snapshot, std::move(source), reference, wants_histograms});
     }
     if (work.empty())
         return;
@@ -48,6 +55,23 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
             return std::move(work);
         },
         wake);
+}
+
+void ChartJob::note_shifts(const PaneState& pane, PaneChart& chart) {
+    if (chart.shift_generation != pane.generation)
+        chart.shifts.clear();
+    chart.shift_generation = pane.generation;
+    const Snapshot* s = pane.snapshot.get();
+    if (!s || s->coarse || s->generation != pane.generation || s->counters.shift_attempts() == 0)
+        return;
+    const auto& points = chart.shifts.points();
+    if (!points.empty() && points.back().spp == s->spp)
+        return;
+    ShiftPoint point{s->spp, s->seconds, {}};
+    const auto all = static_cast<double>(s->counters.shift_attempts());
+    for (std::size_t i = 0; i < point.shares.size(); ++i)
+        point.shares[i] = static_cast<double>(s->counters.shifts[i]) / all;
+    chart.shifts.add(point);
 }
 
 void ChartJob::measure(Measured& m) {
@@ -67,6 +91,8 @@ void ChartJob::measure(Measured& m) {
 }
 
 void ChartJob::take(ViewerState& state, Measured& measured) {
+    if (measured.pane >= state.panes.size())
+        return; // it has been taken away
     PaneChart& chart = state.charts[measured.pane];
     if (chart.generation != measured.snapshot->generation || chart.reference != measured.reference)
         chart.errors.clear();

@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// Measures the panes' pictures in the background for the charts: errors against the reference, once there is one,
-/// and histograms while charts are on show.
+/// Gathers what charts show: measures the panes' pictures in the background, errors against the reference, once
+/// there is one, and histograms while charts are on show; and notes how shifts end.
 class ChartJob {
 public:
     /// To be called every frame. `wake` is called from another thread when there is something new.
@@ -33,6 +33,7 @@ private:
         std::shared_ptr<const Reference> reference;
         bool histogram = false;
     };
+    static void note_shifts(const PaneState& pane, PaneChart& chart);
     static void measure(Measured& picture);
     void take(ViewerState& state, Measured& measured);
 

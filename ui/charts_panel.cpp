@@ -1,6 +1,7 @@
-#include "ui/log_chart.h"
+#include "ui/chart_view.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
+#include "ui/viewer_charts.h"
 
 #include <algorithm>
 #include <array>
@@ -14,13 +15,28 @@ namespace tessera {
 
 namespace {
 
-double seconds_of(const ErrorPoint& p) {
-    return p.seconds;
+// Heights, in sizes of the font.
+constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
+
+const std::array<ChoiceItem, 3> kinds = {{
+    {"error", "Error", "relMSE of each pane's picture to the reference."},
+    {"efficiency", "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
+    {"shifts", "Shifts", "How the shifts of each pane ended: which share came through, and why others did not."},
+}};
+
+constexpr const char* help_of(ChartKind kind) {
+    switch (kind) {
+    case ChartKind::error:
+        return "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + 0.001) [Bauszat "
+               "2017, 4], against what it has taken. Both axes are logarithmic.";
+    case ChartKind::efficiency:
+        return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of a method without bias becomes "
+               "level; the higher one needs less time for the same error. Both axes are logarithmic.";
+    case ChartKind::shifts:
+        return "The share of all shifts so far by how they ended, per cent. Both axes are logarithmic.";
+    }
+    return "";
 }
-double spp_of(const ErrorPoint& p) {
-    return p.spp;
-}
-using XOf = double (*)(const ErrorPoint&);
 
 /// Takes room of a height, as an item; where it is.
 ScreenRect take_room(float height) {
@@ -30,105 +46,177 @@ ScreenRect take_room(float height) {
     return {{at.x, at.y}, {at.x + width, at.y + height}};
 }
 
-/// Panes with one method are told apart by their brightness.
-ImU32 line_colour(const ViewerState& state, std::size_t pane) {
-    const Method method = state.panes[pane].settings.render.method;
-    ImVec4 c = ImGui::ColorConvertU32ToFloat4(method_colour(method));
-    for (std::size_t i = 0; i < pane; ++i)
-        if (state.panes[i].settings.render.method == method)
-            c.w *= 0.6f;
-    return ImGui::ColorConvertFloat4ToU32(c);
+void coloured(ImU32 colour, const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
 }
 
-void draw_errors(Controls& controls, const ViewerState& state, XOf x) {
-    std::vector<LogChartLine> lines;
-    for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        lines.push_back({line_colour(state, i), {}});
-        for (const ErrorPoint& p : state.charts[i].errors.points())
-            lines.back().points.emplace_back(x(p), p.error);
-    }
-    const ScreenRect where = take_room(ImGui::GetFontSize() * 15);
-    controls.note("charts.errors",
-                  "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + "
-                  "0.001) [Bauszat 2017, 4], against what it has taken. Both axes are logarithmic.");
-    draw_log_chart(where, x == spp_of ? "samples a pixel" : "seconds", "relMSE", lines);
+/// "-1.02", or a dash while it is not known.
+std::string slope_text(double slope) {
+    char text[16] = "-";
+    if (std::isfinite(slope))
+        std::snprintf(text, sizeof text, "%.2f", slope);
+    return text;
 }
 
-/// A line for each pane: its newest error, slope and efficiency.
-void draw_figures(Controls& controls, const ViewerState& state, XOf x) {
-    for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        const auto& points = state.charts[i].errors.points();
+/// A line for each pane: the newest error or efficiency, and its slope.
+void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
+                  const std::vector<ImU32>& colours) {
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        const ChartSeries& series = plot.series[i];
         char text[128] = "no error yet";
-        if (!points.empty()) {
-            const ErrorPoint& p = points.back();
-            std::snprintf(text, sizeof text, "%.3g   slope %.2f   eff. %.3g", p.error, log_slope(points, x),
-                          1 / (p.error * p.seconds));
-        }
-        ImGui::PushStyleColor(ImGuiCol_Text, line_colour(state, i));
-        ImGui::Text("%d  %s", static_cast<int>(i) + 1,
-                    std::string(paper_name(state.panes[i].settings.render.method)).c_str());
-        ImGui::PopStyleColor();
-        ImGui::SameLine(ImGui::GetFontSize() * 4.5f);
+        if (!series.points.empty())
+            std::snprintf(text, sizeof text, "%.3g%s   slope %s", series.points.back().y,
+                          state.chart_kind == ChartKind::efficiency ? " /s" : "",
+                          slope_text(slope_of_last_decade(series)).c_str());
+        coloured(colours[i], series.label.c_str());
+        ImGui::SameLine(ImGui::GetFontSize() * 5);
         ImGui::TextUnformatted(text);
         controls.note(
             ("charts.figures" + std::to_string(i)).c_str(),
-            "The newest relMSE (no unit); the slope of the line over its last decade, -1 for an error that "
-            "falls as noise does; eff.: the efficiency, 1 / (relMSE x seconds), 1/s.");
+            "The newest value, and the slope of the line over its last decade: -1 for an error that falls "
+            "as noise does, 0 for its efficiency.");
     }
 }
 
-void draw_histogram(Controls& controls, const ViewerState& state) {
-    const ScreenRect where = take_room(ImGui::GetFontSize() * 7);
-    controls.note(
-        "charts.histogram",
-        "How many pixels of the active pane's picture have which luminance, from 2^-12 to 2^8, on a square "
-        "root scale. The bright line is what the exposure makes white.");
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y}, IM_COL32(128, 128, 128, 25));
-    const auto& histogram = state.charts[static_cast<std::size_t>(state.active_pane)].histogram;
-    if (!histogram)
+/// A line for each outcome, with the newest share in every pane that has a plot.
+void draw_shares(Controls& controls, const ViewerState& state, const Chart& chart,
+                 const std::vector<ImU32>& colours) {
+    const float font = ImGui::GetFontSize();
+    const auto column = [&](std::size_t plot) { return font * (7.5f + 4 * static_cast<float>(plot)); };
+    const std::vector<std::size_t> panes = shifting_panes(state);
+    for (std::size_t plot = 0; plot < panes.size(); ++plot) {
+        ImGui::SetCursorPosX(column(plot));
+        ImGui::TextDisabled("%s", pane_name(state, panes[plot]).c_str());
+        if (plot + 1 < panes.size())
+            ImGui::SameLine();
+    }
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        coloured(colours[i], chart.plots.front().series[i].label.c_str());
+        for (std::size_t plot = 0; plot < chart.plots.size(); ++plot) {
+            const auto& points = chart.plots[plot].series[i].points;
+            ImGui::SameLine(column(plot));
+            ImGui::Text("%.1f %%", points.empty() ? 0.0 : points.back().y);
+        }
+    }
+    controls.note("charts.shares", "The newest share of each outcome, a column for each pane.");
+}
+
+/// The chart that is chosen, `height` of all its plots together, and what it says in numbers.
+void draw_chart(Controls& controls, const ViewerState& state, float height) {
+    const Chart chart = viewer_chart(state);
+    const std::vector<ImU32> colours = line_colours(state);
+    if (chart.plots.empty()) {
+        ImGui::TextDisabled(state.chart_kind == ChartKind::shifts ? "No pane has shifted a path"
+                                                                  : "No reference to measure errors against");
         return;
+    }
+    const float each = height / static_cast<float>(chart.plots.size());
+    for (std::size_t i = 0; i < chart.plots.size(); ++i) {
+        draw_plot(take_room(each), chart.plots[i], colours);
+        controls.note(
+            ("charts." + kinds[static_cast<std::size_t>(state.chart_kind)].id + (i > 0 ? std::to_string(i) : ""))
+                .c_str(),
+            help_of(state.chart_kind));
+    }
+    if (state.chart_kind == ChartKind::shifts)
+        draw_shares(controls, state, chart, colours);
+    else
+        draw_figures(controls, state, chart.plots.front(), colours);
+}
+
+float chart_height(const ViewerState& state) {
+    const float font = ImGui::GetFontSize();
+    if (state.chart_kind != ChartKind::shifts)
+        return font * plot_height;
+    const std::size_t plots = shifting_panes(state).size();
+    return font * (plots > 1 ? small_plot_height * static_cast<float>(plots) : plot_height);
+}
+
+/// Its bins, on a square root scale; the bright line is what the exposure makes white.
+void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposure) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto most = static_cast<float>(
-        std::max<std::size_t>(*std::max_element(histogram->bins.begin(), histogram->bins.end()), 1));
+        std::max<std::size_t>(*std::max_element(histogram.bins.begin(), histogram.bins.end()), 1));
     const float step = where.size().x / Histogram::bin_count;
     for (int bin = 0; bin < Histogram::bin_count; ++bin) {
-        const float share = std::sqrt(static_cast<float>(histogram->bins[static_cast<std::size_t>(bin)]) / most);
+        const float share = std::sqrt(static_cast<float>(histogram.bins[static_cast<std::size_t>(bin)]) / most);
         const float left = where.min.x + step * static_cast<float>(bin);
         list.AddRectFilled({left, glm::mix(where.max.y, where.min.y, share)}, {left + step, where.max.y},
                            colours::dim_text);
     }
     const float stops = static_cast<float>(Histogram::last_stop - Histogram::first_stop);
-    const float white = (-state.tone.exposure - Histogram::first_stop) / stops;
+    const float white = (-exposure - Histogram::first_stop) / stops;
     if (white > 0 && white < 1) {
         const float at = glm::mix(where.min.x, where.max.x, white);
         list.AddLine({at, where.min.y}, {at, where.max.y}, colours::accent);
     }
+}
+
+void draw_histogram(Controls& controls, const ViewerState& state) {
+    const ScreenRect where = take_room(ImGui::GetFontSize() * histogram_height);
+    controls.note(
+        "charts.histogram",
+        "How many pixels of the active pane's picture have which luminance, from 2^-12 to 2^8, on a square "
+        "root scale. The bright line is what the exposure makes white.");
+    ImGui::GetWindowDrawList()->AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y},
+                                              IM_COL32(128, 128, 128, 25));
+    const auto& histogram = state.charts[static_cast<std::size_t>(state.active_pane)].histogram;
+    if (!histogram)
+        return;
+    draw_bins(where, *histogram, state.tone.exposure);
     ImGui::TextDisabled("%zu black   %zu negative   %zu not finite", histogram->black, histogram->negative,
                         histogram->not_finite);
 }
 
-void draw_contents(Controls& controls, ViewerState& state) {
-    heading("Error");
+/// Which chart, and against what.
+void draw_choices(Controls& controls, ViewerState& state) {
     static const std::array<ChoiceItem, 2> axes = {{
         {"seconds", "against seconds", "Wall time of a pane's own passes."},
         {"spp", "against samples", "Samples a pixel."},
     }};
-    int axis = state.charts_by_spp;
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);
+    int kind = static_cast<int>(state.chart_kind), axis = state.charts_by_spp;
+    controls.bare_choice("charts.kind", kinds[static_cast<std::size_t>(kind)].label.c_str(), kinds, kind, width,
+                         "Which chart is shown.");
+    ImGui::SameLine();
     controls.bare_choice("charts.axis", axes[static_cast<std::size_t>(axis)].label.c_str(), axes, axis, -FLT_MIN,
-                         "What the error is shown against.");
+                         "What it is shown against.");
+    state.chart_kind = static_cast<ChartKind>(kind);
     state.charts_by_spp = axis == 1;
-    const XOf x = state.charts_by_spp ? spp_of : seconds_of;
-    if (state.companions.reference) {
-        draw_errors(controls, state, x);
-        draw_figures(controls, state, x);
-    } else {
-        ImGui::TextDisabled("No reference: drop an EXR file on the window");
-    }
+}
+
+/// Where a reference comes from.
+void draw_reference_buttons(Controls& controls, ViewerState& state) {
+    if (controls.button("charts.open_reference", "Open a reference ...", "Chooses an EXR file."))
+        state.choosing = FilePurpose::reference;
+    ImGui::SameLine();
+    if (controls.button("charts.make_reference", "Make one ...", "Renders a reference of what the panes show."))
+        state.reference_making.show = true;
+}
+
+void draw_chart_buttons(Controls& controls, ViewerState& state) {
+    if (controls.button("charts.large", state.large_charts ? "Small" : "Large",
+                        "Draws the chart over the pictures, too."))
+        state.large_charts = !state.large_charts;
+    ImGui::SameLine();
+    if (controls.button("charts.save", "Save",
+                        "Writes the points of all panes and the histogram as CSV, the chart as SVG, and a picture "
+                        "of it as PNG, to the current folder."))
+        state.save_charts = true;
+}
+
+void draw_contents(Controls& controls, ViewerState& state) {
+    heading("Charts");
+    draw_choices(controls, state);
+    draw_chart(controls, state, chart_height(state));
+    if (state.chart_kind != ChartKind::shifts && !state.companions.reference)
+        draw_reference_buttons(controls, state);
+    draw_chart_buttons(controls, state);
     heading("Histogram");
     draw_histogram(controls, state);
-    if (controls.button("charts.save", "Save as CSV",
-                        "Writes the points of all panes, and the histogram, to a CSV file in the current folder."))
-        state.save_charts = true;
 }
 
 } // namespace
@@ -141,6 +229,22 @@ void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState&
         draw_contents(controls, state);
     }
     ImGui::End();
+}
+
+void draw_large_charts(const ScreenRect& where, Controls& controls, const ViewerState& state) {
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Large charts", nullptr, overlay_flags)) {
+        const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
+        const bool by_outcome = state.chart_kind == ChartKind::shifts;
+        const auto lines = static_cast<float>(by_outcome ? seen_outcomes(state).size() + 1 : state.panes.size());
+        ImGui::TextDisabled("%s", viewer_chart(state).title.c_str());
+        const float rest = (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
+        draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - rest, font * plot_height));
+        draw_histogram(controls, state);
+    }
+    ImGui::End();
+    controls.note_rect("charts.picture", where.min, where.max);
 }
 
 } // namespace tessera

@@ -51,8 +51,13 @@ public:
     /// No row of its own: as wide as its label, or `width`.
     bool button(const char* id, const char* label, const char* help, float width = 0);
 
+    /// A row's label, for what is drawn without these widgets: the item after it fills the row.
+    void label(const char* text) const;
     /// Notes and explains the item just drawn: for what is drawn without these widgets.
     void note(const char* id, const char* help);
+
+    /// The same of an area that is no item.
+    void note_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
 
     /// By id, of this frame or the last whole one.
     const std::map<std::string, ControlRect, std::less<>>& rects() const { return rects_; }
@@ -61,8 +66,6 @@ public:
     bool tooltip_pending() const { return tooltip_pending_; }
 
 private:
-    void label(const char* text) const;
-
     std::map<std::string, ControlRect, std::less<>> rects_;
     std::string hovered_;
     std::string hovered_before_;

@@ -141,6 +141,14 @@ constexpr Named table[] = {
     {"panel", flag<[](S& s) -> bool& { return s.show_panel; }>},
     {"statistics", flag<[](S& s) -> bool& { return s.show_statistics; }>},
     {"charts", flag<[](S& s) -> bool& { return s.show_charts; }>},
+    {"chart",
+     [](S& s, Text n, Text v) {
+         s.chart_kind = static_cast<ChartKind>(one_of(n, v, {"error", "efficiency", "shifts"}));
+     }},
+    {"large_charts", flag<[](S& s) -> bool& { return s.large_charts; }>},
+    {"reference_spp",
+     [](S& s, Text n, Text v) { s.reference_making.spp = static_cast<int>(number(n, v, 2, 1 << 24)); }},
+    {"reference_method", [](S& s, Text, Text v) { s.reference_making.method = method_named(v); }},
     {"charts_axis",
      [](S& s, Text n, Text v) {
          s.charts_by_spp = one_of(n, v, {"seconds", "spp"}) == 1;

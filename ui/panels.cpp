@@ -15,9 +15,6 @@ namespace tessera {
 
 namespace {
 
-constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
-
 void draw_menu_item(Controls& controls, const Action& action, ViewerState& state) {
     const bool checked = action.checked != nullptr && action.checked(state);
     if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
@@ -61,6 +58,20 @@ std::string shortened(const std::string& name, float width) {
     while (cut < name.size() && (!fits("..." + name.substr(cut)) || (name[cut] & 0xc0) == 0x80))
         ++cut; // never within a character of UTF-8
     return "..." + name.substr(cut);
+}
+
+/// How far the reference is that is being made.
+void draw_making(Controls& controls, ViewerState& state) {
+    const auto& progress = state.reference_making.progress;
+    if (!progress)
+        return;
+    char text[48];
+    std::snprintf(text, sizeof text, "Reference %.0f %%##making", 100 * progress->share());
+    ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+    if (ImGui::MenuItem(text))
+        state.reference_making.show = !state.reference_making.show;
+    ImGui::PopStyleColor();
+    controls.note("making", "A reference is being made: shows or hides how far it is.");
 }
 
 // At the right end of the menu bar: the scene, and whether there is something to read.
@@ -165,6 +176,7 @@ float draw_menu_bar(Controls& controls, ViewerState& state) {
             draw_menu(controls, action.menu, state);
         previous = action.menu;
     }
+    draw_making(controls, state);
     draw_menu_bar_end(controls, state);
     const float height = ImGui::GetWindowHeight();
     ImGui::EndMainMenuBar();

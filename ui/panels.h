@@ -16,6 +16,10 @@ inline constexpr ImGuiWindowFlags side_panel_flags =
     (ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
 
+/// Of one over them.
+inline constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                                  ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+
 /// The menus of all actions, across the top; returns its height, screen units.
 float draw_menu_bar(Controls& controls, ViewerState& state);
 
@@ -25,8 +29,13 @@ void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerStat
 /// What the render on show in the active pane has counted.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
-/// Errors against time or samples, and the active pane's histogram.
+/// Errors, efficiencies or shifts against time or samples, and the active pane's histogram.
 void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
+/// The same without its controls, as large as there is room; over the pictures. Noted as charts.picture.
+void draw_large_charts(const ScreenRect& where, Controls& controls, const ViewerState& state);
+
+/// What a reference is to be made of, or how far its making is; over everything.
+void draw_reference_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
 
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);

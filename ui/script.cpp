@@ -18,8 +18,8 @@ struct StepKind {
 };
 
 constexpr StepKind kinds[] = {
-    {"wait", 1, 2, "wait scene | spp N | seconds S",
-     "until it is loaded, until all panes have N samples a pixel, or so long"},
+    {"wait", 1, 2, "wait scene | spp N | seconds S | reference",
+     "until it is loaded, until all panes have N samples a pixel, so long, or until a reference is there"},
     {"key", 1, 1, "key Ctrl+S", "presses and releases a key, or types a character"},
     {"hold", 1, 1, "hold B", "presses a key"},
     {"release", 1, 1, "release B", "releases it"},

@@ -112,8 +112,12 @@ void ScriptPlayer::start_wait(const ScriptStep& step) {
         holds = [this, amount] { return have_samples(static_cast<int>(amount)); };
     else if (what == "seconds")
         holds = [began, amount] { return now() - began >= amount; };
+    else if (what == "reference")
+        holds = [&state = viewer_.state()] {
+            return state.companions.reference && !state.reference_making.is_making();
+        };
     else
-        fail("it is: wait scene | spp N | seconds S");
+        fail("it is: wait scene | spp N | seconds S | reference");
     waiting_ = what != "seconds";
     actions_.push_back([this, holds, began] {
         for (const Message& message : viewer_.state().messages) {

@@ -1,6 +1,8 @@
 #include "ui/settings_file.h"
 
 #include "render/load/camera_file.h"
+#include "render/load/json_text.h"
+#include "render/load/messages.h"
 #include "render/method/settings_table.h"
 #include "ui/named_settings.h"
 
@@ -28,30 +30,75 @@ const char* word(const char* const (&words)[count], Enum value) {
     return words[static_cast<std::size_t>(value)];
 }
 
-/// Sets `value` if `json` has `key`.
-template <class Enum, std::size_t count>
-void read(const ordered_json& json, const char* key, const char* const (&words)[count], Enum& value) {
-    if (!json.contains(key))
-        return;
-    const std::string text = json.at(key).get<std::string>();
-    const auto found = std::find(std::begin(words), std::end(words), text);
-    if (found == std::end(words))
-        throw std::invalid_argument(std::string(key) + " is \"" + text + "\", which there is not");
-    value = static_cast<Enum>(found - std::begin(words));
-}
-template <class Number>
-void read(const ordered_json& json, const char* key, double least, double most, Number& value) {
-    if (!json.contains(key))
-        return;
-    const auto number = json.at(key).get<double>();
-    if (!(number >= least && number <= most))
-        throw std::invalid_argument(std::string(key) + " is out of range");
-    value = static_cast<Number>(number);
-}
-void read(const ordered_json& json, const char* key, bool& value) {
-    if (json.contains(key))
-        value = json.at(key).get<bool>();
-}
+/// An object of the file, and where it stands in it. What is wrong with a field is told with its place.
+class Fields {
+public:
+    Fields(const JsonText& text, const ordered_json& json, std::string path)
+        : text_(text), json_(json), path_(std::move(path)) {
+        if (!json.is_object())
+            fail("", "this must be an object, {...}");
+    }
+
+    [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+        text_.fail_at(text_.place_of(path_ + key), what);
+    }
+
+    const ordered_json& json() const { return json_; }
+    bool has(const char* key) const { return json_.contains(key); }
+    /// Without fields where there is none of that name.
+    Fields object(const std::string& key) const {
+        static const ordered_json none = ordered_json::object();
+        return {text_, json_.contains(key) ? json_.at(key) : none, path_ + key + "/"};
+    }
+    Fields element(const ordered_json& array, std::size_t i, const std::string& key) const {
+        return {text_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
+    }
+
+    template <class T>
+    T get(const std::string& key) const {
+        try {
+            return json_.at(key).get<T>();
+        } catch (const ordered_json::exception&) {
+            fail(key, key + " is of the wrong kind: " + json_.at(key).type_name());
+        }
+    }
+    /// `take` gets the value, and throws std::invalid_argument where it is no good.
+    template <class T, class Take>
+    void read(const std::string& key, Take take) const {
+        if (!json_.contains(key))
+            return;
+        try {
+            take(get<T>(key));
+        } catch (const std::invalid_argument& error) {
+            fail(key, error.what());
+        }
+    }
+    template <class Enum, std::size_t count>
+    void read(const std::string& key, const char* const (&words)[count], Enum& value) const {
+        read<std::string>(key, [&](const std::string& text) {
+            const auto found = std::find(std::begin(words), std::end(words), text);
+            if (found == std::end(words))
+                throw std::invalid_argument(key + " is \"" + text + "\", which there is not");
+            value = static_cast<Enum>(found - std::begin(words));
+        });
+    }
+    template <class Number>
+    void read(const std::string& key, double least, double most, Number& value) const {
+        read<double>(key, [&](double number) {
+            if (!(number >= least && number <= most))
+                throw std::invalid_argument(key + " is out of range");
+            value = static_cast<Number>(number);
+        });
+    }
+    void read(const std::string& key, bool& value) const {
+        read<bool>(key, [&](bool on) { value = on; });
+    }
+
+private:
+    const JsonText& text_;
+    const ordered_json& json_;
+    std::string path_; // of all its fields, before their names
+};
 
 ordered_json pane_json(const PaneSettings& pane) {
     ordered_json json{{"method", short_name(pane.render.method)},
@@ -66,31 +113,30 @@ ordered_json pane_json(const PaneSettings& pane) {
     return json;
 }
 
-PaneSettings read_pane(const ordered_json& json, PaneSettings pane) {
-    if (json.contains("method")) {
-        const auto method = method_from_name(json.at("method").get<std::string>());
+PaneSettings read_pane(const Fields& fields, PaneSettings pane) {
+    fields.read<std::string>("method", [&](const std::string& name) {
+        const auto method = method_from_name(name);
         if (!method)
             throw std::invalid_argument("method is none of pt, pr, gpt, gpr");
         pane.render.method = *method;
-    }
-    if (json.contains("buffer"))
-        pane.buffer = buffer_named(json.at("buffer").get<std::string>());
-    if (json.contains("norm")) {
-        const auto norm = norm_from_name(json.at("norm").get<std::string>());
+    });
+    fields.read<std::string>("buffer", [&](const std::string& name) { pane.buffer = buffer_named(name); });
+    fields.read<std::string>("norm", [&](const std::string& name) {
+        const auto norm = norm_from_name(name);
         if (!norm)
             throw std::invalid_argument("there is no such norm");
         pane.reconstruction.norm = *norm;
-    }
-    read(json, "alpha", 0.001, 10, pane.reconstruction.alpha);
-    read(json, "comparison", comparisons, pane.comparison.kind);
-    read(json, "compare_with", 0, most_panes, pane.comparison.with);
-    if (json.contains("compare_with"))
+    });
+    fields.read("alpha", 0.001, 10, pane.reconstruction.alpha);
+    fields.read("comparison", comparisons, pane.comparison.kind);
+    fields.read("compare_with", 0, most_panes, pane.comparison.with);
+    if (fields.has("compare_with"))
         --pane.comparison.with;
-    if (json.contains("seed"))
-        pane.render.seed = json.at("seed").get<std::uint64_t>();
-    const ordered_json settings = json.value("settings", ordered_json::object());
-    for (const auto& [id, value] : settings.items())
-        setting_named(id).set_text(pane.render, value.get<std::string>());
+    fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });
+    const Fields settings = fields.object("settings");
+    for (const auto& [id, value] : settings.json().items())
+        settings.read<std::string>(
+            id, [&, id = id](const std::string& text) { setting_named(id).set_text(pane.render, text); });
     return pane;
 }
 
@@ -104,41 +150,41 @@ struct Read {
     bool linked, mark_negative;
 };
 
-void read_display(const ordered_json& json, Read& read_here) {
-    const ordered_json none = ordered_json::object();
-    const ordered_json size = json.value("size", none), tone = json.value("tone", none),
-                       pace = json.value("pace", none);
-    read(size, "base", bases, read_here.size.base);
-    read(size, "scale", 0.05, 2, read_here.size.scale);
-    read(size, "width", 1, most_render_pixels_an_edge, read_here.size.custom.x);
-    read(size, "height", 1, most_render_pixels_an_edge, read_here.size.custom.y);
-    read(tone, "curve", curves, read_here.tone.curve);
-    read(tone, "exposure", -10, 10, read_here.tone.exposure);
-    read(tone, "gamma", 1, 4, read_here.tone.gamma);
-    read(pace, "equal", shares, read_here.pace.equal);
-    read(pace, "spp_limit", 0, 1 << 24, read_here.pace.spp_limit);
-    read(pace, "seconds_limit", 0, 1e7, read_here.pace.seconds_limit);
-    read(json, "linked", read_here.linked);
-    read(json, "mark_negative", read_here.mark_negative);
+void read_display(const Fields& fields, Read& read_here) {
+    const Fields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
+    size.read("base", bases, read_here.size.base);
+    size.read("scale", 0.05, 2, read_here.size.scale);
+    size.read("width", 1, most_render_pixels_an_edge, read_here.size.custom.x);
+    size.read("height", 1, most_render_pixels_an_edge, read_here.size.custom.y);
+    tone.read("curve", curves, read_here.tone.curve);
+    tone.read("exposure", -10, 10, read_here.tone.exposure);
+    tone.read("gamma", 1, 4, read_here.tone.gamma);
+    pace.read("equal", shares, read_here.pace.equal);
+    pace.read("spp_limit", 0, 1 << 24, read_here.pace.spp_limit);
+    pace.read("seconds_limit", 0, 1e7, read_here.pace.seconds_limit);
+    fields.read("linked", read_here.linked);
+    fields.read("mark_negative", read_here.mark_negative);
 }
 
-Read read_all(const ViewerState& state, const std::string& text, const std::string& name) {
-    const ordered_json json = ordered_json::parse(text);
+Read read_all(const ViewerState& state, const std::string& file, const std::string& name) {
+    const JsonText text(file, name);
+    const ordered_json json = text.parse();
     Read result{{}, {}, state.size, state.tone, state.pace, state.linked, state.mark_negative};
-    if (json.contains("to_world")) {
-        result.camera = parse_camera(text, name);
+    const Fields fields(text, json, "");
+    if (fields.has("to_world")) {
+        result.camera = parse_camera(file, name);
         return result;
     }
-    if (!json.is_object() || !json.contains("panes"))
-        throw std::invalid_argument("these are no settings of the viewer, and no camera");
+    if (!fields.has("panes"))
+        fields.fail("", "these are no settings of the viewer, and no camera");
     const ordered_json& panes = json.at("panes");
     if (!panes.is_array() || panes.empty() || panes.size() > most_panes)
-        throw std::invalid_argument("there must be 1 to 4 panes");
-    for (const ordered_json& pane : panes)
-        result.panes.push_back(read_pane(pane, state.active().settings));
-    if (json.contains("camera"))
-        result.camera = parse_camera(json.at("camera").dump(2), name);
-    read_display(json, result);
+        fields.fail("panes", "there must be 1 to 4 panes");
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        result.panes.push_back(read_pane(fields.element(panes, i, "panes"), state.active().settings));
+    if (fields.has("camera"))
+        result.camera = parse_camera(text.only("camera"), name);
+    read_display(fields, result);
     return result;
 }
 
@@ -172,15 +218,7 @@ std::string settings_json(const ViewerState& state) {
 }
 
 void apply_settings_json(ViewerState& state, const std::string& text, const std::string& name) {
-    Read read;
-    try {
-        read = read_all(state, text, name);
-    } catch (const nlohmann::json::exception& error) {
-        throw std::invalid_argument(name + ": " + error.what());
-    } catch (const std::exception& error) {
-        const std::string what = error.what();
-        throw std::invalid_argument(what.find(name) == 0 ? what : name + ": " + what);
-    }
+    const Read read = read_all(state, text, name);
     state.linked = false; // while panes are counted, which shares settings out
     if (!read.panes.empty())
         state.set_pane_count(static_cast<int>(read.panes.size()));
@@ -199,7 +237,7 @@ void apply_settings_file(ViewerState& state, const std::filesystem::path& file) 
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (!stream)
-        throw std::invalid_argument(file.string() + ": cannot be read");
+        throw LoadError({file.string(), 0, 0}, "cannot be read");
     apply_settings_json(state, text, file.string());
 }
 

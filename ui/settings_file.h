@@ -11,7 +11,7 @@ namespace tessera {
 std::string settings_json(const ViewerState& state);
 
 /// Sets what such a text holds; what it does not mention stays. A camera file (render/load/camera_file.h) sets the
-/// camera alone. Throws std::invalid_argument that begins with `name`, and has then changed nothing.
+/// camera alone. Throws LoadError with `name`, line and column, and has then changed nothing.
 void apply_settings_json(ViewerState& state, const std::string& json, const std::string& name);
 
 /// The same of a file. Throws also where it cannot be read.

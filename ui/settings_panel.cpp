@@ -176,6 +176,11 @@ void draw_reference_settings(Controls& controls, ViewerState& state) {
             "EXR file with the image to measure errors against (7, 8, 9): type its name, or drop it on the "
             "window."))
         state.reference_file = file;
+    if (controls.button("reference_open", "Open ...", "Chooses an EXR file."))
+        state.choosing = FilePurpose::reference;
+    ImGui::SameLine();
+    if (controls.button("reference_make", "Make ...", "Renders a reference of what the panes show."))
+        state.reference_making.show = true;
     if (!reference)
         return;
     const glm::ivec2 size(reference->image.width(), reference->image.height());

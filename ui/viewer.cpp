@@ -74,6 +74,7 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     const bool again = before && is_same_scene(shown_, origin);
     shown_ = origin;
     state_.scene_name = origin.name;
+    state_.scene_file = origin.file.string();
     ++state_.scenes_shown;
     if (!origin.file.empty())
         preferences_.add_recent(origin.file);
@@ -128,6 +129,7 @@ void Viewer::draw_frame() {
     inspection_job_.update(state_, options_.wake);
     slow_motion_job_.update(state_, std::min(ImGui::GetIO().DeltaTime, longest_step), options_.wake);
     surroundings_job_.update(state_, options_.wake);
+    reference_job_.update(state_, options_.threads, options_.wake);
     chart_job_.update(state_, options_.wake);
     log_changes();
 }
@@ -177,16 +179,20 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
     const float least = ImGui::GetFontSize() * 11;
     const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, pictures.size().y * 0.36f));
     state_.covered_from = pictures.max.y;
+    if (state_.large_charts || state_.save_charts)
+        draw_large_charts(pictures, controls_, state_);
     if (state_.show_messages)
         draw_message_panel(bottom(least), controls_, state_);
     else if (state_.slow_motion.active)
         draw_slow_motion_panel(bottom(large), controls_, state_);
     else if (state_.inspector.active)
         draw_inspector_panel(bottom(large), controls_, state_);
-    if (state_.show_help) {
-        const ImVec2 display = ImGui::GetIO().DisplaySize;
-        draw_help({display.x, display.y}, controls_, state_);
-    }
+    const glm::vec2 screen(state_.window_size);
+    if (state_.reference_making.show)
+        draw_reference_dialog(screen, controls_, state_);
+    if (state_.show_help)
+        draw_help(screen, controls_, state_);
+    file_dialog_.draw(screen, controls_, state_);
     if (load_.running())
         draw_loading(pictures, load_.origin().name, load_.progress(), load_.seconds());
 }

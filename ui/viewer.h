@@ -4,10 +4,12 @@
 #include "ui/change_log.h"
 #include "ui/chart_job.h"
 #include "ui/companion_jobs.h"
+#include "ui/file_dialog.h"
 #include "ui/inspection_job.h"
 #include "ui/keyboard.h"
 #include "ui/pane_view.h"
 #include "ui/preferences.h"
+#include "ui/reference_job.h"
 #include "ui/scene_load.h"
 #include "ui/session_link.h"
 #include "ui/slow_motion_job.h"
@@ -33,6 +35,7 @@ struct ViewerOptions {
     std::optional<int> max_depth;    ///< otherwise the scene decides
     SizeChoice size;
     int spp_limit = 0;
+    int threads = 0; ///< of references that are made; as in ThreadPool
     bool show_panel = true;
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
     bool log_controls = false;                   ///< also where each control lies
@@ -68,6 +71,7 @@ public:
     double next_frame_in() const;
 
     ViewerState& state() { return state_; }
+    const ViewerState& state() const { return state_; }
     Keyboard& keyboard() { return keyboard_; }
     const Controls& controls() const { return controls_; }
     const PaneView& pane_view(int pane) const { return pane_views_[static_cast<std::size_t>(pane)]; }
@@ -107,6 +111,7 @@ private:
     SlowMotionJob slow_motion_job_;
     SurroundingsJob surroundings_job_;
     ChartJob chart_job_;
+    FileDialog file_dialog_;
     BackgroundJob<std::string> save_job_; // what to say when it is done
     Preferences preferences_;             // as in the file
     SceneLoad load_;
@@ -114,6 +119,7 @@ private:
     SceneOrigin asked_; // the last that was to be loaded
     bool flying_ = false;
     ChangeLog change_log_;
+    ReferenceJob reference_job_; // last: its end waits for a pass
 };
 
 } // namespace tessera

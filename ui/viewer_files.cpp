@@ -1,7 +1,6 @@
 // Viewer: what it reads and writes.
 #include "render/load/camera_file.h"
 #include "ui/camera_store.h"
-#include "ui/chart_file.h"
 #include "ui/output_files.h"
 #include "ui/settings_file.h"
 #include "ui/viewer.h"
@@ -77,6 +76,8 @@ void Viewer::fulfil_wishes() {
         reload();
     if (const std::string file = std::exchange(state_.open_scene, {}); !file.empty() && options_.open)
         load(file, options_.open(file), file);
+    if (const std::string file = std::exchange(state_.settings_file, {}); !file.empty())
+        load_settings(file);
     fulfil_saves();
     if (std::exchange(state_.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
@@ -88,8 +89,6 @@ void Viewer::fulfil_wishes() {
 void Viewer::fulfil_saves() {
     if (std::exchange(state_.save_camera, false) && state_.scene)
         save([&] { return "the camera to " + store_camera(shown_.file, state_.camera.camera()).string(); });
-    if (std::exchange(state_.save_charts, false))
-        save([&] { return "the charts to " + write_dated("-charts.csv", chart_csv(state_)); });
     if (std::exchange(state_.save_settings, false))
         save([&] { return "the settings to " + write_dated("-settings.json", settings_json(state_)); });
     if (std::exchange(state_.save_exr, false))

@@ -4,10 +4,11 @@
 #include "render/session/session.h"
 #include "ui/buffer.h"
 #include "ui/camera_control.h"
-#include "ui/error_history.h"
 #include "ui/histogram.h"
 #include "ui/image_view.h"
 #include "ui/inspector.h"
+#include "ui/pass_history.h"
+#include "ui/reference_making.h"
 #include "ui/render_size.h"
 #include "ui/slow_motion.h"
 #include "ui/space_view.h"
@@ -61,9 +62,21 @@ struct PaneState {
 struct PaneChart {
     std::uint64_t generation = 0;               ///< of the request whose errors these are, ...
     std::shared_ptr<const Reference> reference; ///< ... against this
-    ErrorHistory errors;
+    PassHistory<ErrorPoint> errors;
+    std::uint64_t shift_generation = 0;         ///< of the request whose shifts these are
+    PassHistory<ShiftPoint> shifts;             ///< without points where the method makes none
     std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none yet
 };
+
+/// What a chart shows of the panes, against time or samples.
+enum class ChartKind {
+    error,      ///< relMSE to the reference
+    efficiency, ///< 1 / (relMSE x seconds)
+    shifts,     ///< how many of the shifts ended how
+};
+
+/// What a file is chosen for.
+enum class FilePurpose { scene, reference, settings };
 
 struct Message {
     enum class Kind { note, error };
@@ -90,12 +103,14 @@ struct Cursor {
 struct ViewerState {
     std::shared_ptr<const Scene> scene; ///< null while the first is loading
     std::string scene_name;
-    int scenes_shown = 0; ///< so far, reloaded ones counted again
-    std::string loading;  ///< what of the next scene is being loaded; empty: none is
+    std::string scene_file; ///< empty: it is in none
+    int scenes_shown = 0;   ///< so far, reloaded ones counted again
+    std::string loading;    ///< what of the next scene is being loaded; empty: none is
 
     Companions companions;                  ///< what some buffers need
     std::vector<std::string> recent_scenes; ///< files, the newest first
     std::string reference_file;             ///< a wish: to be loaded as the reference
+    ReferenceMaking reference_making;
 
     std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
     std::vector<PaneSettings> spare_panes; ///< settings of panes taken away, the last one first
@@ -128,10 +143,13 @@ struct ViewerState {
     bool show_panel = true;
     bool show_statistics = false;
     bool show_charts = false;
-    bool charts_by_spp = false; ///< errors against samples; otherwise against seconds
+    bool large_charts = false; ///< over the pictures, too
+    ChartKind chart_kind = ChartKind::error;
+    bool charts_by_spp = false; ///< against samples; otherwise against seconds
     std::array<PaneChart, most_panes> charts;
     bool show_help = false;
     bool show_messages = false;
+    std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
     std::vector<Message> messages;
     bool scroll_to_newest = false; ///< the list is to show its end
 
@@ -142,10 +160,11 @@ struct ViewerState {
     bool save_camera = false;
     bool copy_camera = false;
     bool save_picture = false;
-    bool save_charts = false;
-    bool save_exr = false; ///< of the active pane
+    bool save_charts = false; ///< as CSV, SVG and PNG
+    bool save_exr = false;    ///< of the active pane
     bool save_settings = false;
-    std::string open_scene; ///< a file
+    std::string open_scene;    ///< a file
+    std::string settings_file; ///< to be loaded
     bool quit = false;
 
     PaneState& active() { return panes[static_cast<std::size_t>(active_pane)]; }

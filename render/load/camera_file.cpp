@@ -1,5 +1,6 @@
 #include "render/load/camera_file.h"
 
+#include "render/load/json_text.h"
 #include "render/load/messages.h"
 #include "render/load/temporary_file.h"
 
@@ -22,90 +23,42 @@ namespace tessera {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr std::array known_fields = {"to_world", "fov", "fov_axis", "origin", "target", "up"};
 
-/// The text of a camera file, for messages that point into it.
-class CameraText {
-public:
-    CameraText(const std::string& text, const std::string& name) : text_(text), name_(name) {}
-
-    /// `offset` in bytes; npos: unknown.
-    [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const {
-        if (offset == std::string::npos)
-            throw LoadError({name_, 0, 0}, what);
-        offset = std::min(offset, text_.size());
-        const auto at = text_.begin() + static_cast<std::ptrdiff_t>(offset);
-        const std::size_t before = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
-        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-        const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-        const int line = 1 + static_cast<int>(std::count(text_.begin(), at, '\n'));
-        throw LoadError({name_, line, 1 + static_cast<int>(offset - begin)}, what,
-                        text_.substr(begin, end - begin));
-    }
-    /// Points at the field's name.
-    [[noreturn]] void fail(const std::string& field, const std::string& what) const {
-        fail_at(text_.find("\"" + field + "\""), what);
-    }
-
-    const std::string& text() const { return text_; }
-
-private:
-    const std::string& text_;
-    const std::string& name_;
-};
-
-/// What the library says without its own numbering and place: "[json.exception.parse_error.101] parse error at
-/// line 1, column 2: syntax error while parsing value - invalid literal; last read: 'x'".
-std::string bare_message(std::string what) {
-    if (const std::size_t dash = what.find(" - "); dash != std::string::npos)
-        what.erase(0, dash + 3);
-    return what.substr(0, what.find("; last read")); // the caret shows that
+/// Points at the field's name.
+[[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& what) {
+    text.fail_at(text.text().find("\"" + field + "\""), what);
 }
 
-json parse_json(const CameraText& text) {
-    if (text.text().empty())
-        text.fail_at(0, "the file is empty");
-    try {
-        return json::parse(text.text());
-    } catch (const json::parse_error& e) {
-        text.fail_at(e.byte > 0 ? e.byte - 1 : 0, "the JSON is broken: " + bare_message(e.what()));
-    } catch (const json::exception& e) { // a number beyond all floats: it stands in the message in quotes
-        const std::string what = e.what();
-        const std::size_t open = what.find('\''), close = what.rfind('\'');
-        const std::string number = open < close ? what.substr(open + 1, close - open - 1) : "";
-        text.fail_at(text.text().find(number), "the number " + number + " is too large");
-    }
-}
-
-float number(const CameraText& text, const std::string& field, const json& value) {
+float number(const JsonText& text, const std::string& field, const json& value) {
     if (!value.is_number())
-        text.fail(field, fmt::format("'{}' must be made of numbers, not of {}", field, value.type_name()));
+        fail(text, field, fmt::format("'{}' must be made of numbers, not of {}", field, value.type_name()));
     const float result = static_cast<float>(value.get<double>());
     if (!std::isfinite(result))
-        text.fail(field, fmt::format("'{}' has a number that is too large", field));
+        fail(text, field, fmt::format("'{}' has a number that is too large", field));
     return result;
 }
 
-const json& required(const CameraText& text, const json& object, const std::string& field) {
+const json& required(const JsonText& text, const json& object, const std::string& field) {
     const auto found = object.find(field);
     if (found == object.end())
-        text.fail_at(0, fmt::format("the camera has no '{}'", field));
+        text.fail_at(text.place_of(""), fmt::format("the camera has no '{}'", field));
     return *found;
 }
 
-glm::mat4 read_matrix(const CameraText& text, const json& value) {
+glm::mat4 read_matrix(const JsonText& text, const json& value) {
     if (!value.is_array() || value.size() != 16)
-        text.fail("to_world", value.is_array()
-                                  ? fmt::format("'to_world' must be 16 numbers; here are {}", value.size())
-                                  : fmt::format("'to_world' must be 16 numbers, not {}", value.type_name()));
+        fail(text, "to_world",
+             value.is_array() ? fmt::format("'to_world' must be 16 numbers; here are {}", value.size())
+                              : fmt::format("'to_world' must be 16 numbers, not {}", value.type_name()));
     glm::mat4 m;
     for (int i = 0; i < 16; ++i)
         m[i % 4][i / 4] = number(text, "to_world", value[static_cast<std::size_t>(i)]);
     for (int column = 0; column < 4; ++column)
         if (m[column][3] != (column == 3 ? 1.0f : 0.0f))
-            text.fail("to_world", "the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row");
+            fail(text, "to_world", "the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row");
     return m;
 }
 
@@ -142,24 +95,24 @@ std::array<std::string, 16> rows(glm::mat4 m) {
 } // namespace
 
 Camera parse_camera(const std::string& json_text, const std::string& name) {
-    const CameraText text(json_text, name);
-    const json object = parse_json(text);
+    const JsonText text(json_text, name);
+    const json object = text.parse();
     if (!object.is_object())
         text.fail_at(0, fmt::format("a camera file holds one object {{...}}, not {}", object.type_name()));
     for (const auto& [field, value] : object.items())
         if (std::find(known_fields.begin(), known_fields.end(), field) == known_fields.end())
-            text.fail(field, fmt::format("a camera has no field '{}'", field));
+            fail(text, field, fmt::format("a camera has no field '{}'", field));
     Camera camera;
     camera.to_world = read_matrix(text, required(text, object, "to_world"));
     if (is_flat(camera.to_world))
-        text.fail("to_world", "the camera's transform is flat");
+        fail(text, "to_world", "the camera's transform is flat");
     camera.fov = number(text, "fov", required(text, object, "fov"));
     if (!(camera.fov > 0 && camera.fov < 180))
-        text.fail("fov", "the field of view must be between 0 and 180 degrees");
+        fail(text, "fov", "the field of view must be between 0 and 180 degrees");
     if (const auto axis = object.find("fov_axis"); axis != object.end()) {
         const auto known = axis->is_string() ? fov_axis_from_name(axis->get<std::string>()) : std::nullopt;
         if (!known)
-            text.fail("fov_axis", "'fov_axis' must be \"x\", \"y\", \"diagonal\", \"smaller\" or \"larger\"");
+            fail(text, "fov_axis", "'fov_axis' must be \"x\", \"y\", \"diagonal\", \"smaller\" or \"larger\"");
         camera.fov_axis = *known;
     }
     return camera;

@@ -4,6 +4,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -63,6 +66,18 @@ void TemporaryFile::commit() {
     std::filesystem::rename(temporary_, final_);
     write_through(final_.has_parent_path() ? final_.parent_path() : ".");
     temporary_.clear();
+}
+
+void check_writable(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw std::runtime_error(path.string() + ": is a folder, not a file to write to");
+    // Trying is the only test that holds for root, full disks and odd file systems alike.
+    const std::filesystem::path trial = path.string() + ".part";
+    const bool made = static_cast<bool>(std::ofstream(trial, std::ios::binary));
+    const std::string reason = std::strerror(errno);
+    if (!made)
+        throw std::runtime_error(path.string() + ": cannot be written: " + reason);
+    std::filesystem::remove(trial);
 }
 
 } // namespace tessera

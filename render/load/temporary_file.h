@@ -24,4 +24,8 @@ private:
     std::filesystem::path temporary_;
 };
 
+/// Throws std::runtime_error that names the file where none can be made at `path`: better before a render than
+/// after it.
+void check_writable(const std::filesystem::path& path);
+
 } // namespace tessera

@@ -6,4 +6,7 @@ namespace tessera {
 /// core as soon as it has something to do. Where that cannot be done, nothing happens.
 void work_in_background();
 
+/// The same to those that work in background, too: where these want all cores, it has about a quarter of the time.
+void work_behind_others();
+
 } // namespace tessera

@@ -1,6 +1,6 @@
 #include "app/compare.h"
-#include "app/reference_image.h"
 #include "render/load/exr.h"
+#include "render/session/reference_image.h"
 #include "tests/recon/test_images.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 // `tessera reference`: the file, its error, and that neither a kill nor Ctrl-C changes a bit of it.
-#include "app/reference_image.h"
 #include "render/load/exr.h"
+#include "render/session/reference_image.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 
@@ -128,7 +128,7 @@ TEST_F(ReferenceCommand, RefusesTheCheckpointOfAnother) {
         {"-m pt", "checkpoint is of method \"gpr\", not \"pt\""},
         {"--size 24x18", "checkpoint is of height 16, not 18"},
         {"--seed 7", "checkpoint is of seed 1001, not 7"},
-        {"--camera camera.json", "checkpoint is of another scene"},
+        {"--camera camera.json", "checkpoint is of another camera"},
         {"--spp 2", "spp already, and 2 are asked for"},
     };
     folder_.write("camera.json", R"({"to_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "fov": 40})");

@@ -1,18 +1,24 @@
 // Charts: how errors fall, and histograms.
 
+#include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/chart_file.h"
+#include "ui/viewer_charts.h"
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
 
 #include <gtest/gtest.h>
+#include <pugixml.hpp>
 
 namespace tessera::test {
 namespace {
 
-TEST(ErrorHistory, KeepsTheNewestAndThinsOutTheOld) {
-    ErrorHistory history;
+TEST(PassHistory, KeepsTheNewestAndThinsOutTheOld) {
+    PassHistory<ErrorPoint> history;
     for (int spp = 1; spp <= 1000; ++spp)
         history.add({spp, 0.01 * spp, 2.0 / spp});
     EXPECT_EQ(history.points().back().spp, 1000);
@@ -23,13 +29,12 @@ TEST(ErrorHistory, KeepsTheNewestAndThinsOutTheOld) {
     EXPECT_EQ(history.points().back().error, 7);
 }
 
-TEST(ErrorHistory, SlopeIsThatOfTheLastDecade) {
-    std::vector<ErrorPoint> points;
-    const auto spp = [](const ErrorPoint& p) { return static_cast<double>(p.spp); };
-    EXPECT_EQ(log_slope(points, spp), 0);
+TEST(ViewerCharts, SlopeIsThatOfTheLastDecade) {
+    ChartSeries series;
+    EXPECT_TRUE(std::isnan(slope_of_last_decade(series)));
     for (int n = 1; n <= 1000; n *= 2)
-        points.push_back({n, 1, n < 50 ? 5 : 3.0 / n});
-    EXPECT_NEAR(log_slope(points, spp), -1, 1e-9);
+        series.points.push_back({static_cast<double>(n), n < 50 ? 5 : 3.0 / n, 0});
+    EXPECT_NEAR(slope_of_last_decade(series), -1, 1e-9);
 }
 
 TEST(Histogram, CountsEveryPixelOnce) {
@@ -79,7 +84,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     wait_until([&] { return state().charts[1].histogram != nullptr; });
     frames(2);
     save("charts.png");
-    EXPECT_TRUE(has("charts.errors"));
+    EXPECT_TRUE(has("charts.error"));
     EXPECT_TRUE(has("charts.histogram"));
     const std::string csv = chart_csv(state());
     EXPECT_NE(csv.find("1,pt,none,16,"), std::string::npos) << csv;
@@ -101,7 +106,7 @@ TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
     type(Key::h);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
     frames(2);
-    EXPECT_FALSE(has("charts.errors"));
+    EXPECT_FALSE(has("charts.error"));
     const Histogram& h = *state().charts[1].histogram;
     std::size_t sum = h.black + h.negative + h.not_finite;
     for (std::size_t count : h.bins)
@@ -109,16 +114,132 @@ TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
     EXPECT_EQ(sum, 48u * 36u);
 }
 
-TEST_F(Charts, AreSavedAsCsv) {
-    const std::filesystem::path before = std::filesystem::current_path();
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "tessera-charts-test";
-    std::filesystem::create_directories(folder);
-    std::filesystem::current_path(folder);
-    type(Key::z);
-    std::filesystem::current_path(before);
-    EXPECT_FALSE(std::filesystem::is_empty(folder));
+TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
+    type(Key::h);
+    choose("charts.kind", "shifts");
+    EXPECT_EQ(state().chart_kind, ChartKind::shifts);
+    for (int spp : {4, 8, 16}) {
+        state().pace.spp_limit = spp;
+        wait_until([&] { return viewer.settled(spp); });
+    }
+    frames(2);
+    save("charts-shifts.png");
+    EXPECT_TRUE(state().charts[0].shifts.points().empty()); // PT makes none
+    const auto& points = state().charts[1].shifts.points();
+    ASSERT_GE(points.size(), 3u);
+    EXPECT_EQ(points.back().spp, 16);
+    const Counters& counters = pane(1).snapshot->counters;
+    for (std::size_t i = 0; i < points.back().shares.size(); ++i)
+        EXPECT_NEAR(points.back().shares[i],
+                    static_cast<double>(counters.shifts[i]) / static_cast<double>(counters.shift_attempts()),
+                    1e-12);
+    const Chart chart = viewer_chart(state());
+    ASSERT_EQ(chart.plots.size(), 1u);
+    double sum = 0;
+    for (const ChartSeries& series : chart.plots[0].series)
+        sum += series.points.back().y;
+    EXPECT_NEAR(sum, 100, 1e-9);
+    EXPECT_EQ(line_colours(state()).size(), chart.plots[0].series.size());
+    EXPECT_TRUE(has("charts.shifts"));
+
+    state().panes[1].settings.render.tile = 3; // another request begins anew
+    const std::uint64_t before = pane(1).generation;
+    frames(2);
+    EXPECT_NE(pane(1).generation, before);
+    wait_until([&] { return state().charts[1].shift_generation == pane(1).generation; });
+    wait_until([&] { return viewer.settled(16); });
+    frames(1);
+    EXPECT_EQ(state().charts[1].shifts.points().back().spp, 16);
+    EXPECT_EQ(state().charts[1].shifts.points().back().seconds, pane(1).snapshot->seconds);
+    state().set_pane_count(1);
+    frames(2);
+    EXPECT_TRUE(state().charts[1].shifts.points().empty());
+}
+
+TEST_F(Charts, EfficiencyIsTheInverseOfErrorAndTime) {
+    set_reference(Rgb(0.3f));
+    type(Key::h);
+    choose("charts.kind", "efficiency");
+    wait_until([&] { return !state().charts[1].errors.points().empty(); });
+    const ErrorPoint& p = state().charts[1].errors.points().back();
+    const Chart chart = viewer_chart(state());
+    ASSERT_EQ(chart.plots.size(), 1u);
+    EXPECT_NEAR(chart.plots[0].series[1].points.back().y * p.error * p.seconds, 1, 1e-9);
+    frames(2);
+    EXPECT_TRUE(has("charts.efficiency"));
+    save("charts-efficiency.png");
+}
+
+TEST_F(Charts, WithoutAReferenceOneCanBeOpenedOrMade) {
+    type(Key::h);
+    frames(2);
+    click("charts.make_reference");
+    EXPECT_TRUE(state().reference_making.show);
+    type(Key::escape);
+    click("charts.open_reference");
+    EXPECT_EQ(state().choosing, FilePurpose::reference);
+}
+
+/// The files of the current folder, by their extensions.
+std::map<std::string, std::string> files_here() {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(".")) {
+        std::ifstream stream(entry.path(), std::ios::binary);
+        files[entry.path().extension().string()] = {std::istreambuf_iterator<char>(stream), {}};
+    }
+    return files;
+}
+
+TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
+    const CurrentFolder folder;
+    set_reference(Rgb(0.3f));
+    for (int spp : {4, 8}) {
+        state().pace.spp_limit = spp;
+        wait_until([&] { return viewer.settled(spp); });
+    }
+    wait_until([&] { return !state().charts[1].errors.points().empty(); });
+    type(Key::z); // with the panel closed
+    frames(4);
+    EXPECT_FALSE(state().save_charts);
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
-    std::filesystem::remove_all(folder);
+    EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
+    const auto files = files_here();
+    ASSERT_EQ(files.size(), 3u);
+    for (const char* header : {"relMSE,efficiency\n", "seconds,ok,occluded"})
+        EXPECT_NE(files.at(".csv").find(header), std::string::npos) << header;
+    pugi::xml_document svg;
+    ASSERT_TRUE(svg.load_string(files.at(".svg").c_str()));
+    const auto lines = svg.document_element().children("polyline");
+    EXPECT_GE(std::distance(lines.begin(), lines.end()), 2); // a line a pane
+    for (const char* word : {"1  PT", "2  G-PR", "relMSE", "seconds", "a room"})
+        EXPECT_NE(files.at(".svg").find(word), std::string::npos) << word;
+    // The picture's size, in the header of a PNG file: that of the place of the panes.
+    const std::string& png = files.at(".png");
+    const auto number = [&](std::size_t at) {
+        return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
+    };
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_GT(number(16), 700);
+    EXPECT_GT(number(20), 600);
+    EXPECT_EQ(state().show_charts, false);
+    frames(2);
+    EXPECT_FALSE(has("charts.picture"));
+}
+
+TEST_F(Charts, AreDrawnLarge) {
+    set_reference(Rgb(0.3f));
+    state().show_panel = false;
+    type(Key::h);
+    wait_until([&] { return !state().charts[1].errors.points().empty() && state().charts[1].histogram; });
+    click("charts.large");
+    frames(2);
+    save("charts-large.png");
+    EXPECT_TRUE(has("charts.picture"));
+    const ControlRect large = place("charts.error");
+    EXPECT_GT(large.max.x - large.min.x, 600);
+    type(Key::escape);
+    frames(2);
+    EXPECT_FALSE(has("charts.picture"));
 }
 
 TEST_F(Charts, VariancesAreShownOnALogarithmicScale) {

@@ -1,5 +1,7 @@
 // What the viewer saves, and what it remembers.
 
+#include "render/load/messages.h"
+#include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/preferences.h"
 #include "ui/settings_file.h"
@@ -9,29 +11,14 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace tessera::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The current folder, while it lives.
-struct TemporaryFolder {
-    TemporaryFolder() {
-        fs::create_directories(path);
-        fs::current_path(path);
-    }
-    ~TemporaryFolder() {
-        fs::current_path(before);
-        fs::remove_all(path);
-    }
-    fs::path before = fs::current_path();
-    fs::path path = fs::temp_directory_path() / ("tessera-files-" + std::to_string(::getpid()));
-};
-
 struct SettingsFile : testing::Test, ViewerHarness {
-    TemporaryFolder folder;
+    CurrentFolder folder;
 };
 
 TEST_F(SettingsFile, ComesBackAsItWas) {
@@ -80,10 +67,29 @@ TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
         try {
             apply_settings_json(state(), text, "bad.json");
             ADD_FAILURE() << text;
-        } catch (const std::invalid_argument& error) {
-            EXPECT_EQ(std::string(error.what()).find("bad.json"), 0u) << error.what();
+        } catch (const LoadError& error) {
+            EXPECT_EQ(std::string(error.what()).find("bad.json:1:"), 0u) << error.what();
         }
         EXPECT_EQ(settings_json(state()), before) << text;
+    }
+}
+
+TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"{\"panes\": [{}],\n \"tone\": {\n  \"exposure\": 99}}", "bad.json:3:15: exposure is out of range"},
+        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile is of the wrong kind: number"},
+        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": \"99\"}}]}", "bad.json:2:22: "},
+        {"{\"panes\": [{},\n 3]}", "bad.json:2:2: this must be an object"},
+        {"{\"panes\": [{}],\n \"camera\": {\"fov\": 1}}", "bad.json:2:12: the camera has no 'to_world'"},
+        {"{\"panes\": [{}],\n}", "bad.json:2:1: the JSON is broken"},
+    };
+    for (const auto& [text, expected] : cases) {
+        try {
+            apply_settings_json(state(), text, "bad.json");
+            ADD_FAILURE() << text;
+        } catch (const LoadError& error) {
+            EXPECT_EQ(std::string(error.what()).find(expected), 0u) << error.what();
+        }
     }
 }
 
@@ -103,7 +109,7 @@ TEST_F(SettingsFile, IsSavedByItsActionAndTakenByDropping) {
 }
 
 TEST(Preferences, AreReadAsTheyWereWritten) {
-    TemporaryFolder folder;
+    CurrentFolder folder;
     const fs::path file = folder.path / "deep" / "viewer.json";
     std::string note;
     EXPECT_TRUE(read_preferences(file, note) == Preferences{});
@@ -119,7 +125,7 @@ TEST(Preferences, AreReadAsTheyWereWritten) {
 }
 
 TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
-    TemporaryFolder folder;
+    CurrentFolder folder;
     for (const char* text : {"{", "[1]", "{\"window\": \"large\"}", "{\"recent_scenes\": 3}", "\xff\xfe"}) {
         std::ofstream("viewer.json") << text;
         std::string note;
@@ -145,7 +151,7 @@ TEST(Preferences, FollowTheXdgSpecification) {
 }
 
 TEST(Remembered, LayoutAndRecentScenes) {
-    TemporaryFolder folder;
+    CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = folder.path / "viewer.json";
     std::atomic<int> opened = 0;
@@ -174,7 +180,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
 }
 
 TEST(SavedAsExr, TheWriterGetsTheActivePane) {
-    TemporaryFolder folder;
+    CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
     std::atomic<int> calls = 0;
     options.write_exr = [&](const fs::path& file, const fs::path&, const Snapshot& snapshot,

@@ -76,7 +76,7 @@ TEST_F(Play, WhatCannotBeDoneNamesFileAndLine) {
               "steps.txt:2: no control is called nothing (--log-actions lists those there are)");
     EXPECT_EQ(error_of("\nkey Hyper"), "steps.txt:2: no key is called Hyper");
     EXPECT_EQ(error_of("set tile 99").rfind("steps.txt:1: ", 0), 0u);
-    EXPECT_EQ(error_of("wait long"), "steps.txt:1: it is: wait scene | spp N | seconds S");
+    EXPECT_EQ(error_of("wait long"), "steps.txt:1: it is: wait scene | spp N | seconds S | reference");
 }
 
 } // namespace

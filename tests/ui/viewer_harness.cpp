@@ -40,6 +40,7 @@ void ViewerHarness::frame(float seconds) {
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();
+    saver.after_frame(viewer, context.size());
 }
 
 void ViewerHarness::frames(int count) {

@@ -2,6 +2,7 @@
 
 #include "tests/ui/osmesa_context.h"
 #include "ui/gui.h"
+#include "ui/picture_saver.h"
 #include "ui/screenshot.h"
 #include "ui/viewer.h"
 
@@ -64,6 +65,7 @@ public:
     float scale_; ///< of the display
     Session session;
     Viewer viewer;
+    PictureSaver saver;
 };
 
 } // namespace tessera::test

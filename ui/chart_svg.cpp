@@ -1,6 +1,5 @@
-#include "app/chart.h"
-
-#include "app/html.h"
+#include "ui/chart.h"
+#include "ui/xml_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,12 +55,11 @@ public:
 private:
     struct Frame {
         double left;
-        ChartAxis x, y;
+        ChartAxes axes;
 
-        double at_x(double value) const { return left + frame_width * x.position(value); }
-        double at_y(double value) const { return title_height + frame_height * (1 - y.position(value)); }
+        double at_x(double value) const { return left + frame_width * axes.x.position(value); }
+        double at_y(double value) const { return title_height + frame_height * (1 - axes.y.position(value)); }
         double bottom() const { return title_height + frame_height; }
-        bool has(const ChartPoint& p) const { return x.has(p.x) && y.has(p.y); }
     };
 
     template <typename... T>
@@ -79,26 +77,8 @@ private:
             more);
     }
 
-    static Frame frame_of(const ChartPlot& plot, double left) {
-        std::vector<double> xs, ys;
-        for (const ChartSeries& series : plot.series) {
-            for (const ChartPoint& p : series.points) {
-                if (!series.is_level)
-                    xs.push_back(p.x);
-                ys.push_back(p.y);
-                ys.push_back(p.y + p.error);
-                // On a log scale a bar that reaches down to nothing must not squeeze all else.
-                ys.push_back(plot.y_scale == ChartAxis::Scale::log ? std::max(p.y - p.error, p.y / 2)
-                                                                   : p.y - p.error);
-            }
-        }
-        return {left,
-                plot.x_names.empty() ? ChartAxis::spanning(plot.x_scale, xs) : ChartAxis::of_names(plot.x_names),
-                ChartAxis::spanning(plot.y_scale, ys)};
-    }
-
     void draw_plot(const ChartPlot& plot, double left) {
-        const Frame frame = frame_of(plot, left);
+        const Frame frame{left, axes_of(plot)};
         draw_axes(plot, frame);
         for (const ChartSeries& series : plot.series)
             draw_series(series, frame);
@@ -106,22 +86,23 @@ private:
 
     void draw_axes(const ChartPlot& plot, const Frame& f) {
         const double right = f.left + frame_width;
-        for (const ChartTick& tick : f.y.ticks()) {
+        for (const ChartTick& tick : f.axes.y.ticks()) {
             const double y = f.at_y(tick.value);
             line(f.left, y, right, y, tick.label.empty() ? "#f2f2f2" : "#d8d8d8");
             text(f.left - 8, y + 4.5, "end", tick.label);
         }
         bool lower = false; // long names alternate between two lines
-        for (const ChartTick& tick : f.x.ticks()) {
+        for (const ChartTick& tick : f.axes.x.ticks()) {
             const double x = f.at_x(tick.value);
             line(x, f.bottom(), x, f.bottom() + (tick.label.empty() ? 3 : 6), "#222");
             text(x, f.bottom() + (lower ? 35 : 21), "middle", tick.label);
             if (!tick.label.empty())
-                lower = !lower && are_crowded(f.x.ticks());
+                lower = !lower && are_crowded(f.axes.x.ticks());
         }
         add(R"(<rect x="{:g}" y="{:g}" width="{:g}" height="{:g}" fill="none" stroke="#222"/>)", f.left,
             title_height, frame_width, frame_height);
-        text(f.left + frame_width / 2, f.bottom() + (are_crowded(f.x.ticks()) ? 53 : 43), "middle", plot.x_label);
+        text(f.left + frame_width / 2, f.bottom() + (are_crowded(f.axes.x.ticks()) ? 53 : 43), "middle",
+             plot.x_label);
         const double x = f.left - left_room + 16, y = title_height + frame_height / 2;
         text(x, y, "middle", plot.y_label, fmt::format("transform=\"rotate(-90 {:g} {:g})\"", x, y));
     }
@@ -140,11 +121,11 @@ private:
         std::vector<ChartPoint> points = series.points;
         if (series.is_level) {
             points.resize(std::min<std::size_t>(points.size(), 1));
-            if (!points.empty() && f.y.has(points[0].y))
+            if (!points.empty() && f.axes.y.has(points[0].y))
                 draw_sample(f.left, f.left + frame_width, f.at_y(points[0].y), index, true);
             return;
         }
-        points.erase(std::remove_if(points.begin(), points.end(), [&](const auto& p) { return !f.has(p); }),
+        points.erase(std::remove_if(points.begin(), points.end(), [&](const auto& p) { return !f.axes.has(p); }),
                      points.end());
         std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
         std::string path;
@@ -153,7 +134,8 @@ private:
         add(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"/>)", path, color(index));
         for (const ChartPoint& p : points) {
             draw_error(p, f, color(index));
-            draw_marker(f.at_x(p.x), f.at_y(p.y), index);
+            if (!series.is_dense || &p == &points.back())
+                draw_marker(f.at_x(p.x), f.at_y(p.y), index);
         }
     }
 
@@ -161,7 +143,7 @@ private:
         if (!std::isfinite(p.error) || p.error <= 0)
             return;
         const double x = f.at_x(p.x), top = f.at_y(p.y + p.error), low = p.y - p.error;
-        const bool ends = f.y.has(low) && low >= f.y.low(); // else the bar is cut off at the frame
+        const bool ends = f.axes.y.has(low) && low >= f.axes.y.low(); // else the bar is cut off at the frame
         const double bottom = ends ? f.at_y(low) : f.bottom();
         constexpr std::string_view faint = R"(stroke-opacity="0.6")"; // where bars overlap
         line(x, top, x, bottom, stroke, faint);

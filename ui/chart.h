@@ -17,6 +17,7 @@ struct ChartSeries {
     std::string label; ///< the key's; series of one label in several plots look alike
     std::vector<ChartPoint> points;
     bool is_level = false; ///< one value for every x: a dashed line at the first point's y, whatever its x
+    bool is_dense = false; ///< too many points to mark each: the last alone is
 };
 
 /// One frame with its axes.
@@ -28,11 +29,20 @@ struct ChartPlot {
     std::vector<ChartSeries> series;
 };
 
-/// Plots side by side, below a title, with one key for all.
+/// Plots side by side, below a title, with one key for all. Written to a file by to_svg, and drawn on the screen
+/// by draw_plot (chart_view.h).
 struct Chart {
     std::string title;
     std::vector<ChartPlot> plots;
 };
+
+/// The two axes of a plot, which have a place for all of its points and bars that have one on their scales.
+struct ChartAxes {
+    ChartAxis x, y;
+
+    bool has(const ChartPoint& p) const { return x.has(p.x) && y.has(p.y); }
+};
+ChartAxes axes_of(const ChartPlot& plot);
 
 /// The chart as an SVG file that needs no other.
 std::string to_svg(const Chart& chart);

@@ -17,6 +17,7 @@ struct ReferenceImage {
     std::array<RgbImage, 2> halves;
     std::array<std::uint64_t, 2> seeds; ///< of the halves: no picture to be measured may have one of them
     std::string settings;               ///< JSON: how it was made
+    std::string camera = {};            ///< JSON: from where (render/load/camera_file.h)
 };
 
 /// Of the mean.

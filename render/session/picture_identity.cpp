@@ -1,7 +1,8 @@
-#include "app/picture_identity.h"
+#include "render/session/picture_identity.h"
 
-#include "app/stats.h"
 #include "render/checksum.h"
+#include "render/load/camera_file.h"
+#include "render/session/picture_settings.h"
 #include "render/session/render.h"
 
 #include <fstream>
@@ -26,34 +27,36 @@ std::uint32_t checksum_of(const std::filesystem::path& file) {
 
 } // namespace
 
-std::uint32_t scene_checksum(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
-                             const RenderSettings& settings, ThreadPool& pool) {
-    Render small(scene, scene->camera(), {48, 27}, settings);
+std::uint32_t scene_checksum(const PictureSubject& subject, const RenderSettings& settings, ThreadPool& pool) {
+    Render small(subject.scene, subject.camera, {48, 27}, settings);
     for (int i = 0; i < 4; ++i)
         small.pass(pool);
     const GradientImages images = small.take_images();
-    std::uint32_t sum = checksum_of(source.file);
+    std::uint32_t sum = checksum_of(subject.source.file);
     for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
         sum = checksum_of(*image, sum);
     return sum;
 }
 
-std::string picture_identity(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
-                             const RenderSettings& settings, glm::ivec2 size, ThreadPool& pool) {
-    nlohmann::json identity = settings_json(source, settings, size, 0, 0);
-    for (const char* other : {"spp", "alpha", "variables", "camera"})
+std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
+                             ThreadPool& pool) {
+    nlohmann::json identity = settings_json(subject.source, settings, size, 0, 0);
+    for (const char* other : {"spp", "alpha", "variables"})
         identity.erase(other);
-    identity["scene"] = scene_checksum(source, scene, settings, pool);
+    identity["camera"] = nlohmann::json::parse(camera_json(subject.camera));
+    identity["scene"] = scene_checksum(subject, settings, pool);
     return identity.dump();
 }
 
 std::string identity_difference(const std::string& theirs, const std::string& mine) {
     const nlohmann::json a = nlohmann::json::parse(theirs), b = nlohmann::json::parse(mine);
     for (const auto& [key, value] : b.items())
-        if (key != "scene" && a.value(key, nlohmann::json()) != value)
+        if (key != "scene" && key != "camera" && a.value(key, nlohmann::json()) != value)
             return fmt::format("{} {}, not {}", key, a.value(key, nlohmann::json()).dump(), value.dump());
     if (a.size() != b.size())
         return "another version of the program";
+    if (a["camera"] != b["camera"])
+        return "another camera";
     return a["scene"] == b["scene"] ? "" : "another scene (or other samples of it)";
 }
 

@@ -1,4 +1,4 @@
-#include "app/reference_image.h"
+#include "render/session/reference_image.h"
 
 #include "render/checksum.h"
 #include "render/load/exr.h"
@@ -45,6 +45,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
         file.layers.push_back({half_names[i], reference.halves[i]});
     file.attributes = {{"tessera:version", TESSERA_VERSION},
                        {"tessera:settings", reference.settings},
+                       {"tessera:camera", reference.camera},
                        {reference_attribute, about.dump()}};
     write_exr(path, file);
 }
@@ -66,6 +67,7 @@ ReferenceImage read_reference(const std::filesystem::path& path) {
             fmt::format("{}: is no reference: its header does not say which seeds it has", path.string()));
     }
     reference.settings = file.attributes["tessera:settings"];
+    reference.camera = file.attributes["tessera:camera"];
     return reference;
 }
 

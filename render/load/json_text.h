@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tessera {
+
+/// A text of JSON, for messages that point into it.
+class JsonText {
+public:
+    /// `name` stands in messages. Both must live as long as this.
+    JsonText(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+
+    const std::string& text() const { return text_; }
+
+    /// What it says. Throws LoadError with file, line and column.
+    nlohmann::ordered_json parse() const;
+
+    /// Where the value of a path such as "panes/2/method" begins, or the innermost one around it that is there;
+    /// bytes from the beginning. The text must be valid.
+    std::size_t place_of(std::string_view path) const;
+
+    /// The value at a path alone, all else made blank: places in it are those in the whole.
+    std::string only(std::string_view path) const;
+
+    /// Throws LoadError there. npos: at no place.
+    [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
+
+private:
+    const std::string& text_;
+    const std::string& name_;
+};
+
+} // namespace tessera

@@ -1,0 +1,61 @@
+#include "render/load/json_text.h"
+#include "render/load/messages.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera::test {
+namespace {
+
+const std::string text = R"(
+{ "a" : [1, {"b": "}]\"", "c" :-2.5e3}, [[], 7]],
+  "d":{ "a":true , "e" : null } }
+)";
+const std::string name = "file.json";
+
+std::string found(std::string_view path) {
+    const JsonText json(text, name);
+    std::string value = json.only(path);
+    value.erase(0, value.find_first_not_of(" \n"));
+    value.erase(value.find_last_not_of(" \n") + 1);
+    return value;
+}
+
+TEST(JsonText, FindsValuesByTheirPaths) {
+    EXPECT_EQ(found("a/0"), "1");
+    EXPECT_EQ(found("a/1/b"), R"("}]\"")");
+    EXPECT_EQ(found("a/1/c"), "-2.5e3");
+    EXPECT_EQ(found("a/2"), "[[], 7]");
+    EXPECT_EQ(found("a/2/1"), "7");
+    EXPECT_EQ(found("d/a"), "true");
+    EXPECT_EQ(found("d/e"), "null");
+    EXPECT_EQ(nlohmann::json::parse(found("")), nlohmann::json::parse(text));
+}
+
+TEST(JsonText, OfWhatIsNotThereTheInnermostAround) {
+    EXPECT_EQ(found("d/x"), R"({ "a":true , "e" : null })");
+    EXPECT_EQ(found("a/9/b"), R"([1, {"b": "}]\"", "c" :-2.5e3}, [[], 7]])");
+    EXPECT_EQ(found("a/0/b"), "1");
+}
+
+TEST(JsonText, OnlyKeepsPlaces) {
+    const JsonText json(text, name);
+    const std::string only = json.only("d/e");
+    EXPECT_EQ(only.size(), text.size());
+    EXPECT_EQ(only.find("null"), text.find("null"));
+}
+
+TEST(JsonText, MessagesHaveLineAndColumn) {
+    const JsonText json(text, name);
+    try {
+        json.fail_at(json.place_of("d/e"), "is wrong");
+        FAIL();
+    } catch (const LoadError& error) {
+        EXPECT_EQ(std::string(error.what()).find("file.json:3:26: is wrong"), 0u) << error.what();
+    }
+}
+
+} // namespace
+} // namespace tessera::test

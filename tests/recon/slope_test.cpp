@@ -1,0 +1,36 @@
+#include "recon/slope.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+TEST(Slope, IsTheExponent) {
+    std::vector<glm::dvec2> points;
+    for (double x = 0.01; x < 1000; x *= 1.7)
+        points.emplace_back(x, 3 * std::pow(x, -0.75));
+    EXPECT_NEAR(log_log_slope(points), -0.75, 1e-12);
+}
+
+TEST(Slope, LeavesOutWhatHasNoPlace) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+    const std::vector<glm::dvec2> points = {{1, 8},  {2, 4},        {4, 2}, {0, 1},   {-1, 3},
+                                            {3, -1}, {3, infinity}, {3, 0}, {nan, 1}, {5, nan}};
+    EXPECT_NEAR(log_log_slope(points), -1, 1e-12);
+}
+
+TEST(Slope, OfFewerThanTwoPlacesIsNoNumber) {
+    const std::vector<glm::dvec2> one = {{2, 1}}, same = {{2, 1}, {2, 3}, {2, 5}}, useless = {{2, 1}, {3, 0}};
+    EXPECT_TRUE(std::isnan(log_log_slope({})));
+    EXPECT_TRUE(std::isnan(log_log_slope(one)));
+    EXPECT_TRUE(std::isnan(log_log_slope(same)));
+    EXPECT_TRUE(std::isnan(log_log_slope(useless)));
+}
+
+} // namespace
+} // namespace tessera::test

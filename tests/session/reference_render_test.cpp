@@ -1,0 +1,114 @@
+// References in the making: what ends them early changes no bit.
+#include "render/session/reference_render.h"
+#include "tests/load/temporary_folder.h"
+#include "tests/support/scene_builder.h"
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct References : testing::Test {
+    References() {
+        recipe.size = {24, 16};
+        recipe.spp = 12;
+        recipe.settings.max_depth = 3;
+    }
+
+    fs::path file(const char* name) const { return folder.path() / name; }
+
+    ReferenceRender begin(const char* name) { return {file(name), subject, recipe, pool}; }
+
+    /// Until it has so many samples; empty: it was complete before.
+    std::optional<int> run_to(const char* name, int spp) {
+        ReferenceRender render = begin(name);
+        if (render.run([&](const ReferenceRender& r) { return r.spp() < spp; }))
+            return std::nullopt;
+        return render.spp();
+    }
+    ReferenceImage complete(const char* name) {
+        ReferenceRender render = begin(name);
+        EXPECT_TRUE(render.run([](const ReferenceRender&) { return true; }));
+        return render.finish();
+    }
+    std::string refusal(const char* name) {
+        try {
+            begin(name);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+    TemporaryFolder folder;
+    ThreadPool pool{2};
+    std::shared_ptr<const Scene> scene = all_test_scenes().front().scene;
+    PictureSubject subject{{}, scene, scene->camera()};
+    ReferenceRecipe recipe;
+};
+
+TEST_F(References, GoOnFromAnyPassToTheSameBits) {
+    const ReferenceImage whole = complete("whole.exr");
+    EXPECT_FALSE(fs::exists(reference_checkpoint(file("whole.exr"))));
+    for (int spp : {1, 5, 8}) // after an odd number, one half is ahead
+        EXPECT_EQ(run_to("parts.exr", spp), spp);
+    EXPECT_TRUE(fs::exists(reference_checkpoint(file("parts.exr"))));
+    ReferenceRender render = begin("parts.exr");
+    EXPECT_EQ(render.spp_resumed(), 8);
+    EXPECT_TRUE(std::isinf(render.seconds_left()));
+    ASSERT_TRUE(render.run([](const ReferenceRender&) { return true; }));
+    EXPECT_EQ(render.seconds_left(), 0);
+    const ReferenceImage parts = render.finish();
+    EXPECT_EQ(checksum_of(parts), checksum_of(whole));
+    EXPECT_EQ(checksum_of(read_reference(file("parts.exr"))), checksum_of(whole));
+    EXPECT_FALSE(fs::exists(reference_checkpoint(file("parts.exr"))));
+}
+
+TEST_F(References, AnOddNumberOfSamplesIsOneMore) {
+    recipe.spp = 5;
+    ReferenceRender render = begin("odd.exr");
+    ASSERT_TRUE(render.run([](const ReferenceRender&) { return true; }));
+    EXPECT_EQ(render.spp(), 6);
+}
+
+TEST_F(References, KnowTheirErrorOnTheWay) {
+    ReferenceRender render = begin("a.exr");
+    ASSERT_FALSE(render.run([&](const ReferenceRender& r) { return r.spp() < 4; }));
+    const double early = render.error_so_far().relative_mse;
+    ASSERT_TRUE(render.run([](const ReferenceRender&) { return true; }));
+    const FloorFreeError late = render.error_so_far();
+    EXPECT_GT(early, late.relative_mse);
+    EXPECT_EQ(error_of(render.finish()).relative_mse, late.relative_mse);
+}
+
+TEST_F(References, AnotherCameraIsAnotherPicture) {
+    run_to("a.exr", 4);
+    subject.camera.fov *= 0.9f;
+    EXPECT_THAT(refusal("a.exr"), HasSubstr("is of another camera"));
+    subject.camera = scene->camera();
+    recipe.settings.max_depth = 4;
+    EXPECT_THAT(refusal("a.exr"), HasSubstr("is of max_depth 3, not 4"));
+    recipe.settings.max_depth = 3;
+    recipe.spp = 2;
+    EXPECT_THAT(refusal("a.exr"), HasSubstr("has 4 spp already, and 2 are asked for"));
+}
+
+TEST_F(References, TheFileSaysFromWhere) {
+    recipe.spp = 2;
+    subject.camera.fov = 17;
+    complete("a.exr");
+    EXPECT_THAT(read_reference(file("a.exr")).camera, HasSubstr("\"fov\": 17"));
+}
+
+} // namespace
+
+} // namespace tessera::test

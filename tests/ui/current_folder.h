@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <unistd.h>
+
+namespace tessera::test {
+
+/// A folder of its own that is the current one while this lives.
+struct CurrentFolder {
+    CurrentFolder() {
+        std::filesystem::create_directories(path);
+        std::filesystem::current_path(path);
+    }
+    ~CurrentFolder() {
+        std::filesystem::current_path(before);
+        std::filesystem::remove_all(path);
+    }
+    CurrentFolder(const CurrentFolder&) = delete;
+    CurrentFolder& operator=(const CurrentFolder&) = delete;
+
+    std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tessera-files-" + std::to_string(::getpid()));
+};
+
+} // namespace tessera::test

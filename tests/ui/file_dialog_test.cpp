@@ -1,0 +1,154 @@
+// The dialog that chooses a file, and what it lists.
+
+#include "render/load/exr.h"
+#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer_harness.h"
+#include "ui/file_list.h"
+#include "ui/settings_file.h"
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FileList : testing::Test {
+    FileList() {
+        for (const char* name : {"kitchen", "Kiosk", ".hidden", "kites"})
+            fs::create_directory(name);
+        for (const char* file : {"kiln.xml", "b.XML", "c.exr", ".dot.xml"})
+            std::ofstream(file) << "";
+    }
+    static std::vector<std::string> names(const std::vector<FileEntry>& entries) {
+        std::vector<std::string> result;
+        for (const FileEntry& entry : entries)
+            result.push_back(entry.name + (entry.is_folder ? "/" : ""));
+        return result;
+    }
+    std::vector<FileEntry> all() {
+        std::string error;
+        std::vector<FileEntry> entries = list_folder(folder.path, ".xml", error);
+        EXPECT_EQ(error, "");
+        return entries;
+    }
+    using Names = std::vector<std::string>;
+    CurrentFolder folder;
+};
+
+TEST_F(FileList, HasFoldersAndFilesOfAKind) {
+    EXPECT_EQ(names(all()), (Names{".hidden/", "Kiosk/", "kitchen/", "kites/", ".dot.xml", "b.XML", "kiln.xml"}));
+    EXPECT_EQ(names(beginning_with(all(), "")), (Names{"Kiosk/", "kitchen/", "kites/", "b.XML", "kiln.xml"}));
+    EXPECT_EQ(names(beginning_with(all(), "KI")), (Names{"Kiosk/", "kitchen/", "kites/", "kiln.xml"}));
+    EXPECT_EQ(names(beginning_with(all(), ".")), (Names{".hidden/", ".dot.xml"}));
+    std::string error;
+    EXPECT_TRUE(list_folder(folder.path / "none", ".xml", error).empty());
+    EXPECT_NE(error.find("none"), std::string::npos);
+}
+
+TEST_F(FileList, CompletesWhatIsCommon) {
+    EXPECT_EQ(common_beginning(beginning_with(all(), "kit")), "kit");
+    EXPECT_EQ(common_beginning(beginning_with(all(), "kitc")), "kitchen/");
+    EXPECT_EQ(common_beginning(beginning_with(all(), "kil")), "kiln.xml");
+    EXPECT_EQ(common_beginning({}), "");
+}
+
+TEST_F(FileList, ReadsPathsAsTheyAreTyped) {
+    EXPECT_EQ(typed_path("kit").folder, folder.path);
+    EXPECT_EQ(typed_path("kit").beginning, "kit");
+    EXPECT_EQ(typed_path("kitchen/").folder.lexically_relative(folder.path), "kitchen/");
+    EXPECT_EQ(typed_path("kitchen/../a").folder, folder.path / "");
+    EXPECT_EQ(typed_path("/a").folder, "/");
+    EXPECT_EQ(typed_path("/a").beginning, "a");
+    EXPECT_EQ(typed_path("~/x/y").folder, fs::path(std::getenv("HOME")) / "x/");
+}
+
+struct Dialog : testing::Test {
+    Dialog() {
+        fs::create_directory("scenes");
+        std::ofstream("scenes/room.xml") << "";
+        options.open = [this](const fs::path& file) -> SceneLoader {
+            opened.push_back(file.string());
+            return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+        };
+    }
+    CurrentFolder folder;
+    std::vector<std::string> opened;
+    ViewerOptions options = ViewerHarness::two_panes();
+};
+
+TEST_F(Dialog, OpensASceneByClicks) {
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    h.type(Key::o, true);
+    h.frames(2);
+    EXPECT_TRUE(h.has("file.path"));
+    h.click_at("file/scenes", 0.1f);
+    h.frames(2);
+    h.save("file-dialog.png");
+    EXPECT_FALSE(h.has("file/scenes"));
+    h.click_at("file/room.xml", 0.1f);
+    EXPECT_TRUE(h.has("file/room.xml"));
+    h.click("file.open");
+    EXPECT_FALSE(h.state().choosing.has_value());
+    h.wait_until([&] { return h.state().scenes_shown == 2; });
+    EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "scenes" / "room.xml").string()});
+    h.frames(3);
+    EXPECT_FALSE(h.has("file.path"));
+    h.type(Key::o, true); // it begins where the scene is
+    h.frames(2);
+    EXPECT_TRUE(h.has("file/room.xml"));
+    h.type(Key::escape);
+    h.frames(2);
+    EXPECT_FALSE(h.has("file.path"));
+}
+
+TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    h.state().panes[0].settings.render.tile = 3;
+    std::ofstream("good.json") << settings_json(h.state());
+    std::ofstream("bad.json") << "{\"panes\": [{\"method\": \"pt\"},\n  {\"method\": \"xyz\"}]}";
+    h.state().panes[0].settings.render.tile = 8;
+    const auto load = [&](const char* file) {
+        h.click("menu File");
+        h.click("menu File/Load settings ...");
+        h.frames(2);
+        h.click_at(std::string("file/") + file, 0.1f);
+        h.click("file.open");
+        h.frames(2);
+    };
+    load("bad.json");
+    EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
+    EXPECT_NE(h.state().messages.back().text.find("bad.json:2:14: method is none of"), std::string::npos)
+        << h.state().messages.back().text;
+    EXPECT_EQ(h.pane(0).settings.render.tile, 8);
+    h.state().show_messages = false;
+    load("good.json");
+    EXPECT_EQ(h.pane(0).settings.render.tile, 3);
+}
+
+TEST_F(Dialog, OpensAReferenceAndCanBeCancelled) {
+    write_exr("r.exr", {{{"", RgbImage(48, 36, Rgb(1))}}, {}});
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    h.type(Key::r, true);
+    h.frames(2);
+    h.click_at("file/r.exr", 0.1f);
+    h.click("file.cancel");
+    h.frames(2);
+    EXPECT_EQ(h.state().companions.reference, nullptr);
+    h.type(Key::r, true);
+    h.frames(2);
+    h.click("file.open"); // nothing is chosen yet
+    EXPECT_TRUE(h.state().choosing.has_value());
+    h.click_at("file/r.exr", 0.1f);
+    h.click("file.open");
+    h.wait_until([&] { return h.state().companions.reference != nullptr; });
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,165 @@
+// "Make reference": in the background, to the bits of `tessera reference`, and resumed.
+
+#include "render/session/reference_render.h"
+#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer_harness.h"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MakeReference : testing::Test {
+    CurrentFolder folder;
+    ViewerHarness h;
+
+    MakeReference() { h.rest(2); }
+
+    /// Opens the dialog, asks for so many samples, and begins.
+    static void begin(ViewerHarness& viewer, int spp) {
+        viewer.type(Key::m, true);
+        EXPECT_TRUE(viewer.state().reference_making.show);
+        viewer.state().reference_making.spp = spp;
+        viewer.click("reference.make");
+    }
+    static fs::path file(ViewerHarness& viewer) { return default_reference_file(viewer.state()); }
+    static void wait_for_samples(ViewerHarness& viewer, int spp) {
+        viewer.wait_until([&] {
+            const auto& progress = viewer.state().reference_making.progress;
+            return progress && progress->spp >= spp;
+        });
+    }
+    static void wait_for_end(ViewerHarness& viewer) {
+        viewer.wait_until([&] { return !viewer.state().reference_making.is_making(); });
+    }
+
+    /// What the command makes of the same.
+    static std::uint32_t expected(ViewerHarness& viewer, int spp) {
+        ReferenceRecipe recipe;
+        recipe.size = viewer.state().request_size();
+        recipe.spp = spp;
+        recipe.settings.max_depth = viewer.pane(0).settings.render.max_depth;
+        ThreadPool pool(2);
+        const auto scene = viewer.state().scene;
+        ReferenceRender render("other.exr", {{}, scene, viewer.state().camera.camera()}, recipe, pool);
+        render.run([](const ReferenceRender&) { return true; });
+        return checksum_of(render.finish());
+    }
+};
+
+TEST_F(MakeReference, BecomesTheReferenceAndHasTheBitsOfTheCommand) {
+    begin(h, 16);
+    wait_for_end(h);
+    h.wait_until([&] { return h.state().companions.reference != nullptr; });
+    EXPECT_EQ(h.state().companions.reference->name, file(h).string());
+    EXPECT_FALSE(h.state().reference_making.show);
+    EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, 16));
+    EXPECT_FALSE(fs::exists(reference_checkpoint(file(h))));
+    EXPECT_NE(h.state().messages.front().text.find("Saved the reference, 16 spp, to " + file(h).string()),
+              std::string::npos)
+        << h.state().messages.front().text;
+}
+
+TEST_F(MakeReference, IsCancelledAndGoesOn) {
+    begin(h, 1 << 20);
+    wait_for_samples(h, 4);
+    h.wait_until([&] { return h.state().reference_making.progress->error.has_value(); });
+    EXPECT_GT(h.state().reference_making.progress->error->relative_mse, 0);
+    h.frames(2);
+    h.save("reference-progress.png");
+    EXPECT_TRUE(h.has("making"));
+    EXPECT_FALSE(h.has("reference.make"));
+    h.click("reference.cancel");
+    wait_for_end(h);
+    EXPECT_EQ(h.state().companions.reference, nullptr);
+    ASSERT_TRUE(fs::exists(reference_checkpoint(file(h))));
+    EXPECT_EQ(h.state().messages.back().kind, Message::Kind::note);
+    const std::string text = h.state().messages.back().text;
+    const int spp = std::stoi(text.substr(text.find(" has ") + 5));
+    ASSERT_GE(spp, 4);
+
+    h.frames(2);
+    h.save("reference-form.png");
+    ASSERT_TRUE(h.has("reference.anew"));
+    h.state().reference_making.spp = spp + 6;
+    h.click("reference.make");
+    wait_for_end(h);
+    EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, spp + 6));
+}
+
+TEST_F(MakeReference, AnewForgetsTheCheckpoint) {
+    begin(h, 1 << 20);
+    wait_for_samples(h, 4);
+    h.click("reference.cancel");
+    wait_for_end(h);
+    h.frames(2);
+    h.click_at("reference.anew", 0.05f);
+    EXPECT_TRUE(h.state().reference_making.anew);
+    h.state().reference_making.spp = 2;
+    h.click("reference.make");
+    wait_for_end(h);
+    EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, 2));
+}
+
+TEST_F(MakeReference, OfAnotherCameraHasAnotherName) {
+    const fs::path before = file(h);
+    h.state().camera.orbit({30, 10}, 300);
+    const fs::path after = file(h);
+    EXPECT_NE(before, after);
+    h.wait_until([&] { return h.viewer.settled(2); });
+    begin(h, 4);
+    wait_for_end(h);
+    EXPECT_EQ(checksum_of(read_reference(after)), expected(h, 4));
+    h.state().camera.go_home();
+    EXPECT_EQ(file(h), before);
+}
+
+TEST_F(MakeReference, WhatCannotBeWrittenIsAMessage) {
+    h.type(Key::m, true);
+    std::strcpy(h.state().reference_making.file.data(), "/nowhere/reference.exr");
+    h.click("reference.make");
+    wait_for_end(h);
+    EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
+    EXPECT_NE(h.state().messages.back().text.find("/nowhere/reference.exr"), std::string::npos);
+}
+
+TEST_F(MakeReference, TheDialogSaysHowLong) {
+    ASSERT_TRUE(estimated_seconds(h.state()).has_value());
+    const double seconds = *estimated_seconds(h.state());
+    h.state().reference_making.spp *= 2;
+    EXPECT_NEAR(*estimated_seconds(h.state()), 2 * seconds, 1e-6 * seconds);
+    EXPECT_EQ(duration_text(45.2), "45 s");
+    EXPECT_EQ(duration_text(12.4 * 60), "12 min");
+    EXPECT_EQ(duration_text(3 * 3600 + 5 * 60), "3 h 5 min");
+    std::strcpy(h.state().reference_making.file.data(), "mine");
+    EXPECT_EQ(wanted_reference_file(h.state()), folder.path / "mine.exr");
+    h.type(Key::m, true);
+    h.type(Key::escape);
+    EXPECT_FALSE(h.state().reference_making.show);
+}
+
+TEST(MakeReferenceTwice, ClosingTheViewerKeepsTheCheckpoint) {
+    const CurrentFolder folder;
+    fs::path made;
+    {
+        ViewerHarness h;
+        h.rest(2);
+        MakeReference::begin(h, 1 << 20);
+        MakeReference::wait_for_samples(h, 2);
+        made = MakeReference::file(h);
+    }
+    EXPECT_TRUE(fs::exists(reference_checkpoint(made)));
+    EXPECT_FALSE(fs::exists(made));
+    ViewerHarness h;
+    h.rest(2);
+    MakeReference::begin(h, 1 << 20);
+    MakeReference::wait_for_samples(h, 2);
+    EXPECT_GT(h.state().reference_making.progress->spp_resumed, 0);
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "ui/controls.h"
+#include "ui/file_list.h"
+#include "ui/viewer_state.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct ImGuiInputTextCallbackData;
+
+namespace tessera {
+
+/// Chooses a file that is there: a path to be typed, which Tab completes, and the folder that it leads to, to be
+/// clicked.
+class FileDialog {
+public:
+    /// Draws it while state.choosing says what for. What is chosen becomes a wish of the state.
+    void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
+
+private:
+    void begin(const ViewerState& state);
+    void draw_path(Controls& controls);
+    void draw_list(Controls& controls, float height);
+    void draw_entry(Controls& controls, const FileEntry& entry);
+    void draw_buttons(Controls& controls, ViewerState& state);
+    void set_text(const std::string& text);
+    void read_text();
+    void enter();
+    static int complete(ImGuiInputTextCallbackData* data);
+
+    std::optional<FilePurpose> purpose_; // of what is on show
+    std::array<char, 4096> text_{};
+    std::filesystem::path folder_;   // that is listed, ...
+    std::vector<FileEntry> entries_; // ... and what is in it
+    std::string filter_;             // the beginning that was typed, not clicked
+    std::string error_;              // why there is nothing to choose
+    std::filesystem::path chosen_;   // empty: nothing yet
+};
+
+} // namespace tessera

@@ -1,0 +1,77 @@
+#include "ui/file_list.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <iterator>
+#include <tuple>
+
+namespace tessera {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+bool is_same_letter(char a, char b) {
+    return lower(a) == lower(b);
+}
+
+bool is_same_text(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same_letter);
+}
+
+} // namespace
+
+std::vector<FileEntry> list_folder(const fs::path& folder, std::string_view extension, std::string& error) {
+    std::vector<FileEntry> entries;
+    std::error_code code, ignored;
+    fs::directory_iterator it(folder, code);
+    for (; !code && it != fs::directory_iterator(); it.increment(code)) {
+        const bool is_folder = it->is_directory(ignored);
+        if (is_folder || is_same_text(it->path().extension().string(), extension))
+            entries.push_back({it->path().filename().string(), is_folder});
+    }
+    error = code ? folder.string() + ": " + code.message() : "";
+    std::sort(entries.begin(), entries.end(), [](const FileEntry& a, const FileEntry& b) {
+        return std::tuple(!a.is_folder, a.name) < std::tuple(!b.is_folder, b.name);
+    });
+    return entries;
+}
+
+TypedPath typed_path(const std::string& text) {
+    std::error_code ignored; // a current folder that is gone has no name
+    const std::size_t slash = text.rfind('/');
+    if (slash == std::string::npos)
+        return {fs::current_path(ignored), text};
+    fs::path folder = text.substr(0, slash + 1);
+    const char* home = std::getenv("HOME");
+    if (home && text.rfind("~/", 0) == 0)
+        folder = fs::path(home) / text.substr(2, slash - 1);
+    return {fs::absolute(folder, ignored).lexically_normal(), text.substr(slash + 1)};
+}
+
+std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning) {
+    std::vector<FileEntry> found;
+    std::copy_if(entries.begin(), entries.end(), std::back_inserter(found), [&](const FileEntry& entry) {
+        const bool is_hidden = entry.name[0] == '.' && (beginning.empty() || beginning[0] != '.');
+        return !is_hidden && is_same_text(std::string_view(entry.name).substr(0, beginning.size()), beginning);
+    });
+    return found;
+}
+
+std::string common_beginning(const std::vector<FileEntry>& entries) {
+    if (entries.empty())
+        return "";
+    std::string common = entries.front().name;
+    for (const FileEntry& entry : entries) {
+        const auto end = std::mismatch(common.begin(), common.end(), entry.name.begin(), entry.name.end()).first;
+        common.erase(end, common.end());
+    }
+    return entries.size() == 1 && entries.front().is_folder ? common + "/" : common;
+}
+
+} // namespace tessera

@@ -1,0 +1,151 @@
+#include "ui/reference_job.h"
+
+#include "render/load/temporary_file.h"
+#include "render/session/reference_render.h"
+#include "render/session/thread_priority.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+/// Looks at a render after every pass, and lets the UI know.
+class ReferenceJob::Watch {
+public:
+    Watch(ReferenceProgress start, std::function<void()> wake)
+        : progress_(std::move(start)), wake_(std::move(wake)) {}
+
+    void cancel() { cancelled_ = true; }
+
+    ReferenceProgress progress() const {
+        const std::lock_guard lock(mutex_);
+        ReferenceProgress progress = progress_;
+        progress.is_ending = cancelled_;
+        return progress;
+    }
+
+    /// Whether to go on.
+    bool look(const ReferenceRender& render, const std::stop_token& stop) {
+        const bool goes_on = !cancelled_ && !stop.stop_requested();
+        std::optional<FloorFreeError> error;
+        if (goes_on && is_time_to_measure(render))
+            error = measure(render);
+        {
+            const std::lock_guard lock(mutex_);
+            progress_.spp = render.spp();
+            progress_.spp_resumed = render.spp_resumed();
+            progress_.seconds_left = render.seconds_left();
+            if (error)
+                progress_.error = error;
+        }
+        if (wake_ && (error || seconds_since(woken_) > 0.2)) {
+            woken_ = Clock::now();
+            wake_();
+        }
+        return goes_on;
+    }
+
+private:
+    /// Errors are to cost no more than a twentieth of the time.
+    bool is_time_to_measure(const ReferenceRender& render) const {
+        return render.spp() >= 2 && seconds_since(measured_) >= std::max(1.0, 20 * measuring_took_);
+    }
+    FloorFreeError measure(const ReferenceRender& render) {
+        const auto start = Clock::now();
+        const FloorFreeError error = render.error_so_far();
+        measured_ = Clock::now();
+        measuring_took_ = seconds_since(start);
+        return error;
+    }
+
+    mutable std::mutex mutex_;
+    ReferenceProgress progress_; // guarded by it
+    std::atomic<bool> cancelled_ = false;
+    std::function<void()> wake_;
+    // Used by the render's thread alone.
+    Clock::time_point woken_, measured_;
+    double measuring_took_ = 0;
+};
+
+void ReferenceJob::update(ViewerState& state, int threads, const std::function<void()>& wake) {
+    ReferenceMaking& making = state.reference_making;
+    if (std::exchange(making.start, false) && !job_.running() && state.scene)
+        start(state, threads, wake);
+    if (std::exchange(making.cancel, false) && watch_)
+        watch_->cancel();
+    if (auto outcome = job_.poll())
+        take(state, std::move(*outcome));
+    making.progress = job_.running() ? std::optional(watch_->progress()) : std::nullopt;
+}
+
+void ReferenceJob::start(ViewerState& state, int threads, const std::function<void()>& wake) {
+    const ReferenceMaking& making = state.reference_making;
+    const std::filesystem::path file = wanted_reference_file(state);
+    ReferenceRecipe recipe;
+    recipe.settings.method = making.method;
+    recipe.settings.max_depth = state.active().settings.render.max_depth;
+    recipe.size = state.request_size();
+    recipe.spp = making.spp;
+    recipe.checkpoint_seconds = 30;
+    scene_ = state.scene;
+    ReferenceProgress progress;
+    progress.file = file;
+    progress.spp_wanted = recipe.spp;
+    progress.seconds_left = std::numeric_limits<double>::infinity();
+    watch_ = std::make_shared<Watch>(progress, wake);
+    const PictureSubject subject{{state.scene_file, {}, {}}, state.scene, state.camera.camera()};
+    job_.start(
+        [=, watch = watch_, anew = making.anew](std::stop_token stop) -> Made {
+            work_behind_others(); // and so do the pool's threads, which begin as their maker is
+            check_writable(file);
+            if (anew)
+                std::filesystem::remove(reference_checkpoint(file));
+            ThreadPool pool(threads);
+            ReferenceRender render(file, subject, recipe, pool);
+            if (!render.run([&](const ReferenceRender& r) { return watch->look(r, stop); }))
+                return {std::nullopt, render.spp(), render.warnings()};
+            const int spp = render.spp();
+            std::vector<std::string> warnings = render.warnings();
+            return {error_of(render.finish()), spp, std::move(warnings)};
+        },
+        wake);
+}
+
+void ReferenceJob::take(ViewerState& state, BackgroundJob<Made>::Outcome outcome) {
+    const std::string file = watch_->progress().file.string();
+    watch_.reset();
+    const std::shared_ptr<const Scene> scene = std::exchange(scene_, nullptr);
+    if (!outcome.result)
+        return state.add_message(Message::Kind::error, "The reference was not made: " + outcome.error);
+    const Made& made = *outcome.result;
+    for (const std::string& warning : made.warnings)
+        state.add_message(Message::Kind::note, "The reference: " + warning);
+    if (!made.error)
+        return state.add_message(Message::Kind::note,
+                                 fmt::format("The reference has {} spp; made again, it goes on from {}", made.spp,
+                                             reference_checkpoint(file).string()));
+    state.add_message(Message::Kind::note,
+                      fmt::format("Saved the reference, {} spp, to {}; its own relMSE is {:.3g} +- {:.2g}",
+                                  made.spp, file, made.error->relative_mse, made.error->standard_error));
+    state.reference_making.show = false;
+    if (scene == state.scene)
+        state.reference_file = file;
+}
+
+} // namespace tessera

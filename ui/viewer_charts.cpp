@@ -1,0 +1,151 @@
+#include "ui/viewer_charts.h"
+
+#include "recon/slope.h"
+#include "ui/path_overlay.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+using Scale = ChartAxis::Scale;
+
+Method method_of(const ViewerState& state, std::size_t pane) {
+    return state.panes[pane].settings.render.method;
+}
+
+template <class Point>
+double x_of(const ViewerState& state, const Point& p) {
+    return state.charts_by_spp ? p.spp : p.seconds;
+}
+
+ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scale) {
+    return {state.charts_by_spp ? "samples a pixel" : "seconds", std::move(y_label), Scale::log, y_scale, {}, {}};
+}
+
+ChartPlot error_plot(const ViewerState& state) {
+    const bool is_error = state.chart_kind == ChartKind::error;
+    ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        ChartSeries series{pane_name(state, i), {}, false, true};
+        for (const ErrorPoint& p : state.charts[i].errors.points())
+            series.points.push_back({x_of(state, p), is_error ? p.error : efficiency_of(p), 0});
+        plot.series.push_back(std::move(series));
+    }
+    return plot;
+}
+
+/// In words: "kind mismatch".
+std::string label_of(ShiftOutcome outcome) {
+    std::string words(to_string(outcome));
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
+ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
+    ChartPlot plot = empty_plot(state, pane_name(state, pane) + "  % of shifts", Scale::log);
+    for (ShiftOutcome outcome : seen_outcomes(state)) {
+        ChartSeries series{label_of(outcome), {}, false, true};
+        for (const ShiftPoint& p : state.charts[pane].shifts.points())
+            series.points.push_back({x_of(state, p), 100 * p.shares[static_cast<std::size_t>(outcome)], 0});
+        plot.series.push_back(std::move(series));
+    }
+    return plot;
+}
+
+/// Darker on a light ground, where words are written in it.
+ImU32 readable(ImU32 colour, Theme theme) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(colour);
+    const float share = theme == Theme::light ? 0.72f : 1.0f;
+    return ImGui::ColorConvertFloat4ToU32({c.x * share, c.y * share, c.z * share, c.w});
+}
+
+/// Panes with one method are told apart by their brightness.
+ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(method_colour(method_of(state, pane)));
+    for (std::size_t i = 0; i < pane; ++i)
+        if (method_of(state, i) == method_of(state, pane))
+            c.w *= 0.6f;
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+} // namespace
+
+std::string pane_name(const ViewerState& state, std::size_t pane) {
+    return fmt::format("{}  {}", pane + 1, paper_name(method_of(state, pane)));
+}
+
+double efficiency_of(const ErrorPoint& point) {
+    return 1 / (point.error * point.seconds);
+}
+
+std::vector<std::size_t> shifting_panes(const ViewerState& state) {
+    std::vector<std::size_t> panes;
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        if (!state.charts[i].shifts.points().empty())
+            panes.push_back(i);
+    return panes;
+}
+
+std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
+    std::vector<ShiftOutcome> seen;
+    for (int i = 0; i < shift_outcome_count; ++i) {
+        const bool any = std::any_of(state.charts.begin(), state.charts.end(), [&](const PaneChart& chart) {
+            const auto& points = chart.shifts.points();
+            return !points.empty() && points.back().shares[static_cast<std::size_t>(i)] > 0;
+        });
+        if (any)
+            seen.push_back(static_cast<ShiftOutcome>(i));
+    }
+    return seen;
+}
+
+Chart viewer_chart(const ViewerState& state) {
+    const glm::ivec2 size = state.request_size();
+    Chart chart{fmt::format("{}: {}x{}", state.scene_name, size.x, size.y), {}};
+    if (state.chart_kind == ChartKind::shifts) {
+        for (std::size_t pane : shifting_panes(state))
+            chart.plots.push_back(shift_plot(state, pane));
+    } else if (state.companions.reference) {
+        chart.plots.push_back(error_plot(state));
+    }
+    return chart;
+}
+
+std::vector<ImU32> line_colours(const ViewerState& state) {
+    std::vector<ImU32> colours;
+    if (state.chart_kind == ChartKind::shifts)
+        for (ShiftOutcome outcome : seen_outcomes(state))
+            colours.push_back(readable(outcome_colour(outcome), state.theme));
+    else
+        for (std::size_t i = 0; i < state.panes.size(); ++i)
+            colours.push_back(readable(pane_colour(state, i), state.theme));
+    return colours;
+}
+
+ChartPlot histogram_plot(const ViewerState& state) {
+    ChartPlot plot{"luminance", "pixels", Scale::log, Scale::linear, {}, {}};
+    const auto pane = static_cast<std::size_t>(state.active_pane);
+    const auto& histogram = state.charts[pane].histogram;
+    if (!histogram)
+        return plot;
+    ChartSeries series{"pixels of " + pane_name(state, pane), {}, false, true};
+    for (int bin = 0; bin < Histogram::bin_count; ++bin)
+        series.points.push_back({static_cast<double>(Histogram::low_end(bin)),
+                                 static_cast<double>(histogram->bins[static_cast<std::size_t>(bin)]), 0});
+    plot.series.push_back(std::move(series));
+    return plot;
+}
+
+double slope_of_last_decade(const ChartSeries& series) {
+    std::vector<glm::dvec2> points;
+    for (const ChartPoint& p : series.points)
+        if (p.x >= 0.1 * series.points.back().x)
+            points.emplace_back(p.x, p.y);
+    return log_log_slope(points);
+}
+
+} // namespace tessera
