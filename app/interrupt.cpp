@@ -13,14 +13,16 @@ std::atomic<bool> seen = false;
 
 InterruptGuard::InterruptGuard() {
     seen = false;
-    std::signal(SIGINT, [](int) {
-        seen = true;
-        std::signal(SIGINT, SIG_DFL);
-    });
+    for (int signal : {SIGINT, SIGTERM})
+        std::signal(signal, [](int again) {
+            seen = true;
+            std::signal(again, SIG_DFL);
+        });
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
+    for (int signal : {SIGINT, SIGTERM})
+        std::signal(signal, SIG_DFL);
 }
 
 bool interrupted() {

@@ -2,7 +2,7 @@
 
 namespace tessera {
 
-/// While one lives, Ctrl-C asks for an end in good order; a second one ends the process.
+/// While one lives, Ctrl-C (SIGINT) or SIGTERM ask for an end in good order; a second one ends the process.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -11,7 +11,7 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-/// Whether the latest guard has seen Ctrl-C.
+/// Whether the latest guard has seen either.
 bool interrupted();
 
 } // namespace tessera

@@ -1,5 +1,6 @@
 #include "app/view.h"
 
+#include "app/interrupt.h"
 #include "app/reconstruction_layers.h"
 #include "app/stats.h"
 #include "render/load/camera_file.h"
@@ -183,12 +184,19 @@ int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& sur
                                  if (player.wants_frame())
                                      surface.wake();
                                  return watch.after_frame();
-                             }});
+                             },
+                             interrupted,
+                             {}});
     } catch (const ScriptError& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return bad_input;
     }
     return watch.exit_code();
+}
+
+/// A picture or a script that a signal has ended is not done.
+int exit_code(const ViewOptions& options, int code) {
+    return interrupted() && !is_interactive(options) ? view_cut_short : code;
 }
 
 } // namespace
@@ -210,10 +218,11 @@ int run_view(const ViewOptions& options) {
     Viewer viewer(session, viewer_options(options, *surface));
     viewer.load(options.scene.name, options.scene.loader, options.scene.file);
     FrameWatch watch(options, *surface, viewer, start);
+    const InterruptGuard guard;
     if (!steps.empty())
-        return play(std::move(steps), options, *surface, viewer, watch);
-    surface->run(viewer, {{}, [&] { return watch.after_frame(); }});
-    return watch.exit_code();
+        return exit_code(options, play(std::move(steps), options, *surface, viewer, watch));
+    surface->run(viewer, {{}, [&] { return watch.after_frame(); }, interrupted, [&] { viewer.remember(); }});
+    return exit_code(options, watch.exit_code());
 }
 
 } // namespace tessera

@@ -16,6 +16,8 @@ namespace tessera {
 /// What run_view returns where there is neither a display nor a way to draw without one: the caller may render the
 /// same comparison headless.
 inline constexpr int view_needs_display = -1;
+/// What it returns where a signal ended a script or a screenshot: as of Ctrl-C in a shell.
+inline constexpr int view_cut_short = 130;
 
 /// `tessera view`.
 struct ViewOptions {
@@ -36,7 +38,7 @@ struct ViewOptions {
 };
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
-/// message is on stderr), or view_needs_display.
+/// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.
 int run_view(const ViewOptions& options);
 
 } // namespace tessera

@@ -32,7 +32,7 @@ const vec3 negative_colour = vec3(0.15, 0.25, 1.0);
 const vec3 zero_colour = vec3(0.10, 0.10, 0.11);
 const vec3 plus_colour = vec3(1.00, 0.66, 0.20);
 const vec3 minus_colour = vec3(0.26, 0.62, 1.00);
-const int most_taps = 6; // an axis, where a pane's pixel covers several of the image
+const int most_taps = 256; // an axis, where a pane's pixel covers several of the image: so many that none is missed
 
 float srgb(float c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055; }
 

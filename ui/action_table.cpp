@@ -66,7 +66,7 @@ bool compares(const ViewerState& state) {
 
 template <Comparison::Kind kind>
 void toggle_comparison(ViewerState& state) {
-    if (state.panes.size() < 2)
+    if (state.compared_with(state.active_pane) == state.active_pane)
         state.set_pane_count(2);
     state.active().settings.comparison.kind = compares<kind>(state) ? Comparison::Kind::off : kind;
 }
@@ -190,6 +190,8 @@ constexpr Action table[] = {
      show_buffer<Buffer::error_absolute>, shows_buffer<Buffer::error_absolute>},
     {"Buffer", "Error: relative", "Shows |I - r| / (|r| + 0.01) to the reference r, in all panes.",
      shift(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative>, shows_buffer<Buffer::error_relative>},
+    {"Buffer", "Reference", "Shows the picture that errors are measured against, in all panes.",
+     shift(Key::digit0), no_shortcut, show_buffer<Buffer::reference>, shows_buffer<Buffer::reference>},
     {"Buffer", "Albedo", "Shows how much light the surfaces scatter, in all panes.", shift(Key::digit2),
      no_shortcut, show_buffer<Buffer::albedo>, shows_buffer<Buffer::albedo>},
     {"Buffer", "Normal", "Shows where the surfaces face, in all panes.", shift(Key::digit3), no_shortcut,

@@ -1,6 +1,7 @@
 #include "ui/actions.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace tessera {
 
@@ -25,8 +26,19 @@ constexpr Gesture gesture_table[] = {
     {"Ctrl + click on a slider", "Type a value"},
 };
 
-bool matches(const Shortcut& typed, const Action& action) {
-    return typed == action.shortcut || typed == action.second_shortcut;
+/// The actions that were called. A character wins over the key that made it: on a French keyboard '-' lies on 6.
+std::vector<const Action*> called_by(const Shortcut& typed) {
+    const Shortcut as_character{Key::none, false, false, typed.character};
+    const Shortcut as_key{typed.key, typed.ctrl, typed.shift, 0};
+    for (const Shortcut& shortcut : {as_character, as_key}) {
+        std::vector<const Action*> called;
+        for (const Action& action : actions())
+            if (shortcut != Shortcut{} && (shortcut == action.shortcut || shortcut == action.second_shortcut))
+                called.push_back(&action);
+        if (!called.empty())
+            return called;
+    }
+    return {};
 }
 
 bool counts_in_text(const Shortcut& typed) {
@@ -50,10 +62,8 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
     for (const Shortcut& shortcut : typed) {
         if (entering_text && !counts_in_text(shortcut))
             continue;
-        for (const Action& action : actions()) {
-            if (matches(shortcut, action))
-                action.run(state);
-        }
+        for (const Action* action : called_by(shortcut))
+            action->run(state);
     }
     // A closing key that every overlay has.
     if (std::find(typed.begin(), typed.end(), Shortcut{Key::escape}) != typed.end())

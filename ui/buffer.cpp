@@ -51,6 +51,8 @@ constexpr BufferInfo table[] = {
     {Buffer::error_relative, "relative", "Error: relative",
      "|I - r| / (|r| + 0.01), the mean of red, green and blue, of the picture I and the reference r; per cent.",
      Family::error, ColourMap::false_colour, "%", 100},
+    {Buffer::reference, "reference", "Reference", "The picture that errors are measured against; radiance.",
+     Family::reference, ColourMap::radiance, "", 1},
     {Buffer::albedo, "albedo", "Albedo",
      "The share of light that the surface first seen would send to the camera if it came from everywhere (no "
      "unit).",
@@ -135,6 +137,7 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
     case BufferFamily::reuse:
         return snapshot.reuse;
     case BufferFamily::first_hit:
+    case BufferFamily::reference:
         return nullptr;
     case BufferFamily::gradient:
     case BufferFamily::variance:
@@ -150,7 +153,7 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
 }
 
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
-    if (family(buffer) == BufferFamily::error)
+    if (family(buffer) == BufferFamily::error || family(buffer) == BufferFamily::reference)
         return companions.reference;
     if (family(buffer) == BufferFamily::first_hit)
         return companions.first_hits;
@@ -191,6 +194,8 @@ const RgbImage& first_hit_picture(Buffer buffer, RgbImage& scratch, const Compan
 const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch, const Companions& companions) {
     if (family(buffer) == BufferFamily::first_hit)
         return first_hit_picture(buffer, scratch, companions);
+    if (family(buffer) == BufferFamily::reference)
+        return companions.reference ? companions.reference->image : no_picture;
     if (!picture_source(snapshot, buffer) || !snapshot.images)
         return no_picture;
     if (family(buffer) == BufferFamily::error)
@@ -231,11 +236,11 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return "A variance takes two passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt)
         return name + " shares no paths between pixels";
-    if (family(buffer) != BufferFamily::error)
+    if (family(buffer) != BufferFamily::error && family(buffer) != BufferFamily::reference)
         return "";
     if (!companions.reference)
         return "No reference: drop an EXR file on the window";
-    if (!snapshot || !snapshot->images || snapshot->coarse ||
+    if (family(buffer) == BufferFamily::reference || !snapshot || !snapshot->images || snapshot->coarse ||
         same_size(snapshot->images->primal, companions.reference->image))
         return "";
     const RgbImage& r = companions.reference->image;
@@ -288,8 +293,9 @@ std::string legend_text(Buffer buffer, const ValueRange& range) {
     const BufferInfo& about = info(buffer);
     const double scale = static_cast<double>(about.unit_scale);
     char text[96];
-    std::snprintf(text, sizeof text, "%s: %.4g .. %.4g%s%s", about.id, static_cast<double>(range.low) * scale,
-                  static_cast<double>(range.high) * scale, *about.unit ? " " : "", about.unit);
+    std::snprintf(text, sizeof text, "%s: %.4g .. %.4g%s%s%s", about.id, static_cast<double>(range.low) * scale,
+                  static_cast<double>(range.high) * scale, *about.unit ? " " : "", about.unit,
+                  range.logarithmic ? "  log scale" : "");
     return text;
 }
 

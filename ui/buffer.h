@@ -15,6 +15,7 @@ namespace tessera {
 enum class Buffer {
     reconstruction, primal, dx, dy, reused, failed, survival, very_direct,
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
+    reference,
     albedo, normal, depth,
     primal_variance, dx_variance, dy_variance
 };
@@ -31,6 +32,7 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::error_squared,
                                          Buffer::error_absolute,
                                          Buffer::error_relative,
+                                         Buffer::reference,
                                          Buffer::albedo,
                                          Buffer::normal,
                                          Buffer::depth,
@@ -45,6 +47,7 @@ enum class BufferFamily {
     gradient,  ///< a snapshot of a method that measures gradients
     reuse,     ///< a snapshot of a method that shares paths
     error,     ///< a picture and a reference
+    reference, ///< the reference itself
     first_hit, ///< the scene and the camera
 };
 
@@ -102,7 +105,7 @@ float top_value(Buffer buffer, const RgbImage& image);
 /// reference, so that panes and times can be compared.
 ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions = {});
 
-/// What the false colours of a range stand for: "reused: 0 .. 50 paths a pass".
+/// What the colours of a range stand for: "reused: 0 .. 50 paths a pass", "relMSE: 0.0001 .. 1  log scale".
 std::string legend_text(Buffer buffer, const ValueRange& range);
 
 } // namespace tessera

@@ -66,14 +66,14 @@ GLuint Canvas::draw(const CanvasShader& shader, const ImageTexture& image, const
                     const ImageTexture* subtrahend) {
     if (view.pane_size.x < 1 || view.pane_size.y < 1)
         return 0;
-    if (subtrahend != nullptr && subtrahend->empty())
-        subtrahend = nullptr;
     const Drawn wanted{view, &image, subtrahend, image.serial(), subtrahend ? subtrahend->serial() : 0};
     if (drawn_ == wanted)
         return framebuffer_.colour().name();
     framebuffer_.resize(view.pane_size);
     const DrawInto target(framebuffer_);
-    shader.draw(image.texture(), view, subtrahend ? &subtrahend->texture() : nullptr);
+    static const GlTexture none;
+    const bool lacks_one = subtrahend && subtrahend->empty(); // and so there is no difference
+    shader.draw(lacks_one ? none : image.texture(), view, subtrahend ? &subtrahend->texture() : nullptr);
     drawn_ = wanted;
     ++drawings_;
     return framebuffer_.colour().name();

@@ -62,8 +62,8 @@ private:
 /// infinity as cyan, what is negative (if it is to be marked) as blue.
 class Canvas {
 public:
-    /// The texture that holds the rendition of the image, or of its difference to another, bottom row first; 0 for
-    /// a pane without area.
+    /// The texture that holds the rendition of the image, or of its difference to another (nothing, where either
+    /// is empty), bottom row first; 0 for a pane without area.
     GLuint draw(const CanvasShader& shader, const ImageTexture& image, const CanvasView& view,
                 const ImageTexture* subtrahend = nullptr);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
@@ -36,6 +37,7 @@ void keep_within(float& value, float before, float least, float most) {
 
 void Controls::begin_frame(double time) {
     rects_.clear();
+    unexplained_.clear();
     hovered_before_ = std::move(hovered_);
     hovered_.clear();
     time_ = time;
@@ -45,7 +47,10 @@ void Controls::begin_frame(double time) {
 void Controls::note(const char* id, const char* help) {
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     rects_[id] = {{min.x, min.y}, {max.x, max.y}};
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || help == nullptr || *help == 0)
+    const bool explains = help != nullptr && *help != 0;
+    if (!explains)
+        unexplained_.insert(id);
+    if (!explains || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
     hovered_ = id;
     if (hovered_ != hovered_before_)
@@ -91,7 +96,7 @@ bool Controls::bare_choice(const char* id, const char* shown, std::span<const Ch
         }
         ImGui::EndCombo(); // the item is the combo itself again
     }
-    note(id, open ? nullptr : help);
+    note(id, help);
     return changed;
 }
 
@@ -125,36 +130,62 @@ bool Controls::log_slider(const char* id, const char* label_text, float& value, 
     return value != before;
 }
 
+/// What is to be shown in a control that is typed into: the draft, while there is one.
+template <class Value>
+const Value& Controls::draft_of(const char* id, const Value& value) const {
+    const Value* draft = draft_id_ == id ? std::get_if<Value>(&draft_) : nullptr;
+    return draft ? *draft : value;
+}
+
+/// To be called after the item, with what it has made of the draft. `at_once`: it is complete, as after Enter.
+/// Tells whether the value has changed.
+template <class Value>
+bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Value& value) {
+    if (at_once || ImGui::IsItemDeactivatedAfterEdit()) {
+        draft_id_.clear();
+        return draft != std::exchange(value, draft);
+    }
+    if (ImGui::IsItemActive()) {
+        draft_id_ = id;
+        draft_ = draft;
+    } else if (draft_id_ == id) {
+        draft_id_.clear(); // left as it was
+    }
+    return false;
+}
+
 bool Controls::number(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
     label(label_text);
-    const int before = value;
-    ImGui::InputInt(hidden_label(id).c_str(), &value, 1, 16, ImGuiInputTextFlags_EnterReturnsTrue);
-    value = std::clamp(value, least, most);
+    int draft = draft_of(id, value);
+    const bool changed = ImGui::InputInt(hidden_label(id).c_str(), &draft, 1, 16);
+    const bool stepped = changed && !ImGui::GetIO().WantTextInput; // by its buttons
+    draft = std::clamp(draft, least, most);
+    const bool taken = take_draft(id, draft, stepped, value);
     note(id, help);
-    return value != before;
+    return taken;
 }
 
 bool Controls::number(const char* id, const char* label_text, double& value, double least, double most,
                       const char* help) {
     label(label_text);
-    const double before = value;
-    ImGui::InputDouble(hidden_label(id).c_str(), &value, 1, 10, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
-    value = std::isnan(value) ? before : std::clamp(value, least, most);
+    double draft = draft_of(id, value);
+    const bool changed = ImGui::InputDouble(hidden_label(id).c_str(), &draft, 1, 10, "%.6g");
+    const bool stepped = changed && !ImGui::GetIO().WantTextInput;
+    draft = std::isnan(draft) ? value : std::clamp(draft, least, most);
+    const bool taken = take_draft(id, draft, stepped, value);
     note(id, help);
-    return value != before;
+    return taken;
 }
 
 bool Controls::text(const char* id, const char* label_text, std::string& value, const char* hint,
                     const char* help) {
     label(label_text);
     char buffer[1024] = {};
-    value.copy(buffer, sizeof buffer - 1);
-    const bool entered = ImGui::InputTextWithHint(hidden_label(id).c_str(), hint, buffer, sizeof buffer,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
-    if (entered)
-        value = buffer;
+    draft_of(id, value).copy(buffer, sizeof buffer - 1);
+    ImGui::InputTextWithHint(hidden_label(id).c_str(), hint, buffer, sizeof buffer);
+    const bool taken = take_draft(id, std::string(buffer), false, value);
     note(id, help);
-    return entered;
+    return taken;
 }
 
 bool Controls::toggle(const char* id, const char* label_text, bool& value, const char* help) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include <glm/vec2.hpp>
 
@@ -43,9 +45,10 @@ public:
                 const char* help);
     /// Logarithmic. If `least` is 0, the left end is 0 and reads "off".
     bool log_slider(const char* id, const char* label, float& value, float least, float most, const char* help);
+    /// What is typed is taken with Enter, and when the control is left.
     bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
     bool number(const char* id, const char* label, double& value, double least, double most, const char* help);
-    /// Taken when Enter is pressed; empty text shows `hint`.
+    /// Taken likewise; empty text shows `hint`.
     bool text(const char* id, const char* label, std::string& value, const char* hint, const char* help);
     bool toggle(const char* id, const char* label, bool& value, const char* help);
     /// No row of its own: as wide as its label, or `width`.
@@ -53,11 +56,15 @@ public:
 
     /// A row's label, for what is drawn without these widgets: the item after it fills the row.
     void label(const char* text) const;
-    /// Notes and explains the item just drawn: for what is drawn without these widgets.
+    /// Notes and explains the item just drawn: for what is drawn without these widgets. Without help only what
+    /// explains itself, such as a menu.
     void note(const char* id, const char* help);
 
     /// The same of an area that is no item.
     void note_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
+
+    /// Ids of what has been noted without help since the last frame began.
+    const std::set<std::string, std::less<>>& unexplained() const { return unexplained_; }
 
     /// By id, of this frame or the last whole one.
     const std::map<std::string, ControlRect, std::less<>>& rects() const { return rects_; }
@@ -66,12 +73,22 @@ public:
     bool tooltip_pending() const { return tooltip_pending_; }
 
 private:
+    template <class Value>
+    const Value& draft_of(const char* id, const Value& value) const;
+    template <class Value>
+    bool take_draft(const char* id, const Value& draft, bool at_once, Value& value);
+
     std::map<std::string, ControlRect, std::less<>> rects_;
     std::string hovered_;
     std::string hovered_before_;
     double hovered_since_ = 0;
     double time_ = 0;
     bool tooltip_pending_ = false;
+    std::set<std::string, std::less<>> unexplained_;
+
+    // What is being typed: the value itself changes when that is taken.
+    std::string draft_id_;
+    std::variant<int, double, std::string> draft_;
 };
 
 /// A heading in a panel, with a line.

@@ -134,7 +134,9 @@ void draw_shift_row(const InspectedShift& s, int row, Inspector& inspector, Cont
     const bool lit = inspector.marked == row || inspector.chosen == row;
     if (ImGui::Selectable(short_text(s.from).c_str(), lit, ImGuiSelectableFlags_SpanAllColumns))
         inspector.chosen = inspector.chosen == row ? -1 : row;
-    controls.note(("shifts.row" + std::to_string(row)).c_str(), nullptr);
+    controls.note(
+        ("shifts.row" + std::to_string(row)).c_str(),
+        "A base path, taken from its own pixel to another one. A click lists the vertices of the offset path.");
     if (ImGui::IsItemHovered())
         inspector.marked = row;
     ImGui::PopID();

@@ -35,6 +35,13 @@ Key key_of_character(char character) {
     return Key::none;
 }
 
+Key key_named(const char* printed, Key place, bool alt) {
+    if (alt)
+        return Key::none;
+    const Key named = printed && *printed && !printed[1] ? key_of_character(*printed) : Key::none;
+    return named != Key::none ? named : place;
+}
+
 std::string to_string(const Shortcut& shortcut) {
     if (shortcut.character != 0)
         return std::string(1, shortcut.character);
@@ -68,6 +75,14 @@ void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
     down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;
     if (named != Key::none)
         typed_.push_back({named, ctrl, shift, 0});
+    awaits_character_ = named != Key::none;
+}
+
+void Keyboard::type(char character) {
+    if (std::exchange(awaits_character_, false))
+        typed_.back().character = character;
+    else
+        typed_.push_back({Key::none, false, false, character});
 }
 
 void Keyboard::release(Key physical) {
@@ -75,6 +90,7 @@ void Keyboard::release(Key physical) {
 }
 
 std::vector<Shortcut> Keyboard::take() {
+    awaits_character_ = false;
     return std::exchange(typed_, {});
 }
 

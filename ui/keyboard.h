@@ -23,7 +23,13 @@ enum class Key : std::uint8_t {
 /// The letter's or digit's key (either case); Key::none for others.
 Key key_of_character(char character);
 
-/// What calls an action: a key with its modifiers, or a character however the keyboard makes it ('?').
+/// What a key is called: by the letter or digit printed on it, which the system tells in UTF-8 (null: it does not
+/// know), else by its place on an American keyboard. With Alt of either side, no key is meant: on many keyboards
+/// that one makes brackets of digits.
+Key key_named(const char* printed, Key place, bool alt);
+
+/// What calls an action: a key with its modifiers, or a character however the keyboard makes it ('?'). What was
+/// typed may be both: a key, and the character that it has made.
 struct Shortcut {
     Key key = Key::none;
     bool ctrl = false;
@@ -47,7 +53,8 @@ public:
     /// A key went down. `physical` is the place on an American keyboard, `named` what is printed on it.
     void press(Key physical, Key named, bool ctrl, bool shift);
     void release(Key physical);
-    void type(char character) { typed_.push_back({Key::none, false, false, character}); }
+    /// A character came, that of the key which went down just before, if one did.
+    void type(char character);
     void release_all() { down_.reset(); }
 
     /// Held now. By place, so that W A S D lie alike on all keyboards.
@@ -59,6 +66,7 @@ public:
 private:
     std::bitset<static_cast<std::size_t>(Key::count)> down_;
     std::vector<Shortcut> typed_;
+    bool awaits_character_ = false; // the last of these may have made one
 };
 
 } // namespace tessera

@@ -83,7 +83,8 @@ constexpr Named table[] = {
      }},
     {"compare_with",
      [](S& s, Text n, Text v) {
-         s.active().settings.comparison.with = static_cast<int>(number(n, v, 1, most_panes)) - 1;
+         s.active().settings.comparison.with =
+             v == "reference" ? the_reference : static_cast<int>(number(n, v, 1, most_panes)) - 1;
      }},
     {"active",
      [](S& s, Text n, Text v) {

@@ -76,7 +76,7 @@ public:
         const DrawInto drawing(target_);
         auto last = std::chrono::steady_clock::now();
         double frame_seconds = 0;
-        while (!viewer.state().quit) {
+        while (!viewer.state().quit && !(hooks.ends && hooks.ends())) {
             const auto now = std::chrono::steady_clock::now();
             if (hooks.before)
                 hooks.before(frame_seconds);

@@ -4,20 +4,24 @@
 
 namespace tessera {
 
-void PaneImage::take(const PaneState& pane, const Companions& companions) {
-    static const RgbImage none;
-    const Buffer buffer = pane.settings.buffer;
-    std::shared_ptr<const void> source = pane.snapshot ? picture_source(*pane.snapshot, buffer) : nullptr;
-    std::shared_ptr<const void> companion = pane.snapshot ? companion_source(companions, buffer) : nullptr;
-    coarse_ = pane.snapshot && pane.snapshot->coarse && family(buffer) != BufferFamily::first_hit;
+void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& companions) {
+    static const Snapshot none;
+    const Snapshot& from = snapshot ? *snapshot : none;
+    std::shared_ptr<const void> source = picture_source(from, buffer);
+    std::shared_ptr<const void> companion = companion_source(companions, buffer);
+    coarse_ = from.coarse && source;
     if (source == source_ && companion == companion_ && buffer == buffer_)
         return;
     source_ = std::move(source);
     companion_ = std::move(companion);
     buffer_ = buffer;
-    pixels_ = pane.snapshot ? &picture(*pane.snapshot, buffer, scratch_, companions) : &none;
+    pixels_ = &picture(from, buffer, scratch_, companions);
     texture_.show(*pixels_);
+    const RangeKey wanted{from.generation, coarse_, buffer, companion_};
+    if (pixels_->empty() || wanted == range_of_)
+        return;
     range_ = automatic_range(buffer, *pixels_, companions);
+    range_of_ = wanted;
 }
 
 const Rgb& PaneImage::at(glm::vec2 place) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <imgui.h>
 
@@ -11,35 +12,90 @@ namespace tessera {
 
 namespace {
 
+// By how much a pane is ahead when it is said to wait: passes in turn keep less of a distance.
+constexpr double least_wait = 2; // seconds
+constexpr double least_wait_spp = 3;
+
 bool is_done(const Snapshot& snapshot, const Pace& pace) {
     return (pace.spp_limit > 0 && snapshot.spp >= pace.spp_limit) ||
            (pace.seconds_limit > 0 && snapshot.seconds >= pace.seconds_limit);
 }
 
+/// Of the request that is out; null: none yet.
+const Snapshot* snapshot_of_request(const PaneState& pane) {
+    const Snapshot* s = pane.snapshot.get();
+    return s && s->generation == pane.generation && !s->coarse ? s : nullptr;
+}
+
+/// Whatever the others do.
+bool is_at_rest(const PaneState& pane, const Pace& pace) {
+    const Snapshot* s = snapshot_of_request(pane);
+    return pane.failed || (s && is_done(*s, pace));
+}
+
+/// "3:10".
+std::string minutes(double seconds) {
+    char text[32];
+    const int whole = static_cast<int>(seconds);
+    std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+    return text;
+}
+
 } // namespace
 
-std::string status_text(const PaneState& pane, bool paused, const Pace& pace) {
-    const std::string method(paper_name(pane.settings.render.method));
-    if (!pane.snapshot || pane.snapshot->generation != pane.generation)
-        return method + (paused ? "   paused" : "   starting");
+std::string status_text(const ViewerState& state, int index) {
+    const PaneState& pane = state.panes[static_cast<std::size_t>(index)];
+    std::string line(paper_name(pane.settings.render.method));
+    const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
+    // What it does comes first: a narrow pane cuts the end off.
+    if (pane.failed)
+        line += "   failed: see the messages (F2)";
+    else if (state.paused)
+        line += "   paused";
+    else if (!is_answered)
+        line += "   starting";
+    else if (is_done(*pane.snapshot, state.pace))
+        line += "   done";
+    else if (const std::string waiting = waiting_text(state, index); !waiting.empty())
+        line += "   " + waiting;
+    if (!is_answered)
+        return line;
     const Snapshot& snapshot = *pane.snapshot;
     const double rate =
         snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
     char text[160];
-    std::snprintf(text, sizeof text, "%s   %d spp   %.2f s   %.1f Mrays/s", method.c_str(), snapshot.spp,
-                  snapshot.seconds, rate * 1e-6);
-    std::string line = text;
+    std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
+                  rate * 1e-6);
+    line += text;
     if (snapshot.coarse)
         line += "   first look";
     else if (snapshot.reconstruction && has_gradients(snapshot.settings.method))
         line += "   reconstruction of pass " + std::to_string(snapshot.reconstruction_spp);
     if (snapshot.counters.refused_samples > 0)
         line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
-    if (paused)
-        line += "   paused";
-    else if (is_done(snapshot, pace))
-        line += "   done";
     return line;
+}
+
+std::string waiting_text(const ViewerState& state, int pane) {
+    if (state.paused)
+        return "";
+    const bool by_time = state.pace.equal == Pace::Equal::time;
+    const auto had = [&](const PaneState& p) {
+        const Snapshot* s = snapshot_of_request(p);
+        return !s ? 0.0 : by_time ? s->seconds : s->spp;
+    };
+    const auto last =
+        std::min_element(state.panes.begin(), state.panes.end(), [&](const PaneState& a, const PaneState& b) {
+            return std::pair(is_at_rest(a, state.pace), had(a)) < std::pair(is_at_rest(b, state.pace), had(b));
+        });
+    const double own = had(state.panes[static_cast<std::size_t>(pane)]);
+    if (is_at_rest(*last, state.pace) || own - had(*last) < (by_time ? least_wait : least_wait_spp))
+        return "";
+    const auto text = [&](double amount) {
+        return by_time ? minutes(amount) : std::to_string(static_cast<int>(amount));
+    };
+    return "waiting for pane " + std::to_string(last - state.panes.begin() + 1) + " (" + text(had(*last)) +
+           " of " + text(own) + (by_time ? ")" : " spp)");
 }
 
 std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about) {
@@ -65,16 +121,29 @@ std::string cursor_text(const ViewerState& state, const PaneImages& images, int 
     if (!value)
         return "";
     const PaneImage& image = images[static_cast<std::size_t>(showing.pane)];
-    const glm::vec2 size(image.pixels().width(), image.pixels().height());
+    const glm::vec2 size = image.coarse() ? glm::vec2(state.request_size())
+                                          : glm::vec2(image.pixels().width(), image.pixels().height());
     char where[48];
     std::snprintf(where, sizeof where, "(%d, %d)  ", static_cast<int>(place.x * size.x),
                   static_cast<int>(place.y * size.y));
     return where + value_text(*value, colour_map(showing, state), info(image.buffer()));
 }
 
+std::string cursor_help(const Showing& showing, const ViewerState& state) {
+    const BufferInfo& about = info(buffer_of(showing.pane, state));
+    std::string numbers = "its red, green and blue, and its luminance (Y)";
+    if (colour_map(showing, state) == ColourMap::false_colour)
+        numbers = "its number" + (*about.unit ? " in " + std::string(about.unit) : "");
+    else if (colour_map(showing, state) == ColourMap::direction)
+        numbers = "its x, y and z";
+    return "Pixel under the mouse, counted from the top left, and " + numbers + ".\n\n" +
+           (showing.subtrahend >= 0 ? label_of(showing, state) + ": the difference of their numbers.\n\n" : "") +
+           about.label + ": " + about.help;
+}
+
 void draw_status(const std::string& id, int pane, const ViewerState& state, const PaneImages& images,
                  Controls& controls) {
-    const std::string status = status_text(state.panes[static_cast<std::size_t>(pane)], state.paused, state.pace);
+    const std::string status = status_text(state, pane);
     const std::string cursor = cursor_text(state, images, pane);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float room = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = ImGui::GetTextLineHeight();
@@ -91,14 +160,16 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
         list.AddText(mono_font(), ImGui::GetFontSize(), {left, at.y}, colours::text, cursor.c_str());
 
     ImGui::Dummy({room, height});
-    controls.note((id + ".status").c_str(), status.c_str()); // a narrow pane cuts it off
+    const std::string help = // a narrow pane cuts the line off
+        status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
+                 "second; the pass that the picture on show is reconstructed from.";
+    controls.note((id + ".status").c_str(), help.c_str());
     if (cursor.empty())
         return;
     ImGui::SetCursorScreenPos({left, at.y});
     ImGui::Dummy({std::min(width, room), height});
-    controls.note((id + ".value").c_str(),
-                  "Pixel under the mouse, counted from the top left, and its value in the "
-                  "buffer on show: red, green, blue and luminance (Y); radiance.");
+    const Showing showing = showing_at(state, pane, state.cursor->share);
+    controls.note((id + ".value").c_str(), cursor_help(showing, state).c_str());
 }
 
 } // namespace tessera

@@ -1,7 +1,6 @@
 #include "ui/pane_view.h"
 
 #include "ui/imgui_version.h"
-#include "ui/legend.h"
 #include "ui/magnifier.h"
 #include "ui/mouse.h"
 #include "ui/pane_header.h"
@@ -48,11 +47,21 @@ PaneMouse read_mouse(const PictureFrame& frame) {
     return mouse;
 }
 
-// Words in the middle of a pane that has no picture.
-void draw_notice(const ScreenRect& where, const char* text) {
-    const ImVec2 size = ImGui::CalcTextSize(text);
+// Words in the middle of a place that has no picture, wrapped to its width.
+void draw_notice(const ScreenRect& where, const std::string& text) {
+    const float width = where.size().x - ImGui::GetFontSize();
+    if (text.empty() || width < ImGui::GetFontSize())
+        return;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
     const glm::vec2 at = (where.min + where.max - glm::vec2(size.x, size.y)) * 0.5f;
-    ImGui::GetWindowDrawList()->AddText({at.x, at.y}, colours::overlay_dim_text, text);
+    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x, at.y},
+                                        colours::overlay_dim_text, text.c_str(), nullptr, width);
+}
+
+// What lies to the left and to the right of a wipe's line.
+std::array<ScreenRect, 2> side_rects(const PictureFrame& frame, const ViewerState& state) {
+    const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.wipe));
+    return {{{frame.rect.min, {middle, frame.rect.max.y}}, {{middle, frame.rect.min.y}, frame.rect.max}}};
 }
 
 const PaneImage& image_of(const Showing& showing, const PaneTools& tools) {
@@ -72,7 +81,7 @@ CanvasView view_of(const Showing& showing, const PictureFrame& frame, const Pane
     view.image_extent = frame.placement.extent;
     view.colour_map = colour_map(showing, state);
     view.tone = state.tone;
-    view.range = range_of(showing, state, tools.images);
+    view.range = range_of(buffer_of(showing.pane, state), state, tools.images);
     view.coarse = image_of(showing, tools).coarse();
     view.mark_negative = state.mark_negative;
     return view;
@@ -143,16 +152,17 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
     if (ImGui::IsItemActivated()) {
         state.active_pane = index;
         grip_ = grip_at(index, frame, tools);
-        if (grip_ >= Grip::legend_low && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-            state.ranges.erase(
-                state.panes[static_cast<std::size_t>(showing_at(state, index, 0).pane)].settings.buffer);
+        if (grip_.range && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+            state.ranges.erase(grip_.range->buffer); // back to what fits by itself
+            grip_ = grip_at(index, frame, tools);
+        }
     }
     PaneMouse mouse = read_mouse(frame);
     const Grip hold = ImGui::IsItemActive() ? grip_ : grip_at(index, frame, tools);
-    if (hold != Grip::camera && ImGui::IsItemHovered())
+    if (!hold.is_camera() && ImGui::IsItemHovered())
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (ImGui::IsItemActive() && grip_ != Grip::camera) {
-        drag(index, frame, (mouse.position.x - mouse.previous.x) / frame.pixels_a_unit, tools);
+    if (ImGui::IsItemActive() && !grip_.is_camera()) {
+        drag(frame, state);
         mouse.left = mouse.middle = mouse.right = false; // the wheel still works
     }
     if ((state.inspector.active || state.slow_motion.active) && mouse.left && !mouse.ctrl && !mouse.shift) {
@@ -176,8 +186,9 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
     if (place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
         return;
     const float share = (mouse_position().x - frame.rect.min.x) / frame.rect.size().x;
+    const int shown = showing_at(state, index, share).pane;
     const SampleChoice choice{
-        showing_at(state, index, share).pane, glm::ivec2(place * glm::vec2(state.request_size())), {}};
+        shown == the_reference ? index : shown, glm::ivec2(place * glm::vec2(state.request_size())), {}};
     if (state.slow_motion.active)
         state.slow_motion.start({index, choice.pixel, {}});
     else
@@ -186,33 +197,26 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
 
 PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {
     const glm::vec2 point = mouse_position();
-    const float margin = ImGui::GetFontSize() * 0.4f;
-    if (ScreenRect{legend_.min - margin, legend_.max + margin}.contains(point) && legend_.size().x > 0)
-        return point.x < (legend_.min.x + legend_.max.x) * 0.5f ? Grip::legend_low : Grip::legend_high;
-    const bool wipes = showing_at(tools.state, index, -1) != showing_at(tools.state, index, 2);
-    return wipes && is_on_wipe(frame, tools.state.wipe, point) ? Grip::wipe : Grip::camera;
+    Grip grip;
+    grip.range = legends_.held_at(point, tools);
+    if (!grip.range && sides_of(tools.state, index).divided() && is_on_wipe(frame, tools.state.wipe, point))
+        grip.wipe = point.x - glm::mix(frame.rect.min.x, frame.rect.max.x, tools.state.wipe);
+    return grip;
 }
 
-/// Moves what the mouse holds by so many screen units.
-void PaneView::drag(int index, const PictureFrame& frame, float by, PaneTools& tools) const {
-    ViewerState& state = tools.state;
-    if (by == 0)
-        return;
-    if (grip_ == Grip::wipe) {
-        state.wipe = std::clamp(state.wipe + by / frame.rect.size().x, 0.0f, 1.0f);
-        return;
-    }
-    const Showing showing = showing_at(state, index, 0);
-    const ValueRange range = range_of(showing, state, tools.images);
-    const float share = by / std::max(legend_.size().x, 1.0f);
-    state.ranges[state.panes[static_cast<std::size_t>(showing.pane)].settings.buffer] =
-        grip_ == Grip::legend_low ? range.with_low_dragged(share) : range.with_high_dragged(share);
+/// Moves what the mouse holds to where it is: however far it went beyond an end, it comes back at the same place.
+void PaneView::drag(const PictureFrame& frame, ViewerState& state) const {
+    const float x = mouse_position().x;
+    if (grip_.wipe)
+        state.wipe = std::clamp((x - *grip_.wipe - frame.rect.min.x) / frame.rect.size().x, 0.0f, 1.0f);
+    else if (x != grip_.range->from || state.ranges.count(grip_.range->buffer) > 0)
+        state.ranges[grip_.range->buffer] = grip_.range->at(x);
 }
 
 // --- the picture ---
 
 void PaneView::draw_renditions(int index, const PictureFrame& frame, PaneTools& tools) {
-    const Showing left = showing_at(tools.state, index, -1), right = showing_at(tools.state, index, 2);
+    const Sides sides = sides_of(tools.state, index);
     const ImVec2 min(frame.rect.min.x, frame.rect.min.y), max(frame.rect.max.x, frame.rect.max.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto draw = [&](Canvas& canvas, const Showing& showing) {
@@ -220,52 +224,62 @@ void PaneView::draw_renditions(int index, const PictureFrame& frame, PaneTools& 
                                              view_of(showing, frame, tools), subtrahend_of(showing, tools));
         list.AddImage(texture_id(rendition), min, max, {0, 1}, {1, 0});
     };
-    draw(canvas_, left);
-    if (right == left)
+    draw(canvas_, sides.left);
+    if (!sides.divided())
         return;
-    list.PushClipRect({std::floor(min.x + tools.state.wipe * (max.x - min.x)), min.y}, max, true);
-    draw(right_canvas_, right);
+    const ScreenRect right = side_rects(frame, tools.state)[1];
+    list.PushClipRect({right.min.x, right.min.y}, {right.max.x, right.max.y}, true);
+    draw(right_canvas_, sides.right);
     list.PopClipRect();
 }
 
 void PaneView::draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools) {
     ViewerState& state = tools.state;
-    const ScreenRect& rect = frame.rect;
-    const Showing left = showing_at(state, index, -1);
     draw_shared(index, frame, state);
     if (!shows_slow_motion(index, state)) // which has numbers of its own
         draw_pixel_numbers(frame, index, state, tools.images);
-    draw_comparison(frame, index, state);
-    legend_ = {};
-    const PaneState& shown = state.panes[static_cast<std::size_t>(left.pane)];
-    const std::string missing =
-        missing_text(shown.snapshot.get(), shown.settings.render.method, shown.settings.buffer, state.companions);
-    if (!missing.empty())
-        draw_notice(rect, missing.c_str());
-    else if (colour_map(left, state) == ColourMap::false_colour && !image_of(left, tools).empty())
-        legend_ = draw_legend(rect, id + ".legend", shown.settings.buffer, range_of(left, state, tools.images),
-                              false, tools.controls);
+    draw_comparison(frame, id, index, state, tools.controls);
+    draw_missing(index, frame, state);
+    legends_.draw(frame, id, index, tools);
     if (state.magnifier)
         draw_magnifier_at_cursor(index, frame, tools);
-    if (index == state.active_pane && state.panes.size() > 1 && !state.alone)
-        ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
+    draw_active_frame(index, frame, state);
+}
+
+/// Why there is no picture, on each side of a wipe's line.
+void PaneView::draw_missing(int index, const PictureFrame& frame, const ViewerState& state) {
+    const Sides sides = sides_of(state, index);
+    if (!sides.divided())
+        return draw_notice(frame.rect, missing_text(sides.left, state));
+    const auto rects = side_rects(frame, state);
+    draw_notice(rects[0], missing_text(sides.left, state));
+    draw_notice(rects[1], missing_text(sides.right, state));
 }
 
 /// Who shares light with whom, on each side of a wipe's line.
 void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerState& state) {
-    const Showing left = showing_at(state, index, -1), right = showing_at(state, index, 2);
+    const Sides sides = sides_of(state, index);
     const auto draw = [&](const Showing& showing, const ScreenRect& clip) {
+        if (showing.pane == the_reference)
+            return;
         const auto& snapshot = state.panes[static_cast<std::size_t>(showing.pane)].snapshot;
         if (state.show_tiles && snapshot)
             draw_tiles(frame, clip, *snapshot, state.cursor ? std::optional(state.cursor->place) : std::nullopt);
         draw_inspected_paths(frame, clip, showing.pane, state);
         draw_slow_motion(frame, clip, showing.pane, state);
     };
-    if (right == left)
-        return draw(left, frame.rect);
-    const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.wipe));
-    draw(left, {frame.rect.min, {middle, frame.rect.max.y}});
-    draw(right, {{middle, frame.rect.min.y}, frame.rect.max});
+    if (!sides.divided())
+        return draw(sides.left, frame.rect);
+    const auto rects = side_rects(frame, state);
+    draw(sides.left, rects[0]);
+    draw(sides.right, rects[1]);
+}
+
+/// Which of several panes the settings and keys are for.
+void PaneView::draw_active_frame(int index, const PictureFrame& frame, const ViewerState& state) {
+    const ScreenRect& rect = frame.rect;
+    if (index == state.active_pane && state.panes.size() > 1 && !state.alone)
+        ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
 }
 
 void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools) {

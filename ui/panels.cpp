@@ -90,6 +90,7 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     if (x > ImGui::GetCursorPosX())
         ImGui::SetCursorPosX(x);
     ImGui::TextDisabled("%s", name.c_str());
+    controls.note("scene_name", ("The scene on show: " + state.scene_name).c_str());
     if (count == 0)
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);

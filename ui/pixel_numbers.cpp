@@ -25,14 +25,21 @@ void draw_shadowed(ImDrawList& list, float font, ImVec2 at, const char* text) {
 void draw_value(ImDrawList& list, float font, glm::vec2 center, const Rgb& value, int lines) {
     float y = std::floor(center.y - font * 0.5f * static_cast<float>(lines));
     for (int i = 0; i < lines; ++i, y += font) {
-        char text[24];
-        std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value[i]));
-        const float width = mono_font()->CalcTextSizeA(font, 1e6f, 0, text).x;
-        draw_shadowed(list, font, {std::floor(center.x - width * 0.5f), y}, text);
+        const std::string text = short_number(value[i]);
+        const float width = mono_font()->CalcTextSizeA(font, 1e6f, 0, text.c_str()).x;
+        draw_shadowed(list, font, {std::floor(center.x - width * 0.5f), y}, text.c_str());
     }
 }
 
 } // namespace
+
+std::string short_number(float value) {
+    char text[24];
+    int length = characters + 1;
+    for (int digits = 3; digits > 0 && length > characters; --digits)
+        length = std::snprintf(text, sizeof text, "%.*g", digits, static_cast<double>(value));
+    return text;
+}
 
 bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& state, const PaneImages& images) {
     const Showing first = showing_at(state, pane, 0);
@@ -56,7 +63,8 @@ bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& 
             const Showing showing = showing_at(state, pane, (center.x - frame.rect.min.x) / frame.rect.size().x);
             const bool scalar = colour_map(showing, state) == ColourMap::false_colour;
             if (const std::optional<Rgb> value = value_at(showing, images, place))
-                draw_value(list, font, center, *value, scalar ? 1 : 3);
+                draw_value(list, font, center, *value * info(buffer_of(showing.pane, state)).unit_scale,
+                           scalar ? 1 : 3);
         }
     }
     list.PopClipRect();

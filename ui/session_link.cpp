@@ -1,13 +1,20 @@
 #include "ui/session_link.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tessera {
 
+namespace {
+constexpr int few_samples = 8; // a pixel: what a better size may throw away
+} // namespace
+
 void SessionLink::take(ViewerState& state) {
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        if (auto snapshot = session_.latest(static_cast<int>(i)))
-            state.panes[i].snapshot = std::move(snapshot);
+        PaneState& pane = state.panes[i];
+        if (auto snapshot = session_.latest(pane.slot))
+            pane.snapshot = std::move(snapshot);
+        pane.failed = session_.has_failed(pane.slot);
         report_refused(state, i);
     }
     for (std::string& message : session_.take_messages())
@@ -17,12 +24,13 @@ void SessionLink::take(ViewerState& state) {
 /// Once for every request; not of a first look, whose pixels are others.
 void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
-    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == refused_told_[pane])
+    std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
+    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == told)
         return;
     const std::string text = refused_text(snapshot->counters, snapshot->settings.seed);
     if (text.empty())
         return;
-    refused_told_[pane] = snapshot->generation;
+    told = snapshot->generation;
     state.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
                       Message::Origin::scene);
     const RefusedSample& first = *snapshot->counters.first_refused;
@@ -31,11 +39,16 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
 
 void SessionLink::send(ViewerState& state) {
     send_running(state);
-    for (std::size_t i = 0; state.scene && i < state.panes.size(); ++i)
-        send_pane(state, i);
-    for (std::size_t i = state.panes.size(); i < sent_.size(); ++i) {
-        if (std::exchange(sent_[i], {}).scene)
-            session_.withdraw(static_cast<int>(i));
+    latch_size(state);
+    std::array<bool, most_panes> is_used{};
+    for (PaneState& pane : state.panes) {
+        is_used[static_cast<std::size_t>(pane.slot)] = true;
+        if (state.scene)
+            send_pane(state, pane);
+    }
+    for (std::size_t slot = 0; slot < sent_.size(); ++slot) {
+        if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
+            session_.withdraw(static_cast<int>(slot));
     }
     state.restart = false;
     for (; state.steps > 0; --state.steps)
@@ -51,23 +64,41 @@ void SessionLink::send_running(const ViewerState& state) {
     sent_pace_ = state.pace;
 }
 
-bool SessionLink::differs(const ViewerState& state, const PaneState& pane, const Sent& sent) {
-    return sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
-           sent.size != state.request_size() || !(sent.render == pane.settings.render);
+/// Whatever its size.
+bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) const {
+    const Sent& sent = sent_of(pane);
+    return state.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
+           !(sent.render == pane.settings.render);
 }
 
-void SessionLink::send_pane(ViewerState& state, std::size_t index) {
-    PaneState& pane = state.panes[index];
-    Sent& sent = sent_[index];
-    const int session_pane = static_cast<int>(index);
-    if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
-        session_.set_reconstruction(session_pane, pane.settings.reconstruction);
-    sent.reconstruction = pane.settings.reconstruction;
-    if (!state.restart && !differs(state, pane, sent))
+/// A size starts every render anew, so one that only fits better (a panel was shown, the window resized) waits
+/// until no pane has anything to lose by it; the pictures are scaled meanwhile. One that the user has chosen does
+/// not wait.
+void SessionLink::latch_size(ViewerState& state) {
+    const auto has_much_to_lose = [&](const PaneState& pane) {
+        const Snapshot* s = pane.snapshot.get();
+        return !starts_anew(state, pane) && s && s->generation == sent_of(pane).generation &&
+               s->spp >= few_samples;
+    };
+    if (state.size == latched_choice_ && std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
         return;
-    sent = {state.scene, state.camera.camera(), state.request_size(), pane.settings.render,
-            pane.settings.reconstruction};
-    pane.generation = session_.submit(session_pane, {sent.scene, sent.camera, sent.size, sent.render});
+    state.latched_size = state.fitting_size();
+    latched_choice_ = state.size;
+}
+
+void SessionLink::send_pane(ViewerState& state, PaneState& pane) {
+    Sent& sent = sent_of(pane);
+    if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
+        session_.set_reconstruction(pane.slot, pane.settings.reconstruction);
+    sent.reconstruction = pane.settings.reconstruction;
+    if (starts_anew(state, pane) || sent.size != state.request_size()) {
+        sent.scene = state.scene;
+        sent.camera = state.camera.camera();
+        sent.size = state.request_size();
+        sent.render = pane.settings.render;
+        sent.generation = session_.submit(pane.slot, {sent.scene, sent.camera, sent.size, sent.render});
+    }
+    pane.generation = sent.generation;
 }
 
 } // namespace tessera

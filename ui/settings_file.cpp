@@ -129,7 +129,7 @@ PaneSettings read_pane(const Fields& fields, PaneSettings pane) {
     });
     fields.read("alpha", 0.001, 10, pane.reconstruction.alpha);
     fields.read("comparison", comparisons, pane.comparison.kind);
-    fields.read("compare_with", 0, most_panes, pane.comparison.with);
+    fields.read("compare_with", 0, the_reference + 1, pane.comparison.with);
     if (fields.has("compare_with"))
         --pane.comparison.with;
     fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });

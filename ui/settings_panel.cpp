@@ -103,8 +103,17 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
     float percent = state.size.scale * 100.0f;
     if (controls.slider("scale", "Scale", percent, 5, 200, "%.0f %%", "Of width and height. Less is quicker."))
         state.size.scale = percent / 100.0f;
-    const glm::ivec2 size = state.request_size();
+    const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
     ImGui::TextDisabled("%d x %d pixels a pane", size.x, size.y);
+    controls.note("pixels",
+                  "What is rendered now. A panel or a window of another size throws no samples away: the "
+                  "pictures are scaled, until the panes start anew.");
+    if (size != fitting) {
+        ImGui::TextDisabled("%d x %d when they start anew", fitting.x, fitting.y);
+        controls.note("fitting_pixels",
+                      "What fits the panes as they are: taken when the camera moves, or all of them "
+                      "are restarted (R).");
+    }
 }
 
 void draw_run_buttons(Controls& controls, ViewerState& state) {
@@ -159,12 +168,17 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
             chosen = static_cast<int>(panes.size());
         panes.push_back(i);
         const PaneState& other = state.panes[static_cast<std::size_t>(i)];
+        const std::string pane = "pane " + std::to_string(i + 1) + ", ";
         others.push_back(
-            {std::to_string(i + 1),
-             "pane " + std::to_string(i + 1) + ", " + std::string(paper_name(other.settings.render.method)), ""});
+            {std::to_string(i + 1), pane + std::string(paper_name(other.settings.render.method)),
+             pane + std::string(long_name(other.settings.render.method)) + ", with the buffer that it shows."});
     }
+    if (with == the_reference)
+        chosen = static_cast<int>(panes.size());
+    panes.push_back(the_reference);
+    others.push_back({"reference", "the reference", "The picture that errors are measured against."});
     if (controls.choice("compare_with", "With", others, chosen,
-                        "The pane that is compared with the active one, and that it shows while B is held."))
+                        "What is compared with the active pane, and what that shows while B is held."))
         comparison.with = panes[static_cast<std::size_t>(chosen)];
 }
 
@@ -237,7 +251,7 @@ void draw_contents(Controls& controls, ViewerState& state) {
 
     heading("Display");
     draw_display_settings(controls, state);
-    if (state.panes.size() > 1) {
+    if (state.compared_with(state.active_pane) != state.active_pane) {
         heading("Compare");
         draw_comparison_settings(controls, state);
     }

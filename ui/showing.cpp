@@ -1,5 +1,7 @@
 #include "ui/showing.h"
 
+#include <algorithm>
+
 namespace tessera {
 
 namespace {
@@ -8,8 +10,22 @@ const PaneSettings& settings(const ViewerState& state, int pane) {
     return state.panes[static_cast<std::size_t>(pane)].settings;
 }
 
+const PaneImage& image_of(int pane, const PaneImages& images) {
+    return images[static_cast<std::size_t>(pane)];
+}
+
 std::string name(const ViewerState& state, int pane) {
+    if (pane == the_reference)
+        return "Reference";
     return std::to_string(pane + 1) + "  " + std::string(paper_name(settings(state, pane).render.method));
+}
+
+std::string missing_text(int pane, const ViewerState& state) {
+    if (pane == the_reference)
+        return missing_text(nullptr, Method::pt, Buffer::reference, state.companions);
+    const PaneState& shown = state.panes[static_cast<std::size_t>(pane)];
+    return missing_text(shown.snapshot.get(), shown.settings.render.method, shown.settings.buffer,
+                        state.companions);
 }
 
 } // namespace
@@ -31,29 +47,51 @@ Showing showing_at(const ViewerState& state, int pane, float share) {
     return {pane};
 }
 
-ColourMap colour_map(const Showing& showing, const ViewerState& state) {
-    return showing.subtrahend >= 0 ? ColourMap::signed_difference
-                                   : colour_map(settings(state, showing.pane).buffer);
+Sides sides_of(const ViewerState& state, int pane) {
+    return {showing_at(state, pane, -1), showing_at(state, pane, 2)};
 }
 
-ValueRange range_of(const Showing& showing, const ViewerState& state, const PaneImages& images) {
-    const auto set = state.ranges.find(settings(state, showing.pane).buffer);
-    return set != state.ranges.end() ? set->second : images[static_cast<std::size_t>(showing.pane)].range();
+Buffer buffer_of(int pane, const ViewerState& state) {
+    return pane == the_reference ? Buffer::reference : settings(state, pane).buffer;
+}
+
+ColourMap colour_map(const Showing& showing, const ViewerState& state) {
+    return showing.subtrahend >= 0 ? ColourMap::signed_difference : colour_map(buffer_of(showing.pane, state));
+}
+
+ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& images) {
+    if (const auto set = state.ranges.find(buffer); set != state.ranges.end())
+        return set->second;
+    std::optional<ValueRange> all;
+    for (const PaneImage& image : images) {
+        if (image.empty() || image.buffer() != buffer)
+            continue;
+        const ValueRange& own = image.range();
+        all = all ? ValueRange{std::min(all->low, own.low), std::max(all->high, own.high), own.logarithmic} : own;
+    }
+    return all.value_or(ValueRange{});
+}
+
+std::string missing_text(const Showing& showing, const ViewerState& state) {
+    const std::string text = missing_text(showing.pane, state);
+    return text.empty() && showing.subtrahend >= 0 ? missing_text(showing.subtrahend, state) : text;
 }
 
 std::optional<Rgb> value_at(const Showing& showing, const PaneImages& images, glm::vec2 place) {
-    const PaneImage& image = images[static_cast<std::size_t>(showing.pane)];
+    const PaneImage& image = image_of(showing.pane, images);
     if (image.empty() || place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
         return std::nullopt;
     if (showing.subtrahend < 0)
         return image.at(place);
-    const PaneImage& other = images[static_cast<std::size_t>(showing.subtrahend)];
-    return other.empty() ? image.at(place) : image.at(place) - other.at(place);
+    const PaneImage& other = image_of(showing.subtrahend, images);
+    return other.empty() ? std::nullopt : std::optional(image.at(place) - other.at(place));
 }
 
 std::string label_of(const Showing& showing, const ViewerState& state) {
     if (showing.subtrahend >= 0)
         return name(state, showing.pane) + "  minus  " + name(state, showing.subtrahend);
+    if (showing.pane == the_reference)
+        return name(state, showing.pane);
     return name(state, showing.pane) + "  " + std::string(long_name(settings(state, showing.pane).buffer));
 }
 

@@ -17,7 +17,14 @@ struct FrameHooks {
     std::function<void(double last_frame_seconds)> before;
     /// Called after it is drawn and before it is shown; false ends the loop. May be empty.
     std::function<bool()> after;
+    /// Asked between frames, at least once a second: true ends the loop. May be empty.
+    std::function<bool()> ends;
+    /// Called when the display is lost, from the thread of run(): the last that is done. May be empty.
+    std::function<void()> lost;
 };
+
+/// What the process ends with when its display is lost (the server ended, or the connection to it).
+inline constexpr int display_lost = 3;
 
 struct SurfaceOptions {
     std::string title = "Tessera";
@@ -31,8 +38,8 @@ class Surface {
 public:
     virtual ~Surface() = default;
 
-    /// Draws frames when they are due, and sleeps between them, until the user quits or the hook says so. What
-    /// a hook throws goes through.
+    /// Draws frames when they are due, and sleeps between them, until the user quits or a hook says so. What a
+    /// hook throws goes through. A lost display ends the process, see display_lost.
     virtual void run(Viewer& viewer, const FrameHooks& hooks) = 0;
     /// Makes run() draw a frame soon. From any thread.
     virtual void wake() = 0;

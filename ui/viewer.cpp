@@ -35,8 +35,11 @@ bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
 } // namespace
 
 Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), options_(std::move(options)) {
-    for (const PaneSettings& settings : options_.panes)
-        state_.panes.push_back({settings, nullptr, 0, glm::ivec2(0)});
+    for (const PaneSettings& settings : options_.panes) {
+        PaneState& pane = state_.panes.emplace_back();
+        pane.settings = settings;
+        pane.slot = static_cast<int>(state_.panes.size()) - 1;
+    }
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
@@ -157,8 +160,14 @@ void Viewer::draw_side(const ScreenRect& where) {
 
 void Viewer::draw_panes(const ScreenRect& where) {
     const int panes = static_cast<int>(state_.panes.size());
-    for (std::size_t i = 0; i < state_.panes.size(); ++i)
-        images_[i].take(state_.panes[i], state_.companions);
+    bool wants_reference = false;
+    for (std::size_t i = 0; i < state_.panes.size(); ++i) {
+        images_[i].take(state_.panes[i].snapshot.get(), state_.panes[i].settings.buffer, state_.companions);
+        wants_reference |= state_.compared_with(static_cast<int>(i)) == the_reference;
+    }
+    for (std::size_t i = state_.panes.size(); i < most_panes; ++i)
+        images_[i].take(nullptr, Buffer::reconstruction, {});
+    images_[the_reference].take(nullptr, Buffer::reference, wants_reference ? state_.companions : Companions{});
     if (state_.cursor && (state_.cursor->pane >= panes || !state_.is_on_show(state_.cursor->pane)))
         state_.cursor.reset();
     PaneTools tools{shader_, images_, controls_, state_};

@@ -51,7 +51,7 @@ struct ViewerOptions {
 class Viewer {
 public:
     Viewer(Session& session, ViewerOptions options);
-    ~Viewer(); ///< remembers the layout
+    ~Viewer(); ///< remember()
 
     /// Loads a scene in the background; the old one stays until it is there. One that is still being loaded is
     /// given up. `file` is where it comes from, empty: from no file.
@@ -63,6 +63,9 @@ public:
 
     /// Loads the first scene file among those dropped on the window, and the first EXR file as the reference.
     void drop(const std::vector<std::filesystem::path>& files);
+
+    /// Stores what the next viewer begins with: the layout, the recent scenes.
+    void remember();
 
     /// Draws one frame, between Gui's begin and end. Takes in what is new, then sends what changed to the session.
     void draw_frame();
@@ -91,7 +94,6 @@ private:
     void save(const std::function<std::string()>& write);
     void save_exr();
     void take_preferences();
-    void remember();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);

@@ -31,6 +31,17 @@ PaneSettings new_pane(const ViewerState& state) {
     return settings;
 }
 
+/// The least that no pane has.
+int free_slot(const std::vector<PaneState>& panes) {
+    const auto is_taken = [&](int slot) {
+        return std::any_of(panes.begin(), panes.end(), [&](const PaneState& p) { return p.slot == slot; });
+    };
+    int slot = 0;
+    while (is_taken(slot))
+        ++slot;
+    return slot;
+}
+
 } // namespace
 
 std::vector<PaneSettings> default_panes(int count) {
@@ -52,8 +63,10 @@ void ViewerState::set_pane_count(int count) {
         panes.pop_back();
     }
     while (panes.size() < wanted) {
-        PaneState pane{spare_panes.empty() ? new_pane(*this) : spare_panes.back(), nullptr, 0,
-                       active().canvas_size};
+        PaneState pane;
+        pane.settings = spare_panes.empty() ? new_pane(*this) : spare_panes.back();
+        pane.canvas_size = active().canvas_size;
+        pane.slot = free_slot(panes);
         if (!spare_panes.empty())
             spare_panes.pop_back();
         panes.push_back(std::move(pane));
@@ -64,10 +77,12 @@ void ViewerState::set_pane_count(int count) {
 int ViewerState::compared_with(int pane) const {
     const int count = static_cast<int>(panes.size()),
               with = panes[static_cast<std::size_t>(pane)].settings.comparison.with;
+    if (with == the_reference || (count == 1 && companions.reference))
+        return the_reference;
     return with >= 0 && with < count && with != pane ? with : (pane + 1) % count;
 }
 
-glm::ivec2 ViewerState::request_size() const {
+glm::ivec2 ViewerState::fitting_size() const {
     const glm::ivec2 film = scene ? scene->size() : glm::ivec2(16, 9);
     glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : active().canvas_size;
     for (int i = 0; i < static_cast<int>(panes.size()); ++i) {

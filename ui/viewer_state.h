@@ -27,6 +27,8 @@
 namespace tessera {
 
 inline constexpr int most_panes = 4;
+/// What a pane is compared with, in place of another's index: the picture that errors are measured against.
+inline constexpr int the_reference = most_panes;
 
 /// How a pane shows another pane's picture with its own.
 struct Comparison {
@@ -36,7 +38,7 @@ struct Comparison {
         difference, ///< its own minus the other's, in +/- colours
     };
     Kind kind = Kind::off;
-    int with = -1; ///< the other pane; one that is not there: the next
+    int with = -1; ///< the other pane, or the_reference; one that is not there: the next
 
     bool operator==(const Comparison&) const = default;
 };
@@ -56,6 +58,8 @@ struct PaneState {
     std::shared_ptr<const Snapshot> snapshot; ///< the newest; null before the first
     std::uint64_t generation = 0;             ///< of the request that is out
     glm::ivec2 canvas_size{0};                ///< pixels of the place for its picture, as last drawn
+    bool failed = false;                      ///< its render went wrong: nothing more will come of the request
+    int slot = 0; ///< the session's pane that renders it: no other has it, and it keeps it wherever it is shown
 };
 
 /// What charts show of a pane.
@@ -121,6 +125,7 @@ struct ViewerState {
     CameraControl camera;
     ImageView view;
     SizeChoice size;
+    glm::ivec2 latched_size{16, 9}; ///< request_size()
     Tone tone;
     bool mark_negative = false; ///< as NaN and infinity always are
     bool magnifier = false;
@@ -176,11 +181,13 @@ struct ViewerState {
 
     bool is_on_show(int pane) const { return !alone || pane == active_pane; }
 
-    /// The pane that `pane` is compared with; itself if there is no other.
+    /// What `pane` is compared with: another pane or the_reference; itself if there is neither.
     int compared_with(int pane) const;
 
-    /// The size that all panes are to render, pixels.
-    glm::ivec2 request_size() const;
+    /// The size that all panes are to render, pixels: not what fits best at the moment, see SessionLink.
+    glm::ivec2 request_size() const { return latched_size; }
+    /// The size that the choice and the panes on show now come to, pixels.
+    glm::ivec2 fitting_size() const;
 
     /// Adds a message; an error opens the list at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);

@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 #define GLFW_INCLUDE_NONE
 #include "ui/gui.h"
+#include "ui/lost_display.h"
 #include "ui/surface.h"
 #include "ui/viewer.h"
 
@@ -58,11 +59,9 @@ Key key_of_glfw(int key) {
     }
 }
 
-// What is printed on the key: GLFW's own letters are places on an American keyboard.
-Key named_key(int key, int scancode) {
-    const char* name = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, scancode) : nullptr;
-    const Key named = name != nullptr && name[1] == 0 ? key_of_character(name[0]) : Key::none;
-    return named != Key::none ? named : key_of_glfw(key);
+// GLFW's own letters and digits are places on an American keyboard.
+const char* printed_on(int key, int scancode) {
+    return key > GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
 }
 
 glm::ivec2 on_screen(glm::ivec2 size) {
@@ -116,6 +115,7 @@ std::string Window::open(const SurfaceOptions& options) {
     glfwSetErrorCallback(note_glfw_error);
     if (!glfwInit())
         return last_glfw_error;
+    watch_display();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -168,9 +168,12 @@ void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int m
     Keyboard& keyboard = self.viewer_->keyboard();
     if (action == GLFW_RELEASE)
         keyboard.release(key_of_glfw(key));
-    else if (action == GLFW_PRESS)
-        keyboard.press(key_of_glfw(key), named_key(key, scancode), (mods & GLFW_MOD_CONTROL) != 0,
-                       (mods & GLFW_MOD_SHIFT) != 0);
+    else if (action == GLFW_PRESS) {
+        // The right one is no modifier to X where it makes brackets.
+        const bool alt = (mods & GLFW_MOD_ALT) != 0 || glfwGetKey(window, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+        keyboard.press(key_of_glfw(key), key_named(printed_on(key, scancode), key_of_glfw(key), alt),
+                       (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
+    }
 }
 
 void Window::on_character(GLFWwindow* window, unsigned character) {
@@ -227,10 +230,14 @@ void Window::wait_until_due(double next_frame_in) {
 }
 
 void Window::run(Viewer& viewer, const FrameHooks& hooks) {
+    const LastCall last_call(hooks.lost);
     viewer_ = &viewer;
     last_frame_ = glfwGetTime() - frame_seconds;
     double took = 0;
-    while (!glfwWindowShouldClose(window_) && !viewer.state().quit) {
+    const auto ends = [&] {
+        return glfwWindowShouldClose(window_) || viewer.state().quit || (hooks.ends && hooks.ends());
+    };
+    while (!ends()) {
         const double before = last_frame_;
         wait_until_due(viewer.next_frame_in());
         const double now = glfwGetTime();

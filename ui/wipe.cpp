@@ -2,6 +2,7 @@
 
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
@@ -27,9 +28,11 @@ void draw_label(const PictureFrame& frame, float x, float align, const Showing& 
     const ImVec2 max(min.x + width, min.y + size.y + pad);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
-    const Method method = state.panes[static_cast<std::size_t>(showing.pane)].settings.render.method;
-    list.AddRectFilled({min.x + pad, min.y + pad * 0.5f}, {min.x + pad + bar, max.y - pad * 0.5f},
-                       method_colour(method));
+    const ImU32 colour =
+        showing.pane == the_reference
+            ? colours::overlay_dim_text
+            : method_colour(state.panes[static_cast<std::size_t>(showing.pane)].settings.render.method);
+    list.AddRectFilled({min.x + pad, min.y + pad * 0.5f}, {min.x + pad + bar, max.y - pad * 0.5f}, colour);
     list.AddText({min.x + 2 * pad + bar, min.y + pad * 0.5f}, colours::overlay_text, text.c_str());
 }
 
@@ -48,6 +51,17 @@ void draw_line(const PictureFrame& frame, float x) {
     }
 }
 
+void note_line(const PictureFrame& frame, float x, const std::string& id, Controls& controls) {
+    const float reach = grab_ems * ImGui::GetFontSize();
+    const ImVec2 cursor = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({x - reach, frame.rect.min.y});
+    ImGui::Dummy({2 * reach, std::max(frame.rect.size().y, 1.0f)});
+    controls.note((id + ".wipe").c_str(),
+                  "Drag the line: this pane's own picture to its left, what it is compared "
+                  "with to its right (V: on and off).");
+    ImGui::SetCursorScreenPos(cursor);
+}
+
 } // namespace
 
 bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point) {
@@ -55,19 +69,21 @@ bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point) {
            std::abs(point.x - line_x(frame, wipe)) <= grab_ems * ImGui::GetFontSize();
 }
 
-void draw_comparison(const PictureFrame& frame, int pane, const ViewerState& state) {
-    const Showing left = showing_at(state, pane, -1), right = showing_at(state, pane, 2);
-    if (left == Showing{pane} && right == left)
+void draw_comparison(const PictureFrame& frame, const std::string& id, int pane, const ViewerState& state,
+                     Controls& controls) {
+    const Sides sides = sides_of(state, pane);
+    if (sides.left == Showing{pane} && !sides.divided())
         return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({frame.rect.min.x, frame.rect.min.y}, {frame.rect.max.x, frame.rect.max.y}, true);
-    if (left == right) {
-        draw_label(frame, (frame.rect.min.x + frame.rect.max.x) * 0.5f, 0.5f, left, state);
+    if (!sides.divided()) {
+        draw_label(frame, (frame.rect.min.x + frame.rect.max.x) * 0.5f, 0.5f, sides.left, state);
     } else {
         const float x = line_x(frame, state.wipe);
-        draw_label(frame, x, 1, left, state);
-        draw_label(frame, x, 0, right, state);
+        draw_label(frame, x, 1, sides.left, state);
+        draw_label(frame, x, 0, sides.right, state);
         draw_line(frame, x);
+        note_line(frame, x, id, controls);
     }
     list.PopClipRect();
 }

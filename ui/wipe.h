@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/controls.h"
 #include "ui/picture_frame.h"
 #include "ui/showing.h"
 
@@ -10,7 +11,9 @@ namespace tessera {
 /// Whether a point of the screen is near enough to the line to take hold of it.
 bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point);
 
-/// Draws the line with its handle and a label at each side; without a line, one label in the middle.
-void draw_comparison(const PictureFrame& frame, int pane, const ViewerState& state);
+/// Draws the line with its handle and a label at each side; without a line, one label in the middle. `id` of the
+/// pane. To be called after the item that the picture is.
+void draw_comparison(const PictureFrame& frame, const std::string& id, int pane, const ViewerState& state,
+                     Controls& controls);
 
 } // namespace tessera

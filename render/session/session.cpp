@@ -117,6 +117,11 @@ std::shared_ptr<const Snapshot> Session::latest(int pane) const {
     return panes_[static_cast<std::size_t>(pane)]->latest;
 }
 
+bool Session::has_failed(int pane) const {
+    const std::lock_guard lock(mutex_);
+    return panes_[static_cast<std::size_t>(pane)]->failed;
+}
+
 std::vector<std::string> Session::take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
@@ -175,14 +180,8 @@ void Session::render_loop(std::stop_token stop) {
         }
         if (to_render)
             render_pass(*to_render, stop);
-        if (!to_publish)
-            continue;
-        try {
-            publish(*to_publish, *to_publish->render, to_publish->render_generation, false);
-        } catch (const std::exception& error) {
-            to_publish->published_spp = to_publish->render->spp(); // do not try for ever
-            report(error.what());
-        }
+        if (to_publish)
+            publish_passes(*to_publish);
     }
 }
 
@@ -214,7 +213,7 @@ void Session::render_pass(Pane& pane, std::stop_token session_stop) {
             return;
         count_step(pane, generation);
         if (pane.published_spp == 0 || Clock::now() - pane.published_at >= publish_interval)
-            publish(pane, *pane.render, generation, false);
+            publish_passes(pane);
     } catch (const std::exception& error) {
         pane.render_generation = 0;
         give_up(pane, generation);
@@ -283,13 +282,21 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
         }
         std::swap(pane.latest, latest);
     }
-    if (!coarse) {
-        pane.published_spp = render.spp();
-        pane.published_at = Clock::now();
-    }
     reconstruct_wake_.notify_one();
     if (on_publish_)
         on_publish_();
+}
+
+/// The pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again with
+/// later passes: the render itself has lost nothing.
+void Session::publish_passes(Pane& pane) {
+    try {
+        publish(pane, *pane.render, pane.render_generation, false);
+    } catch (const std::exception& error) {
+        report(fmt::format("pass {} is not shown: {}", pane.render->spp(), error.what()));
+    }
+    pane.published_spp = pane.render->spp();
+    pane.published_at = Clock::now();
 }
 
 } // namespace tessera

@@ -67,6 +67,9 @@ public:
     /// The pane's newest snapshot; null before the first. It may answer an older request: compare generations.
     std::shared_ptr<const Snapshot> latest(int pane) const;
 
+    /// Whether the render of the pane's request went wrong (there is a message): nothing more will come of it.
+    bool has_failed(int pane) const;
+
     /// Messages of errors in workers since the last call (what, with pixel, sample and seed where there is one).
     std::vector<std::string> take_messages();
 
@@ -84,6 +87,7 @@ private:
     void give_up(Pane& pane, std::uint64_t generation);
     void count_step(Pane& pane, std::uint64_t generation);
     void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);
+    void publish_passes(Pane& pane);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                               std::stop_token stop);
 

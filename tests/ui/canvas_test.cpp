@@ -71,6 +71,30 @@ TEST_F(CanvasTest, ShrinkingAveragesAndLosesNoNan) {
     expect_colour(1, 1, magenta, 0);
 }
 
+TEST_F(CanvasTest, ShrinkingFarLosesNoMark) {
+    for (int place = 0; place < 60; place += 7) {
+        RgbImage image(120, 60, Rgb(0.5f));
+        image(place, 59 - place) = Rgb(nan);
+        image(60 + place, place) = {0, -infinity, 0};
+        image_.show(image);
+        canvas_.draw(shader_, image_, filling({2, 1})); // sixty pixels to one
+        expect_colour(0, 0, magenta, 0);
+        expect_colour(1, 0, cyan, 0);
+    }
+}
+
+TEST_F(CanvasTest, ADifferenceToNothingIsNothing) {
+    ImageTexture nothing;
+    image_.show(RgbImage(4, 4, Rgb(1)));
+    CanvasView view = filling({4, 4});
+    view.colour_map = ColourMap::signed_difference;
+    canvas_.draw(shader_, image_, view, &nothing);
+    EXPECT_LT(pixel(2, 2)[0], 30);
+    nothing.show(RgbImage(4, 4, Rgb(0.25f)));
+    canvas_.draw(shader_, image_, view, &nothing);
+    EXPECT_GT(pixel(2, 2)[0], 100);
+}
+
 TEST_F(CanvasTest, EnlargedPixelsAreSquaresUnlessCoarse) {
     RgbImage image(2, 1);
     image(1, 0) = Rgb(1);

@@ -66,6 +66,41 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
     EXPECT_FALSE(has("reference_size"));
 }
 
+TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
+    type(Key::digit0, false, true);
+    EXPECT_EQ(pane(0).settings.buffer, Buffer::reference);
+    EXPECT_TRUE(viewer.pane_image(0).empty());
+    drop_reference({20, 10}, 0.25f); // of any size
+    ASSERT_FALSE(viewer.pane_image(0).empty());
+    EXPECT_EQ(viewer.pane_image(1).at({0.9f, 0.9f}), Rgb(0.25f));
+
+    type(Key::digit2); // primal
+    click("pane0.picture");
+    choose("compare_with", "reference");
+    EXPECT_EQ(state().compared_with(0), the_reference);
+    choose("compare", "wipe");
+    EXPECT_EQ(value_at(showing_at(state(), 0, 0.9f), viewer.pane_images(), {0.9f, 0.4f}), Rgb(0.25f));
+    EXPECT_EQ(label_of(showing_at(state(), 0, 0.9f), state()), "Reference");
+    state().show_tiles = state().magnifier = state().inspector.active = true; // which ask for a pane
+    const ControlRect rect = place("pane0.picture");
+    click(rect.min + (rect.max - rect.min) * glm::vec2(0.7f, 0.5f));
+    EXPECT_EQ(state().inspector.sample->pane, 0);
+    save("wipe-reference.png");
+    state().show_tiles = state().magnifier = state().inspector.active = false;
+    choose("compare", "difference");
+    const Rgb primal = viewer.pane_image(0).at({0.5f, 0.5f});
+    EXPECT_EQ(value_at(showing_at(state(), 0, 0.5f), viewer.pane_images(), {0.5f, 0.5f}), primal - Rgb(0.25f));
+    choose("compare", "off");
+    viewer.keyboard().press(Key::b, Key::b, false, false); // flicker
+    frames(2);
+    EXPECT_EQ(showing_at(state(), 0, 0.5f).pane, the_reference);
+    viewer.keyboard().release(Key::b);
+    type(Key::digit1, true); // one pane has it to compare with, and no other
+    EXPECT_EQ(state().compared_with(0), the_reference);
+    EXPECT_TRUE(has("compare"));
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
 TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
     viewer.drop({"/nowhere/reference.exr"});
     wait_until([&] { return !state().messages.empty(); });

@@ -1,3 +1,4 @@
+#include "ui/actions.h"
 #include "ui/keyboard.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,50 @@ TEST(Keyboard, UnknownKeysAreIgnored) {
     keyboard.press(Key::none, Key::none, false, false);
     EXPECT_FALSE(keyboard.is_down(Key::none));
     EXPECT_TRUE(keyboard.take().empty());
+}
+
+TEST(Keyboard, KeysAreCalledByWhatIsPrintedOnThem) {
+    EXPECT_EQ(key_named("z", Key::w, false), Key::z);           // French
+    EXPECT_EQ(key_named("5", Key::digit2, false), Key::digit5); // digits elsewhere
+    EXPECT_EQ(key_named("w", Key::none, false), Key::w);   // a letter where there is punctuation elsewhere: Dvorak
+    EXPECT_EQ(key_named("\u0446", Key::w, false), Key::w); // a letter of another alphabet: by its place
+    EXPECT_EQ(key_named("\u00e9", Key::digit2, false), Key::digit2);
+    EXPECT_EQ(key_named(nullptr, Key::f1, false), Key::f1);
+    EXPECT_EQ(key_named("8", Key::digit8, true), Key::none); // German: Alt makes it a bracket
+}
+
+TEST(Keyboard, ACharacterBelongsToTheKeyBeforeIt) {
+    Keyboard keyboard;
+    keyboard.press(Key::digit6, Key::digit6, false, false);
+    keyboard.type('-');
+    keyboard.type('-'); // held
+    keyboard.press(Key::a, Key::a, false, false);
+    EXPECT_EQ(keyboard.take().size(), 3u);
+    keyboard.type('+'); // of a key that went down in an earlier frame
+    const auto typed = keyboard.take();
+    ASSERT_EQ(typed.size(), 1u);
+    EXPECT_EQ(typed[0], (Shortcut{Key::none, false, false, '+'}));
+}
+
+TEST(Keyboard, ACharacterWinsOverItsKey) {
+    ViewerState state;
+    state.panes.resize(1);
+    const auto type = [&](Key key, char character) {
+        Keyboard keyboard;
+        keyboard.press(key, key, false, false);
+        if (character)
+            keyboard.type(character);
+        run_shortcuts(keyboard.take(), false, state);
+    };
+    type(Key::digit6, '-'); // French: exposure, and no failed shifts
+    EXPECT_LT(state.tone.exposure, 0);
+    EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
+    type(Key::digit3, '"'); // a character that calls nothing
+    EXPECT_EQ(state.panes[0].settings.buffer, Buffer::dx);
+    const int tile = state.panes[0].settings.render.tile;
+    type(Key::digit8, '['); // German, were Alt not seen
+    EXPECT_EQ(state.panes[0].settings.render.tile, tile - 1);
+    EXPECT_EQ(state.panes[0].settings.buffer, Buffer::dx);
 }
 
 TEST(Keyboard, ShortcutsReadAsPrinted) {

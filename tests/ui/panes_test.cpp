@@ -1,41 +1,11 @@
 // Several panes: how many, compared with each other, and when they render.
 
-#include "tests/ui/viewer_harness.h"
+#include "tests/ui/panes_fixture.h"
 
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 namespace tessera::test {
 namespace {
-
-/// PT and G-PR at rest, their pictures of equal size.
-struct Panes : testing::Test, ViewerHarness {
-    Panes() { rest(3); }
-
-    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
-        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
-        return {p[0], p[1], p[2]};
-    }
-    /// A point of a pane's picture, as shares of the pane.
-    glm::vec2 point(int index, float x, float y) const {
-        const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
-        return glm::floor(rect.min + (rect.max - rect.min) * glm::vec2(x, y)) + 0.5f;
-    }
-    /// Mean distance of the colours in a column of one pane to those in another's.
-    float distance(int a, int b, float x, const ScreenPixels& pixels) const {
-        float sum = 0;
-        for (int i = 0; i < 20; ++i) {
-            const float y = 0.35f + 0.015f * static_cast<float>(i);
-            sum += glm::distance(colour(pixels, point(a, x, y)), colour(pixels, point(b, x, y)));
-        }
-        return sum / 20;
-    }
-    void wait_for_settled() {
-        wait_until([&] { return viewer.settled(3); });
-        frames(2);
-    }
-};
 
 TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
     click("menu Panes");
@@ -75,6 +45,40 @@ TEST_F(Panes, TheActivePaneStaysWhenOthersGo) {
     EXPECT_EQ(pane(0).settings.render.method, Method::gpr);
     type(Key::digit2, true);
     EXPECT_EQ(pane(1).settings.render.method, Method::pt);
+}
+
+// What a pane has rendered goes with it, wherever it is shown then.
+TEST_F(Panes, TheActivePaneKeepsItsSamples) {
+    type(Key::digit4, true);
+    wait_for_settled();
+    click("pane3.picture");
+    const PaneState before = pane(3);
+    type(Key::digit1, true);
+    frames(3);
+    EXPECT_EQ(pane(0).generation, before.generation);
+    EXPECT_EQ(pane(0).snapshot->generation, before.generation);
+    EXPECT_EQ(pane(0).snapshot->spp, 3);
+    EXPECT_EQ(session.latest(0), nullptr); // the place of a pane that is gone
+    EXPECT_NE(session.latest(before.slot), nullptr);
+    state().pace.spp_limit = 5; // and goes on
+    EXPECT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 5; }));
+    EXPECT_EQ(pane(0).snapshot->generation, before.generation);
+}
+
+// Panes that ask for the same: nothing differs from what their places were sent before.
+TEST_F(Panes, PanesOfEqualSettingsAreNotMistakenForEachOther) {
+    type(Key::digit4, true);
+    for (PaneState& p : state().panes)
+        p.settings.render.method = Method::gpr;
+    wait_for_settled();
+    click("pane3.picture");
+    type(Key::digit2, true);
+    ASSERT_EQ(state().active_pane, 1);
+    wait_for_settled();        // and not "starting" for ever
+    state().set_pane_count(1); // away and back between two frames
+    state().set_pane_count(2);
+    wait_for_settled();
+    EXPECT_NE(pane(0).slot, pane(1).slot);
 }
 
 TEST_F(Panes, OnlyTheActivePaneHasAllTheRoom) {

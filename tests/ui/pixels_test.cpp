@@ -85,6 +85,29 @@ TEST_F(Pixels, LargePixelsHoldTheirNumbers) {
     EXPECT_EQ(white(), 0);
 }
 
+TEST(PixelNumbers, FitIntoSevenCharacters) {
+    EXPECT_EQ(short_number(0.01234f), "0.0123");
+    EXPECT_EQ(short_number(-0.01234f), "-0.0123");
+    EXPECT_EQ(short_number(-1.234e-5f), "-1e-05");
+    EXPECT_EQ(short_number(1.234e-5f), "1.2e-05");
+    EXPECT_EQ(short_number(-1.234e12f), "-1e+12");
+    EXPECT_EQ(short_number(-std::numeric_limits<float>::infinity()), "-inf");
+}
+
+// A quarter of the size, but the pixels are those of the picture asked for.
+TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
+    auto coarse = std::make_shared<Snapshot>(*pane(1).snapshot);
+    coarse->coarse = true;
+    coarse->reconstruction = nullptr;
+    auto images = std::make_shared<GradientImages>();
+    images->primal = RgbImage(12, 9, Rgb(0.5f));
+    coarse->images = images;
+    PaneImages looks;
+    looks[1].take(coarse.get(), Buffer::primal, {});
+    state().cursor = Cursor{1, {0.5f, 0.5f}, 0.5f};
+    EXPECT_EQ(cursor_text(state(), looks, 1).substr(0, 8), "(24, 18)");
+}
+
 TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
     type(Key::l);
     EXPECT_TRUE(state().magnifier);

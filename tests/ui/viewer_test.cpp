@@ -1,5 +1,4 @@
 #include "tests/ui/viewer_harness.h"
-#include "ui/pane_status.h"
 #include "ui/viewer.h"
 
 #include <algorithm>
@@ -224,24 +223,6 @@ TEST(Viewer, LogsChangesAndControls) {
                              [](const std::string& l) { return l.rfind("control", 0) == 0; });
     }
     EXPECT_TRUE(quiet);
-}
-
-TEST(Viewer, StatusTellsMethodSamplesTimeAndRays) {
-    PaneState pane;
-    pane.settings.render.method = Method::gpr;
-    EXPECT_EQ(status_text(pane, false, {}), "G-PR   starting");
-    auto snapshot = std::make_shared<Snapshot>();
-    snapshot->generation = pane.generation = 4;
-    snapshot->spp = 12;
-    snapshot->seconds = 2;
-    snapshot->settings.method = Method::gpr;
-    snapshot->counters.rays = {1000000, 2000000, 2000000};
-    snapshot->reconstruction = std::make_shared<Reconstruction>();
-    snapshot->reconstruction_spp = 11;
-    pane.snapshot = snapshot;
-    EXPECT_EQ(status_text(pane, false, {}), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
-    EXPECT_NE(status_text(pane, true, {}).find("paused"), std::string::npos);
-    EXPECT_NE(status_text(pane, false, {Pace::Equal::time, 12, 0}).find("done"), std::string::npos);
 }
 
 TEST(Viewer, FourPanesInAGrid) {

@@ -1,0 +1,141 @@
+// One pane's picture against another's: where the line is, what the colours stand for, what is missing.
+
+#include "tests/ui/panes_fixture.h"
+#include "ui/showing.h"
+
+#include <algorithm>
+
+namespace tessera::test {
+namespace {
+
+using Compare = Panes;
+
+TEST_F(Compare, TheLineIsWhereTheMouseIsAfterGoingBeyondAnEnd) {
+    click("pane0.picture");
+    type(Key::v);
+    const ControlRect rect = place("pane0.picture");
+    const float width = rect.max.x - rect.min.x;
+    const glm::vec2 grip = point(0, 0.5f, 0.6f) + glm::vec2(7, 0);
+    move_to(grip);
+    press();
+    move_to(grip + glm::vec2(-width, 0));
+    EXPECT_EQ(state().wipe, 0);
+    move_to(grip + glm::vec2(-0.2f * width, 0));
+    release();
+    EXPECT_NEAR(state().wipe, 0.3f, 0.01f); // not 0.8, where the sum of the steps would lead
+}
+
+TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
+    choose("pane1.buffer", "reused");
+    const ControlRect legend = place("pane1.legend");
+    const glm::vec2 grip(legend.min.x + 20, legend.max.y - 11);
+    move_to(grip);
+    press();
+    move_to(grip + glm::vec2(4000, 0));
+    move_to(grip + glm::vec2(30, 0));
+    const ValueRange once_beyond = state().ranges.at(Buffer::reused);
+    release();
+    frame(1); // no double click with the next
+    state().ranges.clear();
+    drag(grip, {30, 0});
+    EXPECT_EQ(state().ranges.at(Buffer::reused), once_beyond);
+}
+
+TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
+    choose("pane0.method", "pr");
+    choose("pane0.buffer", "reused");
+    choose("pane1.buffer", "failed");
+    wait_for_settled();
+    click("pane0.picture");
+    type(Key::v);
+    EXPECT_TRUE(has("pane0.legend"));
+    ASSERT_TRUE(has("pane0.right_legend"));
+    const ControlRect left = place("pane0.legend"), right = place("pane0.right_legend");
+    EXPECT_GT(right.max.x, left.max.x);
+    EXPECT_TRUE(right.min.x >= left.max.x || right.max.y <= left.min.y);
+    save("wipe-legends.png");
+    const ControlRect legend = place("pane0.right_legend");
+    drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0});
+    EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
+    EXPECT_EQ(state().ranges.count(Buffer::failed), 1u);
+    state().wipe = 0;
+    frames(2);
+    EXPECT_FALSE(has("pane0.legend")); // nothing of that side is seen
+    EXPECT_TRUE(has("pane0.right_legend"));
+    state().wipe = 0.5f;
+    choose("pane0.buffer", "failed");
+    EXPECT_TRUE(has("pane0.legend"));
+    EXPECT_FALSE(has("pane0.right_legend")); // one serves both
+}
+
+TEST_F(Compare, GradientsAndDifferencesHaveALegend) {
+    choose("pane1.buffer", "dx");
+    EXPECT_TRUE(has("pane1.legend"));
+    const ControlRect legend = place("pane1.legend");
+    const ScreenPixels pixels = screen();
+    const float y = legend.max.y - 11;
+    const glm::vec3 low = colour(pixels, {legend.min.x + 10, y}), high = colour(pixels, {legend.max.x - 10, y});
+    EXPECT_GT(low.b, low.r + 50);
+    EXPECT_GT(high.r, high.b + 50);
+    save("signed-legend.png");
+    click("pane0.picture");
+    type(Key::n);
+    EXPECT_TRUE(has("pane0.legend"));
+    choose("pane0.buffer", "dx"); // path tracing has none
+    EXPECT_FALSE(has("pane0.legend"));
+}
+
+TEST_F(Compare, ADifferenceWithoutASubtrahendShowsNothing) {
+    choose("pane0.buffer", "dx"); // path tracing measures none
+    choose("pane1.buffer", "dx");
+    click("pane1.picture");
+    type(Key::n);
+    move_to(point(1, 0.5f, 0.4f));
+    const Showing difference = showing_at(state(), 1, 0.5f);
+    ASSERT_EQ(difference.subtrahend, 0);
+    EXPECT_FALSE(value_at(difference, viewer.pane_images(), {0.5f, 0.5f}));
+    EXPECT_FALSE(has("pane1.value"));
+    EXPECT_EQ(missing_text(difference, state()), "PT measures no gradients");
+    const ScreenPixels pixels = screen();
+    for (float x : {0.3f, 0.5f, 0.7f}) // but for the words in the middle
+        EXPECT_LT(glm::distance(colour(pixels, point(1, x, 0.35f)), glm::vec3(14, 15, 17)), 3) << x;
+    save("no-subtrahend.png");
+}
+
+TEST_F(Compare, TheRightSideOfAWipeSaysWhatItLacks) {
+    choose("pane0.buffer", "dx");
+    click("pane1.picture");
+    type(Key::v);
+    state().wipe = 0.2f;
+    frames(2);
+    save("no-right-side.png");
+    const ScreenPixels pixels = screen();
+    float brightest = 0; // of some light words on dark
+    for (float x = 0.25f; x < 0.98f; x += 0.002f)
+        for (float y = 0.47f; y < 0.53f; y += 0.004f)
+            brightest = std::max(brightest, colour(pixels, point(1, x, y)).g);
+    EXPECT_GT(brightest, 80);
+}
+
+// The same for all panes, and as long as a request lasts: what is equal looks equal.
+TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
+    choose("pane0.method", "pr");
+    type(Key::digit5, false, true); // variances
+    wait_for_settled();
+    const auto shared = [&] { return range_of(Buffer::primal_variance, state(), viewer.pane_images()); };
+    const ValueRange range = shared(), own[] = {viewer.pane_image(0).range(), viewer.pane_image(1).range()};
+    ASSERT_NE(own[0], own[1]);
+    EXPECT_EQ(range.low, std::min(own[0].low, own[1].low));
+    EXPECT_EQ(range.high, std::max(own[0].high, own[1].high));
+    state().pace.spp_limit = 60; // the variances fall by twenty
+    wait_until([&] { return viewer.settled(60); });
+    frames(2);
+    EXPECT_EQ(shared(), range);
+    save("variances.png");
+    state().restart = true;
+    wait_for_settled();
+    EXPECT_NE(shared(), ValueRange());
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,92 @@
+// The size that is rendered: what is shown about the pictures throws no samples away.
+
+#include "tests/ui/viewer_harness.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+/// Two panes as large as their places, at rest with many samples.
+struct Layout : testing::Test, ViewerHarness {
+    Layout() : ViewerHarness({400, 240}, 1, as_large_as_the_panes()) { rest(many); }
+
+    static constexpr int many = 8;
+    static ViewerOptions as_large_as_the_panes() {
+        ViewerOptions options = two_panes();
+        options.size = {SizeChoice::Base::pane, 0.2f, {}};
+        return options;
+    }
+    bool waits_for_another_size() { return state().fitting_size() != state().request_size(); }
+};
+
+TEST_F(Layout, NoPanelNorWindowSizeRestartsARender) {
+    const std::uint64_t first = pane(0).generation, second = pane(1).generation;
+    const auto same = [&](const char* what) {
+        frames(3);
+        EXPECT_EQ(pane(0).generation, first) << what;
+        EXPECT_EQ(pane(1).generation, second) << what;
+        EXPECT_GT(brightness("pane1.picture"), 10) << what;
+    };
+    for (Key key : {Key::p, Key::h, Key::t, Key::h, Key::t, Key::p}) {
+        type(key);
+        same("a panel");
+    }
+    EXPECT_FALSE(waits_for_another_size()); // all as before
+    type(Key::o);
+    EXPECT_TRUE(waits_for_another_size());
+    same("one pane alone");
+    save("scaled-up.png");
+    type(Key::o);
+    resize({700, 500});
+    EXPECT_TRUE(waits_for_another_size());
+    same("the window");
+    EXPECT_TRUE(has("fitting_pixels"));
+    type(Key::up, true);
+    same("larger text");
+}
+
+TEST_F(Layout, ASizeThatFitsComesWithARestart) {
+    resize({700, 500});
+    ASSERT_TRUE(waits_for_another_size());
+    type(Key::r);
+    EXPECT_FALSE(waits_for_another_size());
+    wait_until([&] { return viewer.settled(many); });
+
+    resize({400, 240});
+    state().panes[0].settings.render.method = Method::pr; // one pane restarts; the other would lose its samples
+    const std::uint64_t other = pane(1).generation;
+    frames(2);
+    EXPECT_TRUE(waits_for_another_size());
+    EXPECT_EQ(pane(1).generation, other);
+    state().camera.dolly(0.9f); // all do
+    frames(2);
+    EXPECT_FALSE(waits_for_another_size());
+}
+
+TEST_F(Layout, ASizeThatIsChosenIsTakenAtOnce) {
+    const std::uint64_t before = pane(0).generation;
+    state().size = {SizeChoice::Base::custom, 1, {30, 20}};
+    frames(2);
+    EXPECT_EQ(state().request_size(), glm::ivec2(30, 20));
+    EXPECT_GT(pane(0).generation, before);
+}
+
+TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
+    state().pace.spp_limit = 2;
+    type(Key::r);
+    wait_until([&] { return viewer.settled(2); });
+    resize({700, 500});
+    EXPECT_FALSE(waits_for_another_size());
+}
+
+TEST_F(Layout, AnAddedPaneHasTheSizeOfTheOthers) {
+    const std::uint64_t before = pane(0).generation;
+    type(Key::digit4, true);
+    wait_until([&] { return viewer.settled(many); });
+    EXPECT_EQ(pane(0).generation, before);
+    EXPECT_EQ(viewer.pane_image(3).pixels().width(), viewer.pane_image(0).pixels().width());
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,69 @@
+// The line below a picture.
+
+#include "ui/pane_status.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
+    ViewerState state;
+    PaneState& pane = state.panes.emplace_back();
+    pane.settings.render.method = Method::gpr;
+    EXPECT_EQ(status_text(state, 0), "G-PR   starting");
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->generation = pane.generation = 4;
+    snapshot->spp = 12;
+    snapshot->seconds = 2;
+    snapshot->settings.method = Method::gpr;
+    snapshot->counters.rays = {1000000, 2000000, 2000000};
+    snapshot->reconstruction = std::make_shared<Reconstruction>();
+    snapshot->reconstruction_spp = 11;
+    pane.snapshot = snapshot;
+    EXPECT_EQ(status_text(state, 0), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
+    const auto says = [&](const char* word) { return status_text(state, 0).find(word) != std::string::npos; };
+    state.paused = true;
+    EXPECT_TRUE(says("paused"));
+    state.paused = false;
+    state.pace.spp_limit = 12;
+    EXPECT_TRUE(says("done"));
+    pane.failed = true;
+    EXPECT_TRUE(says("failed"));
+    pane.generation = 5; // and its first pass has never come
+    EXPECT_EQ(status_text(state, 0), "G-PR   failed: see the messages (F2)");
+}
+
+TEST(PaneStatus, TellsWhichPaneCatchesUp) {
+    ViewerState state;
+    state.panes.resize(3);
+    const auto had = [&](std::size_t pane, int spp, double seconds) {
+        auto snapshot = std::make_shared<Snapshot>();
+        snapshot->generation = state.panes[pane].generation = 7;
+        snapshot->spp = spp;
+        snapshot->seconds = seconds;
+        state.panes[pane].snapshot = snapshot;
+    };
+    had(0, 900, 600);
+    had(1, 40, 190);
+    had(2, 800, 599);
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (3:10 of 10:00)");
+    EXPECT_EQ(waiting_text(state, 1), "");
+    EXPECT_EQ(waiting_text(state, 2), "waiting for pane 2 (3:10 of 9:59)");
+    EXPECT_NE(status_text(state, 0).find("waiting for pane 2"), std::string::npos);
+    state.panes[1].generation = 8; // a new request: it has had nothing
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (0:00 of 10:00)");
+    state.pace.equal = Pace::Equal::spp;
+    had(1, 40, 190);
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (40 of 900 spp)");
+    state.pace.spp_limit = 40; // nobody waits for one that rests
+    EXPECT_EQ(waiting_text(state, 0), "");
+    state.pace.spp_limit = 0;
+    state.panes[1].failed = true;
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 3 (800 of 900 spp)");
+    state.paused = true;
+    EXPECT_EQ(waiting_text(state, 0), "");
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,83 @@
+#include "ui/pane_legends.h"
+
+#include "ui/legend.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr float widest_ems = 24; // of a legend
+
+bool has_picture(const Showing& showing, const PaneTools& tools) {
+    const auto has = [&](int pane) { return !tools.images[static_cast<std::size_t>(pane)].empty(); };
+    return has(showing.pane) && (showing.subtrahend < 0 || has(showing.subtrahend));
+}
+
+/// Of gradients, or of a difference, which has a unit if both its buffers have.
+Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
+    const BufferInfo& about = info(buffer_of(showing.pane, state));
+    if (showing.subtrahend < 0)
+        return signed_legend(about.id, about.unit, about.unit_scale, state.tone.exposure);
+    const bool alike = buffer_of(showing.subtrahend, state) == about.buffer;
+    return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1, state.tone.exposure);
+}
+
+} // namespace
+
+ValueRange HeldRange::at(float x) const {
+    const float share = (x - from) / length;
+    return high ? range.with_high_dragged(share) : range.with_low_dragged(share);
+}
+
+void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pane, PaneTools& tools) {
+    const ViewerState& state = tools.state;
+    const Sides sides = sides_of(state, pane);
+    const bool same = sides.left.subtrahend == sides.right.subtrahend &&
+                      buffer_of(sides.left.pane, state) == buffer_of(sides.right.pane, state);
+    const bool left_is_seen = !sides.divided() || state.wipe > 0;
+    const bool right_is_seen = sides.divided() && state.wipe < 1;
+    drawn_ = {};
+    ScreenRect room = frame.rect;
+    if (left_is_seen)
+        drawn_[0] = draw_one(room, id + ".legend", sides.left, false, tools);
+    if (left_is_seen && room.size().x < 2 * widest_ems * ImGui::GetFontSize())
+        room.max.y -= 3 * ImGui::GetFontSize(); // above the other
+    if (right_is_seen && !(same && left_is_seen))
+        drawn_[1] = draw_one(room, id + ".right_legend", sides.right, true, tools);
+}
+
+PaneLegends::Drawn PaneLegends::draw_one(const ScreenRect& rect, const std::string& id, const Showing& showing,
+                                         bool at_right, PaneTools& tools) {
+    const ViewerState& state = tools.state;
+    const Buffer buffer = buffer_of(showing.pane, state);
+    if (!has_picture(showing, tools))
+        return {};
+    switch (colour_map(showing, state)) {
+    case ColourMap::false_colour:
+        return {draw_legend(rect, id, false_colour_legend(buffer, range_of(buffer, state, tools.images)), at_right,
+                            tools.controls),
+                buffer};
+    case ColourMap::signed_difference:
+        draw_legend(rect, id, signed_legend_of(showing, state), at_right, tools.controls);
+        return {};
+    default:
+        return {};
+    }
+}
+
+std::optional<HeldRange> PaneLegends::held_at(glm::vec2 point, const PaneTools& tools) const {
+    const float margin = ImGui::GetFontSize() * 0.4f;
+    for (const Drawn& legend : drawn_) {
+        const ScreenRect& bar = legend.colours;
+        if (bar.size().x > 0 && ScreenRect{bar.min - margin, bar.max + margin}.contains(point))
+            return HeldRange{legend.buffer, point.x >= (bar.min.x + bar.max.x) * 0.5f, point.x, bar.size().x,
+                             range_of(legend.buffer, tools.state, tools.images)};
+    }
+    return std::nullopt;
+}
+
+} // namespace tessera
