@@ -6,16 +6,15 @@
 #include "app/exit_codes.h"
 #include "app/experiment_options.h"
 #include "app/info.h"
-#include "app/load_notes.h"
 #include "app/option_values.h"
 #include "app/reconstruct_options.h"
 #include "app/reference_options.h"
 #include "app/render.h"
+#include "app/scene_loader.h"
 #include "app/setting_options.h"
 #include "app/stability.h"
 #include "app/sweep.h"
 #include "app/view.h"
-#include "render/session/thread_pool.h"
 #include "ui/script.h"
 
 #include <string>
@@ -132,16 +131,6 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }
 
-/// Makes the scene of `source`, with `threads` threads, whenever it is called.
-SceneLoader loader_of(const SceneSource& source, int threads) {
-    return [source, threads](std::vector<std::string>& notes, LoadProgress& progress) {
-        ThreadPool pool(threads);
-        const OpenedScene opened = open_scene(source, pool, &progress);
-        notes = group_notes(opened.notes);
-        return opened.scene;
-    };
-}
-
 int view(const CLI::App& command, const Words& words, ViewOptions options) {
     const SceneSource source = words.source();
     const int threads = words.threads;
@@ -153,6 +142,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         return loader_of(same ? source : SceneSource{file, {}, {}}, threads);
     };
     options.panes = default_panes(words.panes);
+    options.panes_as_remembered = command.count("--panes") == 0;
     for (PaneSettings& pane : options.panes) {
         const Method method = pane.render.method;
         pane.render = words.settings;

@@ -4,11 +4,17 @@
 #include "app/progress.h"
 #include "embedded/cornell_box_xml.h"
 #include "render/load/camera_file.h"
+#include "render/trace/build_monitor.h"
 
+#include <atomic>
 #include <optional>
 #include <string_view>
 
 namespace tessera {
+
+namespace {
+constexpr int per_cent = 100; // steps of the BVH's progress
+} // namespace
 
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
@@ -29,8 +35,16 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     opened.file_seconds = loaded.file_seconds;
     const double cpu_after_load = process_cpu_seconds();
     opened.load_cpu_seconds = cpu_after_load - cpu_at_start;
-    if (progress)
-        progress->begin(LoadProgress::Stage::bvh);
+    LoadProgress unwatched;
+    LoadProgress& watched = progress ? *progress : unwatched;
+    watched.begin(LoadProgress::Stage::bvh, per_cent);
+    std::atomic<int> done = 0;
+    const BuildMonitor monitor([&](double share) {
+        for (int known = done; known < static_cast<int>(share * per_cent);)
+            if (done.compare_exchange_weak(known, known + 1))
+                watched.step();
+        return !watched.given_up();
+    });
     opened.scene = std::make_shared<const Scene>(std::move(loaded.description));
     opened.bvh_seconds = opened.scene->bvh_seconds();
     opened.bvh_cpu_seconds = process_cpu_seconds() - cpu_after_load;

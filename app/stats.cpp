@@ -8,8 +8,6 @@ namespace tessera {
 
 using nlohmann::json;
 
-namespace {
-
 json counters_json(const Counters& c) {
     json outcomes = json::object();
     for (int i = 0; i < shift_outcome_count; ++i)
@@ -32,8 +30,6 @@ json counters_json(const Counters& c) {
             {"shifts", {{"attempts", c.shift_attempts()}, {"outcomes", outcomes}}},
             {"refused_samples", c.refused_samples}};
 }
-
-} // namespace
 
 json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions) {
     json recon = json::array();

@@ -1,9 +1,7 @@
 #include "app/view.h"
 
 #include "app/interrupt.h"
-#include "app/reconstruction_layers.h"
-#include "app/stats.h"
-#include "render/load/camera_file.h"
+#include "app/saved_picture.h"
 #include "render/load/png.h"
 #include "ui/picture_saver.h"
 #include "ui/preferences.h"
@@ -16,8 +14,6 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-
-#include <nlohmann/json.hpp>
 
 namespace tessera {
 
@@ -35,23 +31,6 @@ void print_line(const std::string& line) {
 
 std::string title(const std::string& scene) {
     return "Tessera - " + scene;
-}
-
-/// The same file as of `tessera render --buffers`, with the camera in its header.
-void write_snapshot(const std::filesystem::path& file, const std::filesystem::path& scene,
-                    const Snapshot& snapshot, const ReconstructionSettings& reconstruction) {
-    const Norm norm = has_gradients(snapshot.settings.method) ? reconstruction.norm : Norm::none;
-    ThreadPool pool(1, ThreadPool::Priority::background);
-    std::vector<ReconstructionStats> stats;
-    ExrFile picture =
-        picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
-                       {{norm}, reconstruction.alpha, !reconstruction.joint_colour, true}, pool, stats);
-    const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
-    picture.attributes["tessera:version"] = TESSERA_VERSION;
-    picture.attributes["tessera:settings"] =
-        settings_json({scene, {}, {}}, snapshot.settings, size, snapshot.spp, reconstruction.alpha).dump();
-    picture.attributes["tessera:camera"] = camera_json(snapshot.camera);
-    write_picture(file, picture);
 }
 
 /// What is done between frames: pictures of the window, and the log of how long things took.
@@ -131,16 +110,20 @@ bool is_interactive(const ViewOptions& options) {
     return options.screenshot.empty() && options.script.empty();
 }
 
-/// The size asked for, else that of the last window.
-glm::ivec2 window_size(const ViewOptions& options) {
+/// That of the last window, of the size asked for.
+WindowPlace window_place(const ViewOptions& options) {
     std::string ignored; // the viewer tells
-    const glm::ivec2 last =
-        is_interactive(options) ? read_preferences(preferences_file(), ignored).window_size : glm::ivec2(0);
-    return options.window_size.value_or(last.x > 0 ? last : glm::ivec2(1440, 810));
+    WindowPlace place =
+        is_interactive(options) ? read_preferences(preferences_file(), ignored).window : WindowPlace{};
+    if (options.window_size)
+        place = {*options.window_size, place.position, false};
+    if (place.size.x < 1)
+        place.size = {1440, 810};
+    return place;
 }
 
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
-    const SurfaceOptions wanted{title(options.scene.name), window_size(options), options.ui_scale,
+    const SurfaceOptions wanted{title(options.scene.name), window_place(options), options.ui_scale,
                                 !options.screenshot.empty() || !options.script.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
@@ -157,12 +140,13 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.threads = options.threads;
     result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
     result.show_panel = options.show_panel;
+    result.panes_as_remembered = options.panes_as_remembered;
     if (options.log_actions)
         result.log = print_line;
     result.log_controls = options.log_actions;
     result.reference = options.reference;
     result.open = options.open;
-    result.write_exr = write_snapshot;
+    result.write_exr = write_saved_picture;
     if (is_interactive(options))
         result.preferences = preferences_file();
     result.wake = [&surface] { surface.wake(); };

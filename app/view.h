@@ -24,7 +24,8 @@ struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
     SceneOpener open;  ///< for scenes dropped on the window
     std::vector<PaneSettings> panes = default_panes(2);
-    std::optional<int> max_depth; ///< otherwise the scene decides
+    bool panes_as_remembered = true; ///< as many as the last time; otherwise, or if that is not known, `panes`
+    std::optional<int> max_depth;    ///< otherwise the scene decides
     SizeChoice render_size;
     int threads = 0;                       ///< of the renderer; 0: one a hardware thread
     std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810

@@ -1,110 +1,9 @@
+#include "ui/action_steps.h"
 #include "ui/actions.h"
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 
 namespace tessera {
 
 namespace {
-
-void set_buffer(ViewerState& state, Buffer buffer) {
-    for (PaneState& pane : state.panes)
-        pane.settings.buffer = buffer;
-}
-
-template <Buffer buffer>
-void show_buffer(ViewerState& state) {
-    set_buffer(state, buffer);
-}
-
-template <Buffer buffer>
-bool shows_buffer(const ViewerState& state) {
-    return std::all_of(state.panes.begin(), state.panes.end(),
-                       [](const PaneState& pane) { return pane.settings.buffer == buffer; });
-}
-
-void step_method(ViewerState& state, int step) {
-    constexpr int count = static_cast<int>(std::size(all_methods));
-    Method& method = state.active().settings.render.method;
-    method = all_methods[(static_cast<int>(method) + step + count) % count];
-}
-
-void step_tile(ViewerState& state, int step) {
-    int& tile = state.active().settings.render.tile;
-    tile = std::clamp(tile + step, 1, 16);
-    state.share_settings();
-}
-
-void step_exposure(ViewerState& state, float stops) {
-    state.tone.exposure = std::clamp(state.tone.exposure + stops, -10.0f, 10.0f);
-}
-
-void next_pane(ViewerState& state) {
-    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
-}
-
-void next_grid(ViewerState& state) {
-    const std::size_t count = state.panes.size();
-    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
-}
-
-template <int count>
-void set_panes(ViewerState& state) {
-    state.set_pane_count(count);
-}
-
-template <int count>
-bool has_panes(const ViewerState& state) {
-    return state.panes.size() == count;
-}
-
-template <Comparison::Kind kind>
-bool compares(const ViewerState& state) {
-    return state.active().settings.comparison.kind == kind;
-}
-
-template <Comparison::Kind kind>
-void toggle_comparison(ViewerState& state) {
-    if (state.compared_with(state.active_pane) == state.active_pane)
-        state.set_pane_count(2);
-    state.active().settings.comparison.kind = compares<kind>(state) ? Comparison::Kind::off : kind;
-}
-
-void step_pass(ViewerState& state) {
-    state.paused = true;
-    ++state.steps;
-}
-
-void step_ui_scale(ViewerState& state, float by) {
-    const float now = state.ui_scale.value_or(state.shown_ui_scale);
-    state.ui_scale = std::clamp(std::round(now * 4) / 4 + by, 1.0f, 3.0f);
-}
-
-void next_tone(ViewerState& state) {
-    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
-}
-
-// Both have the mouse's left button: one gives way.
-void toggle_inspector(ViewerState& state) {
-    state.inspector.active = !state.inspector.active;
-    state.slow_motion.active = false;
-}
-
-void toggle_slow_motion(ViewerState& state) {
-    SlowMotion& slow = state.slow_motion;
-    slow.active = !slow.active;
-    state.inspector.active = false;
-    slow.frames = true;
-    slow.held = false;
-    slow.sample.reset();
-}
-
-void next_tile(ViewerState& state) {
-    SlowMotion& slow = state.slow_motion;
-    if (slow.tile)
-        slow.start({slow.pane, slow.next_pixel(state.request_size()), {}});
-}
 
 constexpr Shortcut key(Key k) {
     return {k, false, false, 0};
@@ -114,6 +13,9 @@ constexpr Shortcut ctrl(Key k) {
 }
 constexpr Shortcut shift(Key k) {
     return {k, false, true, 0};
+}
+constexpr Shortcut ctrl_shift(Key k) {
+    return {k, true, true, 0};
 }
 constexpr Shortcut character(char c) {
     return {Key::none, false, false, c};
@@ -136,6 +38,11 @@ constexpr Action table[] = {
      no_shortcut, [](State& s) { s.choosing = FilePurpose::settings; }, nullptr},
     {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
      key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
+    {"File", "Save view",
+     "Writes the active pane's buffer, a pixel for each of its pixels and in the colours on show, to a PNG file "
+     "in "
+     "the current folder.",
+     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.save_view = true; }, nullptr},
     {"File", "Save as EXR",
      "Writes the active pane's picture with all its buffers, camera and settings to an EXR file in the current "
      "folder.",
@@ -252,6 +159,8 @@ constexpr Action table[] = {
      [](State& s) { step_ui_scale(s, 0.25f); }, nullptr},
     {"View", "Smaller text", "Text and controls a quarter smaller, down to 100 %.", ctrl(Key::down), no_shortcut,
      [](State& s) { step_ui_scale(s, -0.25f); }, nullptr},
+    {"View", "Text as the display says", "Text and controls at the scale of the display.", ctrl(Key::digit0),
+     no_shortcut, [](State& s) { s.text_factor = 1; }, [](const State& s) { return s.text_factor == 1; }},
     {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
      [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
     {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
@@ -275,11 +184,10 @@ constexpr Action table[] = {
     {"Panes", "Wipe",
      "Divides the active pane by a line that can be dragged: its own picture to the left, another pane's to the "
      "right.",
-     key(Key::v), no_shortcut, toggle_comparison<Comparison::Kind::wipe>, compares<Comparison::Kind::wipe>},
+     key(Key::v), no_shortcut, toggle<Comparison::Kind::wipe>, compares<Comparison::Kind::wipe>},
     {"Panes", "Difference",
      "Shows the active pane's picture minus another pane's: orange above zero, blue below; exposure enlarges it.",
-     key(Key::n), no_shortcut, toggle_comparison<Comparison::Kind::difference>,
-     compares<Comparison::Kind::difference>},
+     key(Key::n), no_shortcut, toggle<Comparison::Kind::difference>, compares<Comparison::Kind::difference>},
 
     {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
      [](State& s) { s.camera.go_home(); }, nullptr},

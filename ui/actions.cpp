@@ -46,6 +46,8 @@ bool counts_in_text(const Shortcut& typed) {
 }
 
 void close_overlays(ViewerState& state) {
+    const bool any = state.show_help || state.large_charts || state.reference_making.show || state.choosing;
+    state.cancel_load = state.cancel_load || (!any && !state.loading.empty());
     state.show_help = false;
     state.large_charts = false;
     state.reference_making.show = false;

@@ -10,97 +10,9 @@ namespace tessera {
 
 namespace {
 
-using Family = BufferFamily;
-
-constexpr BufferInfo table[] = {
-    {Buffer::reconstruction, "reconstruction", "Reconstruction",
-     "The picture made from primal and gradients; radiance.", Family::picture, ColourMap::radiance, "", 1},
-    {Buffer::primal, "primal", "Primal", "The picture as measured, before any reconstruction; radiance.",
-     Family::picture, ColourMap::radiance, "", 1},
-    {Buffer::dx, "dx", "Gradient dx",
-     "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
-     Family::gradient, ColourMap::signed_difference, "", 1},
-    {Buffer::dy, "dy", "Gradient dy",
-     "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
-     Family::gradient, ColourMap::signed_difference, "", 1},
-    {Buffer::reused, "reused", "Reuse count",
-     "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
-     Family::reuse, ColourMap::false_colour, "paths a pass", 1},
-    {Buffer::failed, "failed", "Failed shifts",
-     "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT.", Family::reuse,
-     ColourMap::false_colour, "%", 100},
-    {Buffer::survival, "survival", "Roulette survival",
-     "Of a pixel's own base paths that carry light, the share that the roulette on reuse let be shifted to the "
-     "others of its tile (all passes; 0 where none has carried light). A survivor weighs 1/q for its probability "
-     "q; "
-     "roulette none and G-PT reuse all: 100 %. Not for PT.",
-     Family::reuse, ColourMap::false_colour, "%", 100},
-    {Buffer::very_direct, "very_direct", "Very direct",
-     "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
-     ColourMap::radiance, "", 1},
-    {Buffer::error_relative_squared, "relMSE", "Error: relMSE",
-     "(I - r)^2 / (r^2 + 0.001), the mean of red, green and blue, of the picture I and the reference r (no unit). "
-     "Its mean over the pixels is the relMSE of [Bauszat 2017, 4].",
-     Family::error, ColourMap::false_colour, "", 1},
-    {Buffer::error_squared, "squared", "Error: squared",
-     "(I - r)^2, the mean of red, green and blue, of the picture I and the reference r; radiance squared.",
-     Family::error, ColourMap::false_colour, "", 1},
-    {Buffer::error_absolute, "absolute", "Error: absolute",
-     "|I - r|, the mean of red, green and blue, of the picture I and the reference r; radiance.", Family::error,
-     ColourMap::false_colour, "", 1},
-    {Buffer::error_relative, "relative", "Error: relative",
-     "|I - r| / (|r| + 0.01), the mean of red, green and blue, of the picture I and the reference r; per cent.",
-     Family::error, ColourMap::false_colour, "%", 100},
-    {Buffer::reference, "reference", "Reference", "The picture that errors are measured against; radiance.",
-     Family::reference, ColourMap::radiance, "", 1},
-    {Buffer::albedo, "albedo", "Albedo",
-     "The share of light that the surface first seen would send to the camera if it came from everywhere (no "
-     "unit).",
-     Family::first_hit, ColourMap::radiance, "", 1},
-    {Buffer::normal, "normal", "Normal",
-     "The shading normal of the surface first seen, in the world: x is red, y green, z blue; -1 is black, 1 full.",
-     Family::first_hit, ColourMap::direction, "", 1},
-    {Buffer::depth, "depth", "Depth",
-     "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
-     Family::first_hit, ColourMap::false_colour, "units", 1},
-    {Buffer::primal_variance, "primal_variance", "Variance of primal",
-     "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
-     "with "
-     "the samples. Pixels that share light err alike: their variances do not tell that.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-    {Buffer::dx_variance, "dx_variance", "Variance of dx",
-     "Variance of the mean of gradient dx over the passes, the sum of red, green and blue; radiance squared.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-    {Buffer::dy_variance, "dy_variance", "Variance of dy",
-     "Variance of the mean of gradient dy over the passes, the sum of red, green and blue; radiance squared.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-};
-
 ErrorKind error_kind(Buffer buffer) {
     return static_cast<ErrorKind>(static_cast<int>(buffer) - static_cast<int>(Buffer::error_relative_squared));
 }
-
-} // namespace
-
-const BufferInfo& info(Buffer buffer) {
-    return table[static_cast<std::size_t>(buffer)]; // in the order of the enumeration
-}
-
-std::string_view paper_name(Method method) {
-    switch (method) {
-    case Method::pt:
-        return "PT";
-    case Method::pr:
-        return "PR";
-    case Method::gpt:
-        return "G-PT";
-    case Method::gpr:
-        return "G-PR";
-    }
-    return "";
-}
-
-namespace {
 
 const RgbImage& primal_with_very_direct(const GradientImages& images, RgbImage& scratch) {
     if (images.very_direct.size() != images.primal.size())

@@ -53,14 +53,25 @@ void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float
     camera_ = camera;
     scene_radius_ = scene_radius > 0 ? scene_radius : 1.0f;
     up_ = nearest_axis(column(camera, 1));
-    const float ahead = glm::dot(scene_center - position(), forward());
-    home_distance_ = std::clamp(ahead, 0.1f * scene_radius_, 100.0f * scene_radius_);
+    scene_center_ = scene_center;
+    home_distance_ = distance_of_center();
     distance_ = home_distance_;
+}
+
+void CameraControl::put(const Camera& camera, float distance) {
+    camera_ = camera;
+    distance_ = distance > 0 ? std::clamp(distance, least_distance * scene_radius_, most_distance * scene_radius_)
+                             : distance_of_center();
 }
 
 void CameraControl::go_home() {
     camera_ = home_;
     distance_ = home_distance_;
+}
+
+float CameraControl::distance_of_center() const {
+    const float ahead = glm::dot(scene_center_ - position(), forward());
+    return std::clamp(ahead, 0.1f * scene_radius_, 100.0f * scene_radius_);
 }
 
 glm::vec3 CameraControl::position() const {

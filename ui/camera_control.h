@@ -15,8 +15,9 @@ public:
     void set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius);
     void go_home();
 
-    /// Takes another camera; the place to come back to stays.
-    void put(const Camera& camera) { camera_ = camera; }
+    /// Takes another camera, with its distance to the target; 0: as far ahead as the scene's centre. The place to
+    /// come back to stays.
+    void put(const Camera& camera, float distance);
 
     const Camera& camera() const { return camera_; }
     glm::vec3 position() const;
@@ -44,12 +45,14 @@ public:
 private:
     void turn_about(glm::vec3 pivot, float yaw, float pitch);
     void move(glm::vec3 by);
-    float handedness() const; // -1 for a camera that sees mirrored
+    float distance_of_center() const; // ahead of the camera, within reason
+    float handedness() const;         // -1 for a camera that sees mirrored
 
     Camera home_;
     Camera camera_;
     float home_distance_ = 1;
     float distance_ = 1;
+    glm::vec3 scene_center_{0};
     float scene_radius_ = 1;
     glm::vec3 up_{0, 1, 0};
 };

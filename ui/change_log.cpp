@@ -57,7 +57,7 @@ Values describe(const ViewerState& state) {
     values["wipe"] = text(static_cast<double>(state.wipe));
     values["flicker"] = text(state.flicker);
     values["theme"] = state.theme == Theme::dark ? "dark" : "light";
-    values["ui scale"] = text(static_cast<double>(state.shown_ui_scale));
+    values["ui scale"] = text(static_cast<double>(state.ui_scale()));
     values["magnifier"] = text(state.magnifier);
     values["charts"] = text(state.show_charts);
     values["tiles"] = text(state.show_tiles);

@@ -10,16 +10,23 @@ namespace tessera {
 
 namespace {
 
+/// "weighted,0.2,1", as far as they matter.
+std::string reconstruction_columns(const ReconstructionSettings& s) {
+    if (s.norm == Norm::none)
+        return "none,,";
+    return fmt::format("{},{:.6g},{}", to_string(s.norm), s.alpha, static_cast<int>(s.joint_colour));
+}
+
 std::string error_lines(const ViewerState& state) {
-    std::string text = "pane,method,norm,spp,seconds,relMSE,efficiency\n";
-    for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        const PaneSettings& settings = state.panes[i].settings;
-        for (const ErrorPoint& p : state.charts[i].errors.points())
-            text += fmt::format("{},{},{},{},{:.6g},{:.7g},{:.7g}\n", i + 1, short_name(settings.render.method),
-                                has_gradients(settings.render.method) ? to_string(settings.reconstruction.norm)
-                                                                      : "none",
-                                p.spp, p.seconds, p.error, efficiency_of(p));
-    }
+    std::string text =
+        "pane,method,norm,alpha,joint_colour,spp,seconds,relMSE,standard_error,efficiency,not_finite\n";
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        for (const ErrorCurve& curve : state.chart_of(state.panes[i]).curves)
+            for (const ErrorPoint& p : curve.points())
+                text += fmt::format("{},{},{},{},{:.6g},{:.7g},{},{:.7g},{}\n", i + 1, short_name(curve.method),
+                                    reconstruction_columns(curve.reconstruction), p.spp, p.seconds, p.error,
+                                    std::isfinite(p.standard_error) ? fmt::format("{:.3g}", p.standard_error) : "",
+                                    efficiency_of(p), p.not_finite);
     return text;
 }
 
@@ -28,9 +35,8 @@ std::string shift_lines(const ViewerState& state) {
     for (int i = 0; i < shift_outcome_count; ++i)
         header += fmt::format(",{}", to_string(static_cast<ShiftOutcome>(i)));
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        for (const ShiftPoint& p : state.charts[i].shifts.points()) {
-            text += fmt::format("{},{},{},{:.6g}", i + 1, short_name(state.panes[i].settings.render.method), p.spp,
-                                p.seconds);
+        for (const ShiftPoint& p : state.chart_of(state.panes[i]).shifts.points()) {
+            text += fmt::format("{},{},{},{:.6g}", i + 1, short_name(p.method), p.spp, p.seconds);
             for (double share : p.shares)
                 text += fmt::format(",{:.6g}", share);
             text += '\n';
@@ -40,7 +46,7 @@ std::string shift_lines(const ViewerState& state) {
 }
 
 std::string histogram_lines(const ViewerState& state) {
-    const auto& histogram = state.charts[static_cast<std::size_t>(state.active_pane)].histogram;
+    const auto& histogram = state.chart_of(state.active()).histogram;
     if (!histogram)
         return "";
     std::string text = "\nluminance,pixels\n";

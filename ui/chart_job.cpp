@@ -1,13 +1,21 @@
 #include "ui/chart_job.h"
 
-#include "recon/metrics.h"
 #include "render/session/thread_priority.h"
+#include "ui/picture_error.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace tessera {
 
 namespace {
+
+/// The pane that the session's slot renders; null: it is free.
+const PaneState* pane_of(const ViewerState& state, std::size_t slot) {
+    for (const PaneState& pane : state.panes)
+        if (static_cast<std::size_t>(pane.slot) == slot)
+            return &pane;
+    return nullptr;
+}
 
 /// The picture on show at the end, if it is one: not the primal that stands in for a reconstruction under way.
 std::shared_ptr<const void> final_source(const PaneState& pane) {
@@ -24,26 +32,29 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     if (auto outcome = job_.poll(); outcome && outcome->result)
         for (Measured& measured : *outcome->result)
             take(state, measured);
-    for (std::size_t i = 0; i < state.panes.size(); ++i)
-        note_shifts(state.panes[i], state.charts[i]);
-    for (std::size_t i = state.panes.size(); i < state.charts.size(); ++i) {
-        state.charts[i] = {}; // the pane is gone
-        done_[i] = {};
+    for (std::size_t slot = 0; slot < state.charts.size(); ++slot) {
+        if (pane_of(state, slot))
+            continue;
+        state.charts[slot] = {}; // the pane is gone
+        done_[slot] = {};
     }
+    for (const PaneState& pane : state.panes)
+        note_shifts(pane, state.chart_of(pane));
     if (job_.running())
         return;
     const bool wants_histograms = state.show_charts || state.large_charts || state.save_charts;
     std::vector<Measured> work;
-    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+    for (const PaneState& pane : state.panes) {
         const auto& reference = state.companions.reference;
-        std::shared_ptr<const void> source = final_source(state.panes[i]);
-        Done& done = done_[i];
+        std::shared_ptr<const void> source = final_source(pane);
+        Done& done = done_[static_cast<std::size_t>(pane.slot)];
         const bool wants_error = reference && (source != done.source || reference != done.reference);
         const bool wants_histogram = wants_histograms && (source != done.source || !done.histogram);
         if (!source || !(wants_error || wants_histogram))
             continue;
         done = {source, reference, wants_histograms};
-        work.push_back({i, state.panes[i].snapshot, std::move(source), reference, wants_histograms});
+        work.push_back(
+            {static_cast<std::size_t>(pane.slot), pane.snapshot, std::move(source), reference, wants_histograms});
     }
     if (work.empty())
         return;
@@ -67,7 +78,7 @@ void ChartJob::note_shifts(const PaneState& pane, PaneChart& chart) {
     const auto& points = chart.shifts.points();
     if (!points.empty() && points.back().spp == s->spp)
         return;
-    ShiftPoint point{s->spp, s->seconds, {}};
+    ShiftPoint point{s->spp, s->seconds, {}, s->settings.method};
     const auto all = static_cast<double>(s->counters.shift_attempts());
     for (std::size_t i = 0; i < point.shares.size(); ++i)
         point.shares[i] = static_cast<double>(s->counters.shifts[i]) / all;
@@ -80,26 +91,45 @@ void ChartJob::measure(Measured& m) {
     const RgbImage& image = picture(s, Buffer::reconstruction, scratch);
     if (m.wants_histogram)
         m.histogram = histogram_of(image);
-    if (!m.reference || m.reference->image.width() != image.width() ||
-        m.reference->image.height() != image.height())
-        return;
-    const double error = measure_error(image, m.reference->image).relative_mse;
+    const auto error = m.reference ? error_to(*m.reference, image) : std::nullopt;
     const bool reconstructed = m.source == s.reconstruction;
-    if (std::isfinite(error))
+    if (error)
         m.point = ErrorPoint{reconstructed ? s.reconstruction_spp : s.spp,
-                             reconstructed ? s.reconstruction_seconds : s.seconds, error};
+                             reconstructed ? s.reconstruction_seconds : s.seconds, error->relative_mse,
+                             error->standard_error, error->not_finite};
+}
+
+/// To the line of those made in the same way, which becomes the last.
+void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Snapshot& s, const ErrorPoint& point) {
+    ErrorCurve curve{s.settings.method, s.reconstructed_with, {}};
+    if (!has_gradients(curve.method))
+        curve.reconstruction = {Norm::none};
+    const auto same = std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& c) {
+        return c.method == curve.method && c.reconstruction == curve.reconstruction;
+    });
+    if (same != curves.end()) {
+        std::rotate(same, same + 1, curves.end());
+    } else {
+        // A slider of alpha passes by many that nobody is after.
+        if (!curves.empty() && curves.back().points().size() == 1 &&
+            curves.back().reconstruction.norm == curve.reconstruction.norm)
+            curves.pop_back();
+        curves.push_back(std::move(curve));
+    }
+    curves.back().history.add(point);
 }
 
 void ChartJob::take(ViewerState& state, Measured& measured) {
-    if (measured.pane >= state.panes.size())
-        return; // it has been taken away
-    PaneChart& chart = state.charts[measured.pane];
+    const PaneState* pane = pane_of(state, measured.slot);
+    if (!pane || pane->generation != measured.snapshot->generation)
+        return; // it has been taken away, or shows something else
+    PaneChart& chart = state.chart_of(*pane);
     if (chart.generation != measured.snapshot->generation || chart.reference != measured.reference)
-        chart.errors.clear();
+        chart.curves.clear();
     chart.generation = measured.snapshot->generation;
     chart.reference = measured.reference;
     if (measured.point)
-        chart.errors.add(*measured.point);
+        add_point(chart.curves, *measured.snapshot, *measured.point);
     if (measured.histogram)
         chart.histogram = std::make_shared<const Histogram>(*measured.histogram);
 }

@@ -19,7 +19,7 @@ public:
 private:
     /// A picture to measure, and what came of it.
     struct Measured {
-        std::size_t pane;
+        std::size_t slot;
         std::shared_ptr<const Snapshot> snapshot;
         std::shared_ptr<const void> source; ///< picture_source()
         std::shared_ptr<const Reference> reference;
@@ -27,7 +27,7 @@ private:
         std::optional<ErrorPoint> point{};
         std::optional<Histogram> histogram{};
     };
-    /// What was measured last in a pane.
+    /// What was measured last in a slot.
     struct Done {
         std::shared_ptr<const void> source;
         std::shared_ptr<const Reference> reference;
@@ -35,10 +35,11 @@ private:
     };
     static void note_shifts(const PaneState& pane, PaneChart& chart);
     static void measure(Measured& picture);
+    static void add_point(std::vector<ErrorCurve>& curves, const Snapshot& snapshot, const ErrorPoint& point);
     void take(ViewerState& state, Measured& measured);
 
     BackgroundJob<std::vector<Measured>> job_;
-    std::array<Done, most_panes> done_;
+    std::array<Done, most_panes> done_; // by slot
 };
 
 } // namespace tessera

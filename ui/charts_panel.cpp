@@ -28,7 +28,8 @@ constexpr const char* help_of(ChartKind kind) {
     switch (kind) {
     case ChartKind::error:
         return "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + 0.001) [Bauszat "
-               "2017, 4], against what it has taken. Both axes are logarithmic.";
+               "2017, 4], against what it has taken; to a reference with halves (I - r1) (I - r2), in which the "
+               "reference's own noise cancels. Both axes are logarithmic.";
     case ChartKind::efficiency:
         return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of a method without bias becomes "
                "level; the higher one needs less time for the same error. Both axes are logarithmic.";
@@ -60,24 +61,43 @@ std::string slope_text(double slope) {
     return text;
 }
 
-/// A line for each pane: the newest error or efficiency, and its slope.
+/// "0.0123 ± 0.0004   slope -1.02": the newest point of a line.
+std::string figures_text(const ViewerState& state, const ChartSeries& series) {
+    if (series.points.empty())
+        return "no error yet";
+    const ChartPoint& newest = series.points.back();
+    char text[128], error[32] = "";
+    if (std::isfinite(newest.error) && newest.error > 0)
+        std::snprintf(error, sizeof error, " ± %.1g", newest.error);
+    std::snprintf(text, sizeof text, "%.3g%s%s   slope %s", newest.y, error,
+                  state.chart_kind == ChartKind::efficiency ? " /s" : "",
+                  slope_text(slope_of_last_decade(series)).c_str());
+    return text;
+}
+
+/// For each line of the plot the newest error or efficiency and the slope; and what all of them lack.
 void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
                   const std::vector<ImU32>& colours) {
+    float widest = 0;
+    for (const ChartSeries& series : plot.series)
+        widest = std::max(widest, ImGui::CalcTextSize(series.label.c_str()).x);
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        const ChartSeries& series = plot.series[i];
-        char text[128] = "no error yet";
-        if (!series.points.empty())
-            std::snprintf(text, sizeof text, "%.3g%s   slope %s", series.points.back().y,
-                          state.chart_kind == ChartKind::efficiency ? " /s" : "",
-                          slope_text(slope_of_last_decade(series)).c_str());
-        coloured(colours[i], series.label.c_str());
-        ImGui::SameLine(ImGui::GetFontSize() * 5);
-        ImGui::TextUnformatted(text);
+        coloured(colours[i], plot.series[i].label.c_str());
+        ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + widest + ImGui::GetFontSize());
+        ImGui::TextUnformatted(figures_text(state, plot.series[i]).c_str());
         controls.note(
             ("charts.figures" + std::to_string(i)).c_str(),
-            "The newest value, and the slope of the line over its last decade: -1 for an error that falls "
-            "as noise does, 0 for its efficiency.");
+            "The newest value with its standard error where that is known, and the slope of the line over "
+            "its last decade: -1 for an error that falls as noise does, 0 for its efficiency.");
     }
+    const std::string caveat = chart_caveat(state);
+    if (caveat.empty())
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
+    ImGui::TextWrapped("%s", caveat.c_str());
+    ImGui::PopStyleColor();
+    controls.note("charts.caveat", "References made here, or by tessera reference, have two halves that are "
+                                   "independent of each other: errors against both are free of their noise.");
 }
 
 /// A line for each outcome, with the newest share in every pane that has a plot.
@@ -162,7 +182,7 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
         "root scale. The bright line is what the exposure makes white.");
     ImGui::GetWindowDrawList()->AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y},
                                               IM_COL32(128, 128, 128, 25));
-    const auto& histogram = state.charts[static_cast<std::size_t>(state.active_pane)].histogram;
+    const auto& histogram = state.chart_of(state.active()).histogram;
     if (!histogram)
         return;
     draw_bins(where, *histogram, state.tone.exposure);
@@ -236,8 +256,7 @@ void draw_large_charts(const ScreenRect& where, Controls& controls, const Viewer
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Large charts", nullptr, overlay_flags)) {
         const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
-        const bool by_outcome = state.chart_kind == ChartKind::shifts;
-        const auto lines = static_cast<float>(by_outcome ? seen_outcomes(state).size() + 1 : state.panes.size());
+        const auto lines = static_cast<float>(line_colours(state).size() + 1); // one above, or the caveat below
         ImGui::TextDisabled("%s", viewer_chart(state).title.c_str());
         const float rest = (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
         draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - rest, font * plot_height));

@@ -2,8 +2,10 @@
 
 #include "render/load/exr.h"
 #include "render/session/thread_priority.h"
+#include "ui/picture_error.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -13,16 +15,14 @@ namespace {
 
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file) {
     const ExrFile exr = read_exr(file);
-    auto reference = std::make_shared<Reference>();
-    reference->name = file.string();
-    reference->image = require_layer(exr, "", file);
-    double sum = 0;
-    for (const Rgb& pixel : reference->image)
-        sum += is_finite(pixel) ? static_cast<double>(luminance(pixel)) : 0;
-    reference->mean =
-        static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(reference->image.size(), 1)));
-    return reference;
+    std::array<RgbImage, 2> halves;
+    for (std::size_t i = 0; i < halves.size(); ++i)
+        if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))
+            halves[i] = *half;
+    return make_reference(file.string(), require_layer(exr, "", file), std::move(halves));
 }
+
+constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
 
 bool wants_first_hits(const ViewerState& state) {
     return std::any_of(state.panes.begin(), state.panes.end(), [](const PaneState& pane) {
@@ -39,7 +39,12 @@ void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake
 
 void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
     if (const std::string file = std::exchange(state.reference_file, {}); !file.empty())
-        reference_.start([file](std::stop_token) { return load_reference(file); }, wake);
+        reference_.start(
+            [file](std::stop_token) {
+                work_in_background();
+                return load_reference(file);
+            },
+            wake);
     const auto outcome = reference_.poll();
     if (!outcome)
         return;
@@ -51,18 +56,40 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
     state.add_message(Message::Kind::note, "The reference is now " + state.companions.reference->name);
 }
 
-/// A trace is not given up when the camera moves on: a picture somewhat late is better than none.
-void CompanionJobs::update_first_hits(ViewerState& state, const std::function<void()>& wake) {
-    if (const auto outcome = first_hits_.poll(); outcome && outcome->result)
-        state.companions.first_hits = *outcome->result;
-    const View view{state.scene, state.camera.camera(), state.request_size()};
-    if (!state.scene || first_hits_.running() || view == traced_ || !wants_first_hits(state))
+/// Whatever the size that was traced.
+bool CompanionJobs::is_of(const View& view, const ViewerState& state) {
+    return view.divisor > 0 && view.scene.lock() == state.scene && view.camera == state.camera.camera() &&
+           view.size == state.request_size();
+}
+
+void CompanionJobs::take_first_hits(ViewerState& state) {
+    const bool is_of_scene = asked_.scene.lock() == state.scene;
+    if (!is_of_scene)
+        state.companions.first_hits = nullptr; // of a camera moved on it may stay for the moment
+    const auto outcome = first_hits_.poll();
+    if (!outcome)
         return;
-    traced_ = view;
+    if (!outcome->result)
+        state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
+    else if (is_of_scene)
+        state.companions.first_hits = *outcome->result;
+}
+
+/// A look at a fraction of the size first, which is not given up when the camera moves on: a picture somewhat late
+/// is better than none. What failed is not tried again before the view is another.
+void CompanionJobs::update_first_hits(ViewerState& state, const std::function<void()>& wake) {
+    take_first_hits(state);
+    const bool is_asked = is_of(asked_, state);
+    const bool is_whole = is_asked && asked_.divisor == 1;
+    const bool is_under_way = first_hits_.running() && (is_asked || asked_.divisor > 1);
+    if (!state.scene || is_whole || is_under_way || !wants_first_hits(state))
+        return;
+    asked_ = {state.scene, state.camera.camera(), state.request_size(), is_asked ? 1 : coarse_divisor};
     first_hits_.start(
-        [view](std::stop_token stop) {
+        [scene = state.scene, view = asked_](std::stop_token stop) {
             work_in_background();
-            return std::make_shared<const FirstHits>(trace_first_hits(*view.scene, view.camera, view.size, stop));
+            const glm::ivec2 size = (view.size + view.divisor - 1) / view.divisor;
+            return std::make_shared<const FirstHits>(trace_first_hits(*scene, view.camera, size, stop));
         },
         wake);
 }

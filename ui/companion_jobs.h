@@ -16,19 +16,21 @@ public:
     void update(ViewerState& state, const std::function<void()>& wake);
 
 private:
-    /// What first hits depend on.
+    /// What first hits depend on, and how large they are.
     struct View {
-        std::shared_ptr<const Scene> scene;
+        std::weak_ptr<const Scene> scene; // not kept alive by what was made of it
         Camera camera;
         glm::ivec2 size{0};
-        bool operator==(const View&) const = default;
+        int divisor = 0; // of the size; 0: nothing was traced
     };
+    static bool is_of(const View& view, const ViewerState& state);
+    void take_first_hits(ViewerState& state);
     void update_reference(ViewerState& state, const std::function<void()>& wake);
     void update_first_hits(ViewerState& state, const std::function<void()>& wake);
 
     BackgroundJob<std::shared_ptr<const Reference>> reference_;
     BackgroundJob<std::shared_ptr<const FirstHits>> first_hits_;
-    View traced_; // by the last job that was started
+    View asked_; // by the last job that was started
 };
 
 } // namespace tessera

@@ -2,6 +2,8 @@
 
 #include "render/session/first_hits.h"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -12,6 +14,10 @@ struct Reference {
     std::string name; ///< of its file
     RgbImage image;
     float mean = 0; ///< of its luminance
+    /// Two renders that are independent of each other, whose mean is the image: errors against both are free of
+    /// the reference's own (recon/metrics.h). Empty: it has none, and how noisy it is is not known.
+    std::array<RgbImage, 2> halves{};
+    std::size_t not_finite = 0; ///< pixels that errors cannot be measured at
 };
 
 /// What some buffers are made of beside a pane's snapshot; null: there is none.

@@ -9,9 +9,6 @@ namespace tessera {
 
 namespace {
 
-constexpr float least_zoom = 0.25f;
-constexpr float most_zoom = 256.0f;
-
 // Screen pixels an image pixel at which the whole picture fits. An image that nearly fills the pane is shown pixel
 // by pixel rather than stretched by a few.
 float fitting_scale(glm::ivec2 image_size, glm::ivec2 pane_size) {
@@ -25,6 +22,9 @@ bool is_degenerate(glm::ivec2 image_size, glm::ivec2 pane_size) {
 }
 
 } // namespace
+
+ImageView::ImageView(float zoom, glm::vec2 center)
+    : zoom_(std::clamp(zoom, least_zoom, most_zoom)), center_(glm::clamp(center, glm::vec2(0), glm::vec2(1))) {}
 
 Placement ImageView::place(glm::ivec2 image_size, glm::ivec2 pane_size) const {
     if (is_degenerate(image_size, pane_size))

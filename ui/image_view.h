@@ -16,6 +16,12 @@ struct Placement {
 /// Zoom and pan of the picture itself, shared by all panes: independent of an image's number of pixels.
 class ImageView {
 public:
+    static constexpr float least_zoom = 0.25f, most_zoom = 256.0f;
+
+    ImageView() = default;
+    /// `center`: the fraction of the image that lies in the middle of the pane; clamped to it, as `zoom` is.
+    ImageView(float zoom, glm::vec2 center);
+
     Placement place(glm::ivec2 image_size, glm::ivec2 pane_size) const;
 
     /// Enlarges by `factor`; what lies under the pane's pixel stays there.
@@ -28,11 +34,12 @@ public:
     void fit() { *this = ImageView(); }
 
     float zoom() const { return zoom_; } ///< 1: the whole picture fits
+    glm::vec2 center() const { return center_; }
     bool operator==(const ImageView&) const = default;
 
 private:
     float zoom_ = 1;
-    glm::vec2 center_{0.5f}; // the point of the image that lies in the middle of the pane, as a fraction
+    glm::vec2 center_{0.5f};
 };
 
 } // namespace tessera

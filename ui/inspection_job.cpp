@@ -5,45 +5,63 @@
 
 namespace tessera {
 
-void InspectionJob::update(ViewerState& state, const std::function<void()>& wake) {
+void InspectionJob::take(ViewerState& state) {
+    const auto outcome = job_.poll();
+    if (!outcome)
+        return;
     Inspector& inspector = state.inspector;
-    if (const auto outcome = job_.poll()) {
-        const auto& found = outcome->result;
-        const bool is_same = found && inspector.inspection && inspector.pane == asked_.sample.pane &&
-                             inspector.inspection->pixel == (*found)->pixel;
-        state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
-        inspector.pane = asked_.sample.pane;
-        inspector.generation = asked_.generation;
-        inspector.inspection = found.value_or(nullptr);
-        if (!found)
-            state.add_message(Message::Kind::error, outcome->error);
-    }
-    if (!inspector.active || !inspector.sample || !state.scene ||
-        inspector.sample->pane >= static_cast<int>(state.panes.size()) || job_.running())
+    const auto& found = outcome->result;
+    const bool is_same = found && inspector.inspection && inspector.pane == asked_.sample.pane &&
+                         inspector.inspection->pixel == (*found)->pixel;
+    state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
+    inspector.pane = asked_.sample.pane;
+    inspector.generation = asked_.generation;
+    inspector.origin = origin_;
+    inspector.inspection = found.value_or(nullptr);
+    if (!found)
+        state.add_message(Message::Kind::error, outcome->error);
+}
+
+/// Null: its pane shows nothing yet that could be looked at.
+std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& state,
+                                                           const SampleChoice& sample) const {
+    if (sample.origin)
+        return sample.origin;
+    if (sample.pane >= static_cast<int>(state.panes.size()))
+        return nullptr;
+    const PaneState& pane = state.panes[static_cast<std::size_t>(sample.pane)];
+    const Snapshot* s = pane.snapshot.get();
+    if (!s || s->generation != pane.generation || s->coarse || s->spp < 1)
+        return nullptr;
+    const glm::ivec2 size(s->images->primal.width(), s->images->primal.height());
+    return std::make_shared<const PassOrigin>(
+        PassOrigin{state.scene, s->camera, size, s->settings, s->plan, s->generation});
+}
+
+void InspectionJob::update(ViewerState& state, const std::function<void()>& wake) {
+    take(state);
+    const Inspector& inspector = state.inspector;
+    if (!inspector.active || !inspector.sample || !state.scene || job_.running())
         return;
-    const PaneState& pane = state.panes[static_cast<std::size_t>(inspector.sample->pane)];
-    const Snapshot* snapshot = pane.snapshot.get();
-    if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse || snapshot->spp < 1)
+    const std::shared_ptr<const PassOrigin> origin = origin_of(state, *inspector.sample);
+    if (!origin)
         return;
-    Asked wanted{snapshot->generation, *inspector.sample};
+    Asked wanted{origin->generation, *inspector.sample};
     if (!wanted.sample.pass) {
         wanted.sample.pass = asked_.sample.pass;
         if (!(wanted == asked_) || inspector.follows)
-            wanted.sample.pass = snapshot->spp - 1;
+            wanted.sample.pass = state.panes[static_cast<std::size_t>(wanted.sample.pane)].snapshot->spp - 1;
     }
-    if (!(wanted == asked_))
-        start(state, wanted, wake);
-}
-
-void InspectionJob::start(const ViewerState& state, const Asked& asked, const std::function<void()>& wake) {
-    asked_ = asked;
-    const auto snapshot = state.panes[static_cast<std::size_t>(asked.sample.pane)].snapshot;
-    const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
-    const glm::ivec2 pixel = glm::clamp(asked.sample.pixel, glm::ivec2(0), size - 1);
+    if (wanted == asked_)
+        return;
+    asked_ = wanted;
+    origin_ = origin;
+    const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), origin->size - 1);
     job_.start(
-        [scene = state.scene, snapshot, size, pixel, pass = *asked.sample.pass](std::stop_token) {
+        [origin, pixel, pass = *wanted.sample.pass](std::stop_token) {
+            const PassOrigin& o = *origin;
             return std::make_shared<const Inspection>(
-                inspect(*scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, pass, pixel));
+                inspect(*o.scene, o.camera, o.size, o.settings, *o.plan, pass, pixel));
         },
         wake);
 }

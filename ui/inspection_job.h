@@ -19,10 +19,12 @@ private:
         SampleChoice sample; ///< with its pass
         bool operator==(const Asked&) const = default;
     };
-    void start(const ViewerState& state, const Asked& asked, const std::function<void()>& wake);
+    void take(ViewerState& state);
+    std::shared_ptr<const PassOrigin> origin_of(const ViewerState& state, const SampleChoice& sample) const;
 
     BackgroundJob<std::shared_ptr<const Inspection>> job_;
-    Asked asked_; // last
+    Asked asked_;                              // last, ...
+    std::shared_ptr<const PassOrigin> origin_; // ... and of what
 };
 
 } // namespace tessera

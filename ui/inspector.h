@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/method/inspection.h"
+#include "render/scene/scene.h"
 
 #include <cstdint>
 #include <memory>
@@ -8,11 +9,22 @@
 
 namespace tessera {
 
+/// What a pass was made of: enough to take its samples again, whatever is on show by now.
+struct PassOrigin {
+    std::shared_ptr<const Scene> scene;
+    Camera camera;
+    glm::ivec2 size{0};
+    RenderSettings settings;
+    std::shared_ptr<const ReusePlan> plan;
+    std::uint64_t generation = 0; ///< of the request
+};
+
 /// One sample of one pixel that is to be looked at.
 struct SampleChoice {
     int pane = 0;
     glm::ivec2 pixel{0};
-    std::optional<int> pass; ///< from 0; empty: the newest
+    std::optional<int> pass;                    ///< from 0; empty: the newest
+    std::shared_ptr<const PassOrigin> origin{}; ///< of the pass; null: what the pane shows
 
     bool operator==(const SampleChoice&) const = default;
 };
@@ -32,8 +44,9 @@ struct Inspector {
 
     /// The newest that has been found out; null: nothing yet.
     std::shared_ptr<const Inspection> inspection;
-    int pane = 0;                 ///< whose it is, ...
-    std::uint64_t generation = 0; ///< ... and of which request
+    std::shared_ptr<const PassOrigin> origin; ///< what it was found out from
+    int pane = 0;                             ///< whose it is, if that still shows the request, ...
+    std::uint64_t generation = 0;             ///< ... and of which request
 
     int shown_row() const { return marked >= 0 ? marked : chosen; }
     void choose(const SampleChoice& choice) {

@@ -36,7 +36,8 @@ std::string headline(const Inspection& i) {
     return line + (i.is_refused ? "   REFUSED: not finite" : "");
 }
 
-void draw_top_row(Controls& controls, Inspector& inspector) {
+/// `is_earlier`: of a request that no pane shows any more.
+void draw_top_row(Controls& controls, Inspector& inspector, bool is_earlier) {
     static const std::vector<ChoiceItem> directions = {
         {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
         {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
@@ -58,7 +59,8 @@ void draw_top_row(Controls& controls, Inspector& inspector) {
         inspector.active = false;
     ImGui::SameLine();
     if (inspector.inspection)
-        ImGui::TextUnformatted(headline(*inspector.inspection).c_str());
+        ImGui::TextUnformatted(
+            ((is_earlier ? "of an earlier picture:   " : "") + headline(*inspector.inspection)).c_str());
     else
         ImGui::TextDisabled(inspector.sample ? "waiting for the first whole pass" : "click on a pixel");
 }
@@ -70,8 +72,10 @@ void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerSta
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Path inspector", nullptr, flags)) {
-        draw_top_row(controls, inspector);
-        if (inspector.inspection && state.scene) {
+        draw_top_row(controls, inspector,
+                     inspector.sample && inspector.sample->origin &&
+                         !is_on_show(*inspector.sample->origin, state));
+        if (inspector.inspection && inspector.origin) {
             const ImVec2 room = ImGui::GetContentRegionAvail();
             const float gap = ImGui::GetStyle().ItemSpacing.x;
             const float space = std::min(room.y * 1.5f, room.x * 0.3f), rest = room.x - space - 2 * gap;
@@ -80,7 +84,7 @@ void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerSta
             draw_shift_table(inspector, rest * 0.48f, controls);
             ImGui::SameLine();
             const SpaceSubject subject{inspector.inspection->path, shown_shifts(inspector), inspector.shown_row(),
-                                       state.scene->radius()};
+                                       inspector.origin->scene->radius()};
             draw_space_view({space, room.y}, subject, state.space, controls);
         }
     }

@@ -138,7 +138,7 @@ constexpr Named table[] = {
      [](S& s, Text n, Text v) {
          s.theme = static_cast<Theme>(one_of(n, v, {"dark", "light"}));
      }},
-    {"ui_scale", [](S& s, Text n, Text v) { s.ui_scale = static_cast<float>(number(n, v, 1, 3)); }},
+    {"ui_scale", [](S& s, Text n, Text v) { s.set_ui_scale(static_cast<float>(number(n, v, 1, 3))); }},
     {"panel", flag<[](S& s) -> bool& { return s.show_panel; }>},
     {"statistics", flag<[](S& s) -> bool& { return s.show_statistics; }>},
     {"charts", flag<[](S& s) -> bool& { return s.show_charts; }>},

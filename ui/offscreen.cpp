@@ -62,7 +62,7 @@ private:
 class Offscreen final : public Surface {
 public:
     std::string open(const SurfaceOptions& options) {
-        size_ = glm::max(options.size, glm::ivec2(1));
+        size_ = glm::max(options.place.size, glm::ivec2(1));
         std::string error = context_.open();
         if (!error.empty())
             return error;
@@ -80,7 +80,8 @@ public:
             const auto now = std::chrono::steady_clock::now();
             if (hooks.before)
                 hooks.before(frame_seconds);
-            gui_->set_look(viewer.state().ui_scale.value_or(scale_), viewer.state().theme);
+            viewer.state().display_scale = std::max(scale_, ViewerState::least_ui_scale);
+            gui_->set_look(viewer.state().ui_scale(), viewer.state().theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
             last = now;
             viewer.draw_frame();

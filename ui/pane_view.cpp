@@ -74,16 +74,10 @@ const ImageTexture* subtrahend_of(const Showing& showing, const PaneTools& tools
 }
 
 CanvasView view_of(const Showing& showing, const PictureFrame& frame, const PaneTools& tools) {
-    const ViewerState& state = tools.state;
-    CanvasView view;
+    CanvasView view = colours_of(showing, tools.state, tools.images);
     view.pane_size = frame.pixels;
     view.image_origin = frame.placement.origin;
     view.image_extent = frame.placement.extent;
-    view.colour_map = colour_map(showing, state);
-    view.tone = state.tone;
-    view.range = range_of(buffer_of(showing.pane, state), state, tools.images);
-    view.coarse = image_of(showing, tools).coarse();
-    view.mark_negative = state.mark_negative;
     return view;
 }
 

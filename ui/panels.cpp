@@ -231,27 +231,35 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
     ImGui::PopStyleColor();
 }
 
-void draw_loading(const ScreenRect& where, const std::string& what, const LoadProgress::State& progress,
-                  double seconds) {
+void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
+                  const LoadProgress::State& progress, double seconds) {
     char time[32];
     std::snprintf(time, sizeof time, " ...  %.1f s", seconds);
     const std::string text = "Loading " + what + time + "\n" + to_string(progress);
     const ImVec2 text_size = ImGui::CalcTextSize(text.c_str());
-    const float pad = ImGui::GetFontSize(), bar_height = std::floor(pad * 0.3f);
-    const glm::vec2 half(text_size.x * 0.5f + pad, text_size.y * 0.5f + pad + bar_height);
+    const float pad = ImGui::GetFontSize(), bar_height = std::floor(pad * 0.3f), row = ImGui::GetFrameHeight();
+    const glm::vec2 half(text_size.x * 0.5f + pad, (text_size.y + row) * 0.5f + 1.5f * pad + bar_height);
     const glm::vec2 center = (where.min + where.max) * 0.5f;
     const ImVec2 min(center.x - half.x, center.y - half.y), max(center.x + half.x, center.y + half.y);
-    ImDrawList& list = *ImGui::GetForegroundDrawList();
-    list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
-    list.AddRect(min, max, colours::overlay_line, pad * 0.5f);
-    list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
-    if (progress.total == 0)
-        return;
-    const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
-    const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
-    list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::overlay_line);
-    list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom},
-                       colours::overlay_accent);
+    ImGui::SetNextWindowPos(min);
+    ImGui::SetNextWindowSize({max.x - min.x, max.y - min.y});
+    if (ImGui::Begin("Loading", nullptr, overlay_flags | ImGuiWindowFlags_NoBackground)) {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
+        list.AddRect(min, max, colours::overlay_line, pad * 0.5f);
+        list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
+        ImGui::SetCursorScreenPos({min.x + pad, min.y + 1.5f * pad + text_size.y});
+        if (controls.button("cancel_load", "Cancel", "Gives the scene up; the one on show stays (Esc)."))
+            state.cancel_load = true;
+        if (progress.total > 0) {
+            const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
+            const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
+            list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::overlay_line);
+            list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom},
+                               colours::overlay_accent);
+        }
+    }
+    ImGui::End();
 }
 
 } // namespace tessera

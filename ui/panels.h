@@ -26,6 +26,9 @@ float draw_menu_bar(Controls& controls, ViewerState& state);
 /// Settings of the active pane (of all, when linked), of the picture and its size.
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
+/// The edge between `pictures` and the panels to their right, which the mouse can drag.
+void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState& state);
+
 /// What the render on show in the active pane has counted.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
@@ -49,8 +52,8 @@ void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerS
 /// All actions and gestures, over everything.
 void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 
-/// What is being loaded and how far that is, over the pictures.
-void draw_loading(const ScreenRect& where, const std::string& what, const LoadProgress::State& progress,
-                  double seconds);
+/// What is being loaded and how far that is, over the pictures, and a button to give it up.
+void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
+                  const LoadProgress::State& progress, double seconds);
 
 } // namespace tessera

@@ -41,6 +41,11 @@ void draw_sets(const PictureFrame& frame, const Inspector& inspector) {
 
 } // namespace
 
+bool is_on_show(const PassOrigin& origin, const ViewerState& state) {
+    return std::any_of(state.panes.begin(), state.panes.end(),
+                       [&](const PaneState& pane) { return pane.generation == origin.generation; });
+}
+
 std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector) {
     std::vector<const InspectedShift*> shifts;
     for (const InspectedSet& set : inspector.inspection->sets) {
@@ -71,7 +76,9 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
         draw_shifts(lines, shown_shifts(inspector), inspector.shown_row());
         draw_base_path(lines, inspector.inspection->path, 0.5f * radius);
     }
-    mark_pixel(frame, inspector.sample->pixel, state.request_size(), colours::overlay_accent);
+    // One of an earlier request lies elsewhere in what the panes show now.
+    if (!inspector.sample->origin || is_on_show(*inspector.sample->origin, state))
+        mark_pixel(frame, inspector.sample->pixel, state.request_size(), colours::overlay_accent);
     list.PopClipRect();
 }
 

@@ -8,6 +8,9 @@ namespace tessera {
 /// Those of the shifts of an inspection that are shown.
 std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector);
 
+/// Whether a pane still shows the request.
+bool is_on_show(const PassOrigin& origin, const ViewerState& state);
+
 /// Draws the inspected sample over the picture of its pane: the base path in white, light samples in yellow, and
 /// the shifts that are shown, in the colours of their outcomes, as the pixels that they come from or go to are;
 /// the sampling set has a line around it, its border another. In other panes the pixel alone is marked. To be

@@ -1,12 +1,11 @@
 #include "ui/picture_saver.h"
 
 #include "render/load/png.h"
+#include "render/load/temporary_file.h"
 #include "ui/chart_file.h"
 #include "ui/output_files.h"
 #include "ui/screenshot.h"
 
-#include <exception>
-#include <functional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -17,11 +16,11 @@ namespace {
 
 constexpr int frames_until_still = 3;
 
-std::string save_window(glm::ivec2 pixels) {
-    const std::filesystem::path file = dated_file(".png");
-    const ScreenPixels screen = read_screen(pixels);
-    write_png(file, screen.size, screen.rgb);
-    return file.string();
+void save_window(Viewer& viewer, glm::ivec2 pixels) {
+    viewer.save([file = dated_file(".png"), screen = read_screen(pixels)] {
+        write_png(file, screen.size, screen.rgb);
+        return file.string();
+    });
 }
 
 /// The part of the window in which the charts are drawn large.
@@ -31,22 +30,17 @@ ScreenPixels chart_pixels(const Viewer& viewer, glm::ivec2 pixels) {
     return cropped(read_screen(pixels), glm::ivec2(rect.min * scale), glm::ivec2(rect.max * scale));
 }
 
-std::string save_charts(const Viewer& viewer, glm::ivec2 pixels) {
-    const std::string name = dated_file("-charts").string();
-    write_text_file(name + ".csv", chart_csv(viewer.state()));
-    write_text_file(name + ".svg", chart_svg(viewer.state()));
-    const ScreenPixels picture = chart_pixels(viewer, pixels);
-    write_png(name + ".png", picture.size, picture.rgb);
-    return fmt::format("the charts to {}.csv, .svg and .png", name);
-}
-
-/// Tells how it went. `write` returns what was saved where.
-void save(ViewerState& state, const std::function<std::string()>& write) {
-    try {
-        state.add_message(Message::Kind::note, "Saved " + write());
-    } catch (const std::exception& e) {
-        state.add_message(Message::Kind::error, e.what());
-    }
+void save_charts(Viewer& viewer, glm::ivec2 pixels) {
+    viewer.save([file = dated_file("-charts.csv"), csv = chart_csv(viewer.state()),
+                 svg = chart_svg(viewer.state()), picture = chart_pixels(viewer, pixels)] {
+        const auto with_ending = [&](const char* ending) {
+            return std::filesystem::path(file).replace_extension(ending);
+        };
+        write_text(file, csv);
+        write_text(with_ending(".svg"), svg);
+        write_png(with_ending(".png"), picture.size, picture.rgb);
+        return fmt::format("the charts to {}, .svg and .png", file.string());
+    });
 }
 
 } // namespace
@@ -60,9 +54,9 @@ bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
         return true;
     age_ = 0;
     if (std::exchange(state.save_charts, false))
-        save(state, [&] { return save_charts(viewer, pixels); });
+        save_charts(viewer, pixels);
     else if (std::exchange(state.save_picture, false))
-        save(state, [&] { return save_window(pixels); });
+        save_window(viewer, pixels);
     return true;
 }
 

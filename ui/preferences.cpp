@@ -1,6 +1,7 @@
 #include "ui/preferences.h"
 
-#include "ui/output_files.h"
+#include "render/load/temporary_file.h"
+#include "ui/viewer_state.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,10 +23,16 @@ Preferences parse(const std::string& text) {
     const auto window = json.value("window", std::vector<int>{0, 0});
     if (window.size() == 2 && std::min(window[0], window[1]) >= 64 &&
         std::max(window[0], window[1]) <= largest_window)
-        p.window_size = {window[0], window[1]};
+        p.window.size = {window[0], window[1]};
+    const auto position = json.value("position", std::vector<int>{});
+    if (position.size() == 2)
+        p.window.position = {position[0], position[1]};
+    p.window.maximised = json.value("maximised", false);
+    p.panes = std::clamp(json.value("panes", 0), 0, most_panes);
     p.theme = json.value("theme", "dark") == "light" ? Theme::light : Theme::dark;
-    if (json.contains("ui_scale"))
-        p.ui_scale = std::clamp(json.at("ui_scale").get<float>(), 1.0f, 3.0f);
+    p.text_factor = std::clamp(json.value("text_factor", 1.0f), 0.25f, ViewerState::most_ui_scale);
+    p.panel_width = std::clamp(json.value("panel_width", p.panel_width), ViewerState::least_panel_width,
+                               ViewerState::most_panel_width);
     p.show_panel = json.value("panel", p.show_panel);
     p.show_statistics = json.value("statistics", p.show_statistics);
     p.show_charts = json.value("charts", p.show_charts);
@@ -66,15 +73,19 @@ Preferences read_preferences(const std::filesystem::path& file, std::string& not
 
 void write_preferences(const std::filesystem::path& file, const Preferences& p) {
     std::filesystem::create_directories(file.parent_path());
-    ordered_json json{{"window", {p.window_size.x, p.window_size.y}},
+    ordered_json json{{"window", {p.window.size.x, p.window.size.y}},
+                      {"maximised", p.window.maximised},
+                      {"panes", p.panes},
                       {"theme", p.theme == Theme::light ? "light" : "dark"},
+                      {"text_factor", p.text_factor},
+                      {"panel_width", p.panel_width},
                       {"panel", p.show_panel},
                       {"statistics", p.show_statistics},
                       {"charts", p.show_charts},
                       {"recent_scenes", p.recent_scenes}};
-    if (p.ui_scale)
-        json["ui_scale"] = *p.ui_scale;
-    write_text_file(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    if (p.window.position)
+        json["position"] = {p.window.position->x, p.window.position->y};
+    write_text(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 } // namespace tessera

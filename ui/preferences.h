@@ -1,21 +1,21 @@
 #pragma once
 
 #include "ui/theme.h"
+#include "ui/window_place.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
 
 namespace tessera {
 
 /// What the viewer remembers from one run to the next.
 struct Preferences {
-    glm::ivec2 window_size{0}; ///< screen units; 0: not known
+    WindowPlace window;
+    int panes = 0; ///< how many; 0: not known
     Theme theme = Theme::dark;
-    std::optional<float> ui_scale; ///< as ViewerState::ui_scale
+    float text_factor = 1;  ///< as of ViewerState
+    float panel_width = 20; ///< likewise
     bool show_panel = true;
     bool show_statistics = false;
     bool show_charts = false;

@@ -40,11 +40,15 @@ SceneLoad::~SceneLoad() {
         job_->progress.give_up();
 }
 
+void SceneLoad::cancel() {
+    if (!job_)
+        return;
+    job_->progress.give_up();
+    given_up_.push_back(std::move(job_));
+}
+
 void SceneLoad::start(SceneOrigin origin, std::function<void()> on_done) {
-    if (job_) {
-        job_->progress.give_up();
-        given_up_.push_back(std::move(job_));
-    }
+    cancel();
     job_ = std::make_unique<Job>();
     job_->origin = std::move(origin);
     std::promise<SceneLoadResult> promise;

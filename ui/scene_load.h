@@ -51,6 +51,9 @@ public:
     /// once poll() has a result.
     void start(SceneOrigin origin, std::function<void()> on_done);
 
+    /// Gives up what is under way: nothing more is heard of it.
+    void cancel();
+
     bool running() const { return job_ != nullptr; }
     const SceneOrigin& origin() const; ///< only while running, as the next two
     LoadProgress::State progress() const;

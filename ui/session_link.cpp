@@ -25,7 +25,9 @@ void SessionLink::take(ViewerState& state) {
 void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
     std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
-    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == told)
+    const Sent& sent = sent_of(state.panes[pane]);
+    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == told ||
+        snapshot->generation != sent.generation)
         return;
     const std::string text = refused_text(snapshot->counters, snapshot->settings.seed);
     if (text.empty())
@@ -34,7 +36,10 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     state.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
                       Message::Origin::scene);
     const RefusedSample& first = *snapshot->counters.first_refused;
-    state.messages.back().sample = SampleChoice{static_cast<int>(pane), {first.x, first.y}, first.pass};
+    const auto origin =
+        std::make_shared<const PassOrigin>(PassOrigin{sent.scene, snapshot->camera, sent.size, snapshot->settings,
+                                                      snapshot->refused_plan, snapshot->generation});
+    state.messages.back().sample = SampleChoice{static_cast<int>(pane), {first.x, first.y}, first.pass, origin};
 }
 
 void SessionLink::send(ViewerState& state) {

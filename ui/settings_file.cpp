@@ -1,18 +1,15 @@
 #include "ui/settings_file.h"
 
 #include "render/load/camera_file.h"
-#include "render/load/json_text.h"
 #include "render/load/messages.h"
 #include "render/method/settings_table.h"
+#include "ui/json_fields.h"
 #include "ui/named_settings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
-
-#include <nlohmann/json.hpp>
 
 namespace tessera {
 
@@ -24,87 +21,20 @@ constexpr const char* bases[] = {"pane", "scene", "custom"};
 constexpr const char* curves[] = {"srgb", "gamma", "filmic"};
 constexpr const char* comparisons[] = {"off", "wipe", "difference"};
 constexpr const char* shares[] = {"time", "spp"};
+constexpr const char* charts[] = {"error", "efficiency", "shifts"};
+constexpr const char* axes[] = {"seconds", "spp"};
 
 template <class Enum, std::size_t count>
 const char* word(const char* const (&words)[count], Enum value) {
     return words[static_cast<std::size_t>(value)];
 }
 
-/// An object of the file, and where it stands in it. What is wrong with a field is told with its place.
-class Fields {
-public:
-    Fields(const JsonText& text, const ordered_json& json, std::string path)
-        : text_(text), json_(json), path_(std::move(path)) {
-        if (!json.is_object())
-            fail("", "this must be an object, {...}");
-    }
-
-    [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-        text_.fail_at(text_.place_of(path_ + key), what);
-    }
-
-    const ordered_json& json() const { return json_; }
-    bool has(const char* key) const { return json_.contains(key); }
-    /// Without fields where there is none of that name.
-    Fields object(const std::string& key) const {
-        static const ordered_json none = ordered_json::object();
-        return {text_, json_.contains(key) ? json_.at(key) : none, path_ + key + "/"};
-    }
-    Fields element(const ordered_json& array, std::size_t i, const std::string& key) const {
-        return {text_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
-    }
-
-    template <class T>
-    T get(const std::string& key) const {
-        try {
-            return json_.at(key).get<T>();
-        } catch (const ordered_json::exception&) {
-            fail(key, key + " is of the wrong kind: " + json_.at(key).type_name());
-        }
-    }
-    /// `take` gets the value, and throws std::invalid_argument where it is no good.
-    template <class T, class Take>
-    void read(const std::string& key, Take take) const {
-        if (!json_.contains(key))
-            return;
-        try {
-            take(get<T>(key));
-        } catch (const std::invalid_argument& error) {
-            fail(key, error.what());
-        }
-    }
-    template <class Enum, std::size_t count>
-    void read(const std::string& key, const char* const (&words)[count], Enum& value) const {
-        read<std::string>(key, [&](const std::string& text) {
-            const auto found = std::find(std::begin(words), std::end(words), text);
-            if (found == std::end(words))
-                throw std::invalid_argument(key + " is \"" + text + "\", which there is not");
-            value = static_cast<Enum>(found - std::begin(words));
-        });
-    }
-    template <class Number>
-    void read(const std::string& key, double least, double most, Number& value) const {
-        read<double>(key, [&](double number) {
-            if (!(number >= least && number <= most))
-                throw std::invalid_argument(key + " is out of range");
-            value = static_cast<Number>(number);
-        });
-    }
-    void read(const std::string& key, bool& value) const {
-        read<bool>(key, [&](bool on) { value = on; });
-    }
-
-private:
-    const JsonText& text_;
-    const ordered_json& json_;
-    std::string path_; // of all its fields, before their names
-};
-
 ordered_json pane_json(const PaneSettings& pane) {
     ordered_json json{{"method", short_name(pane.render.method)},
                       {"buffer", short_name(pane.buffer)},
                       {"norm", to_string(pane.reconstruction.norm)},
                       {"alpha", pane.reconstruction.alpha},
+                      {"joint_colour", pane.reconstruction.joint_colour},
                       {"comparison", word(comparisons, pane.comparison.kind)},
                       {"compare_with", pane.comparison.with + 1},
                       {"seed", pane.render.seed}};
@@ -113,7 +43,7 @@ ordered_json pane_json(const PaneSettings& pane) {
     return json;
 }
 
-PaneSettings read_pane(const Fields& fields, PaneSettings pane) {
+PaneSettings read_pane(const JsonFields& fields, PaneSettings pane) {
     fields.read<std::string>("method", [&](const std::string& name) {
         const auto method = method_from_name(name);
         if (!method)
@@ -128,64 +58,127 @@ PaneSettings read_pane(const Fields& fields, PaneSettings pane) {
         pane.reconstruction.norm = *norm;
     });
     fields.read("alpha", 0.001, 10, pane.reconstruction.alpha);
+    fields.read("joint_colour", pane.reconstruction.joint_colour);
     fields.read("comparison", comparisons, pane.comparison.kind);
     fields.read("compare_with", 0, the_reference + 1, pane.comparison.with);
     if (fields.has("compare_with"))
         --pane.comparison.with;
     fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });
-    const Fields settings = fields.object("settings");
+    const JsonFields settings = fields.object("settings");
     for (const auto& [id, value] : settings.json().items())
         settings.read<std::string>(
             id, [&, id = id](const std::string& text) { setting_named(id).set_text(pane.render, text); });
     return pane;
 }
 
-/// All that is read before anything is set.
-struct Read {
-    std::vector<PaneSettings> panes;
-    std::optional<Camera> camera;
-    SizeChoice size;
-    Tone tone;
-    Pace pace;
-    bool linked, mark_negative;
-};
-
-void read_display(const Fields& fields, Read& read_here) {
-    const Fields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
-    size.read("base", bases, read_here.size.base);
-    size.read("scale", 0.05, 2, read_here.size.scale);
-    size.read("width", 1, most_render_pixels_an_edge, read_here.size.custom.x);
-    size.read("height", 1, most_render_pixels_an_edge, read_here.size.custom.y);
-    tone.read("curve", curves, read_here.tone.curve);
-    tone.read("exposure", -10, 10, read_here.tone.exposure);
-    tone.read("gamma", 1, 4, read_here.tone.gamma);
-    pace.read("equal", shares, read_here.pace.equal);
-    pace.read("spp_limit", 0, 1 << 24, read_here.pace.spp_limit);
-    pace.read("seconds_limit", 0, 1e7, read_here.pace.seconds_limit);
-    fields.read("linked", read_here.linked);
-    fields.read("mark_negative", read_here.mark_negative);
+ordered_json ranges_json(const std::map<Buffer, ValueRange>& ranges) {
+    ordered_json json = ordered_json::object();
+    for (const auto& [buffer, range] : ranges)
+        json[std::string(short_name(buffer))] = {
+            {"low", range.low}, {"high", range.high}, {"logarithmic", range.logarithmic}};
+    return json;
 }
 
-Read read_all(const ViewerState& state, const std::string& file, const std::string& name) {
-    const JsonText text(file, name);
-    const ordered_json json = text.parse();
-    Read result{{}, {}, state.size, state.tone, state.pace, state.linked, state.mark_negative};
-    const Fields fields(text, json, "");
-    if (fields.has("to_world")) {
-        result.camera = parse_camera(file, name);
-        return result;
+std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
+    std::map<Buffer, ValueRange> ranges;
+    for (const auto& [name, value] : fields.json().items()) {
+        Buffer buffer{};
+        try {
+            buffer = buffer_named(name);
+        } catch (const std::invalid_argument& error) {
+            fields.fail(name, error.what());
+        }
+        const JsonFields ends = fields.object(name);
+        ValueRange& range = ranges[buffer];
+        ends.read("low", 0, 1e12, range.low);
+        ends.read("high", 0, 1e12, range.high);
+        ends.read("logarithmic", range.logarithmic);
+        if (!(range.low < range.high) || (range.logarithmic && range.low <= 0))
+            fields.fail(name, "the range of " + name + " is in disorder");
     }
+    return ranges;
+}
+
+/// What is common to all panes, but for the camera.
+void read_display(const JsonFields& fields, ViewerState& state) {
+    const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
+    size.read("base", bases, state.size.base);
+    size.read("scale", 0.05, 2, state.size.scale);
+    size.read("width", 1, most_render_pixels_an_edge, state.size.custom.x);
+    size.read("height", 1, most_render_pixels_an_edge, state.size.custom.y);
+    tone.read("curve", curves, state.tone.curve);
+    tone.read("exposure", -10, 10, state.tone.exposure);
+    tone.read("gamma", 1, 4, state.tone.gamma);
+    pace.read("equal", shares, state.pace.equal);
+    pace.read("spp_limit", 0, 1 << 24, state.pace.spp_limit);
+    pace.read("seconds_limit", 0, 1e7, state.pace.seconds_limit);
+    fields.read("mark_negative", state.mark_negative);
+    if (fields.has("ranges"))
+        state.ranges = read_ranges(fields.object("ranges"));
+}
+
+/// Where the pictures lie, and what is drawn with them.
+void read_view(const JsonFields& fields, ViewerState& state) {
+    const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
+    float zoom = state.view.zoom();
+    glm::vec2 center = state.view.center();
+    picture.read("zoom", double{ImageView::least_zoom}, double{ImageView::most_zoom}, zoom);
+    picture.read("x", 0, 1, center.x);
+    picture.read("y", 0, 1, center.y);
+    state.view = ImageView(zoom, center);
+    fields.read("wipe", 0, 1, state.wipe);
+    fields.read("alone", state.alone);
+    fields.read("tiles", state.show_tiles);
+    fields.read("magnifier", state.magnifier);
+    int axis = state.charts_by_spp ? 1 : 0;
+    chart.read("show", charts, state.chart_kind);
+    chart.read("against", axes, axis);
+    state.charts_by_spp = axis == 1;
+}
+
+void read_panes(const JsonFields& fields, ViewerState& state) {
     if (!fields.has("panes"))
         fields.fail("", "these are no settings of the viewer, and no camera");
-    const ordered_json& panes = json.at("panes");
-    if (!panes.is_array() || panes.empty() || panes.size() > most_panes)
+    const ordered_json& json = fields.json().at("panes");
+    if (!json.is_array() || json.empty() || json.size() > most_panes)
         fields.fail("panes", "there must be 1 to 4 panes");
+    std::vector<PaneSettings> panes;
+    for (std::size_t i = 0; i < json.size(); ++i)
+        panes.push_back(read_pane(fields.element(json, i, "panes"), state.active().settings));
+    state.linked = false; // while panes are counted, which shares settings out
+    state.set_pane_count(static_cast<int>(panes.size()));
     for (std::size_t i = 0; i < panes.size(); ++i)
-        result.panes.push_back(read_pane(fields.element(panes, i, "panes"), state.active().settings));
+        state.panes[i].settings = panes[i];
+    fields.read("active", 1, static_cast<double>(panes.size()), state.active_pane);
+    if (fields.has("active"))
+        --state.active_pane;
+}
+
+void read_camera(const JsonFields& fields, const Camera& camera, ViewerState& state) {
+    float distance = 0;
+    fields.read("target_distance", 0, 1e12, distance);
+    state.camera.put(camera, distance);
+}
+
+/// Sets what the file says, up to where it is broken.
+void read_all(const std::string& file, const std::string& name, ViewerState& state) {
+    const JsonText text(file, name);
+    const ordered_json json = text.parse();
+    const JsonFields fields(text, json, "");
+    if (fields.has("to_world"))
+        return read_camera(fields, parse_camera(file, name), state);
+    bool linked = state.linked;
+    fields.read("linked", linked);
+    read_panes(fields, state);
+    state.linked = linked;
     if (fields.has("camera"))
-        result.camera = parse_camera(text.only("camera"), name);
-    read_display(fields, result);
-    return result;
+        read_camera(fields, parse_camera(text.only("camera"), name), state);
+    read_display(fields, state);
+    read_view(fields, state);
+    fields.read<std::string>("reference", [&](const std::string& reference) {
+        if (!state.companions.reference || state.companions.reference->name != reference)
+            state.reference_file = reference;
+    });
 }
 
 } // namespace
@@ -194,8 +187,10 @@ std::string settings_json(const ViewerState& state) {
     ordered_json panes = ordered_json::array();
     for (const PaneState& pane : state.panes)
         panes.push_back(pane_json(pane.settings));
-    const ordered_json json{
+    ordered_json json{
         {"panes", panes},
+        {"active", state.active_pane + 1},
+        {"alone", state.alone},
         {"linked", state.linked},
         {"size",
          {{"base", word(bases, state.size.base)},
@@ -206,31 +201,30 @@ std::string settings_json(const ViewerState& state) {
          {{"curve", word(curves, state.tone.curve)},
           {"exposure", state.tone.exposure},
           {"gamma", state.tone.gamma}}},
+        {"ranges", ranges_json(state.ranges)},
+        {"mark_negative", state.mark_negative},
         {"pace",
          {{"equal", word(shares, state.pace.equal)},
           {"spp_limit", state.pace.spp_limit},
           {"seconds_limit", state.pace.seconds_limit}}},
-        {"mark_negative", state.mark_negative},
-        {"scene", state.scene_name},
+        {"picture", {{"zoom", state.view.zoom()}, {"x", state.view.center().x}, {"y", state.view.center().y}}},
+        {"wipe", state.wipe},
+        {"tiles", state.show_tiles},
+        {"magnifier", state.magnifier},
+        {"charts", {{"show", word(charts, state.chart_kind)}, {"against", axes[state.charts_by_spp ? 1 : 0]}}},
+        {"scene", state.scene_name}, // for who reads it: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
+        {"target_distance", state.camera.distance()},
     };
+    if (state.companions.reference)
+        json["reference"] = state.companions.reference->name;
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 void apply_settings_json(ViewerState& state, const std::string& text, const std::string& name) {
-    const Read read = read_all(state, text, name);
-    state.linked = false; // while panes are counted, which shares settings out
-    if (!read.panes.empty())
-        state.set_pane_count(static_cast<int>(read.panes.size()));
-    for (std::size_t i = 0; i < read.panes.size(); ++i)
-        state.panes[i].settings = read.panes[i];
-    state.linked = read.linked;
-    state.size = read.size;
-    state.tone = read.tone;
-    state.pace = read.pace;
-    state.mark_negative = read.mark_negative;
-    if (read.camera)
-        state.camera.put(*read.camera);
+    ViewerState next = state;
+    read_all(text, name, next);
+    state = std::move(next);
 }
 
 void apply_settings_file(ViewerState& state, const std::filesystem::path& file) {

@@ -72,6 +72,16 @@ ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& i
     return all.value_or(ValueRange{});
 }
 
+CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images) {
+    CanvasView view;
+    view.colour_map = colour_map(showing, state);
+    view.tone = state.tone;
+    view.range = range_of(buffer_of(showing.pane, state), state, images);
+    view.coarse = image_of(showing.pane, images).coarse();
+    view.mark_negative = state.mark_negative;
+    return view;
+}
+
 std::string missing_text(const Showing& showing, const ViewerState& state) {
     const std::string text = missing_text(showing.pane, state);
     return text.empty() && showing.subtrahend >= 0 ? missing_text(showing.subtrahend, state) : text;

@@ -38,6 +38,9 @@ ColourMap colour_map(const Showing& showing, const ViewerState& state);
 /// The range of a buffer's false colours, which all panes share: the user's, else what holds those of all images.
 ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& images);
 
+/// How the part is coloured: a canvas view without its place.
+CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images);
+
 /// Why there is nothing to show, in words for its place; empty: there is, or will be.
 std::string missing_text(const Showing& showing, const ViewerState& state);
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "ui/window_place.h"
+
 #include <functional>
 #include <memory>
 #include <string>
-
-#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -28,9 +28,9 @@ inline constexpr int display_lost = 3;
 
 struct SurfaceOptions {
     std::string title = "Tessera";
-    glm::ivec2 size{1440, 810};
+    WindowPlace place{{1440, 810}, {}, false};
     float ui_scale = 0;      ///< of text and controls; 0: as the display says
-    bool exact_size = false; ///< keep the size even if the screen is smaller
+    bool exact_size = false; ///< keep its size even if the screen is smaller
 };
 
 /// Something that a viewer is drawn on, with its OpenGL context and Dear ImGui. The viewer must end before it.

@@ -63,9 +63,13 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
     }
     if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
         return;
-    const glm::vec2 whole(state.request_size());
-    const View view{state.scene,
-                    state.camera.camera(),
+    // A sample of an earlier request is seen among what was there then.
+    const auto& sample = state.inspector.sample;
+    const PassOrigin* origin =
+        state.inspector.active && !state.slow_motion.active && sample ? sample->origin.get() : nullptr;
+    const glm::vec2 whole(origin ? origin->size : state.request_size());
+    const View view{origin ? origin->scene : state.scene,
+                    origin ? origin->camera : state.camera.camera(),
                     {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
     if (view == asked_)
         return;

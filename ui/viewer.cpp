@@ -15,7 +15,8 @@ namespace tessera {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr float longest_step = 0.1f; // seconds that a held key moves in one frame at the most
+constexpr float most_panel_share = 0.5f; // of the window's width
+constexpr float longest_step = 0.1f;     // seconds that a held key moves in one frame at the most
 
 /// Panes beside each other; from three on in two rows.
 ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
@@ -80,8 +81,7 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     state_.scene_file = origin.file.string();
     ++state_.scenes_shown;
     if (!origin.file.empty())
-        preferences_.add_recent(origin.file);
-    state_.recent_scenes = preferences_.recent_scenes;
+        opened_scenes_.push_back(origin.file);
     remember();
     if (!again || !(before->camera() == state_.scene->camera())) {
         state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
@@ -112,17 +112,20 @@ void Viewer::draw_frame() {
     take_scene();
     link_.take(state_);
     controls_.begin_frame(ImGui::GetTime());
-    state_.shown_ui_scale = ui_scale();
     read_keyboard();
 
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     state_.window_size = {display.x, display.y};
+    if (!state_.window_place.maximised)
+        state_.window_place.size = state_.window_size;
     const float top = draw_menu_bar(controls_, state_);
-    const float panel_width = std::floor(std::min(ImGui::GetFontSize() * 20, display.x * 0.5f));
+    const float panel_width =
+        std::floor(std::min(ImGui::GetFontSize() * state_.panel_width, display.x * most_panel_share));
     ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
     if (state_.show_panel || state_.show_statistics || state_.show_charts) {
         pictures.max.x -= panel_width;
         draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
+        draw_panel_edge(pictures, controls_, state_);
     }
     draw_panes(pictures);
     draw_overlays(pictures);
@@ -203,7 +206,7 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
         draw_help(screen, controls_, state_);
     file_dialog_.draw(screen, controls_, state_);
     if (load_.running())
-        draw_loading(pictures, load_.origin().name, load_.progress(), load_.seconds());
+        draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
 }
 
 double Viewer::next_frame_in() const {

@@ -10,6 +10,7 @@
 #include "ui/pane_view.h"
 #include "ui/preferences.h"
 #include "ui/reference_job.h"
+#include "ui/save_queue.h"
 #include "ui/scene_load.h"
 #include "ui/session_link.h"
 #include "ui/slow_motion_job.h"
@@ -24,11 +25,16 @@
 
 namespace tessera {
 
-/// Writes a snapshot with its layers, camera and settings to an EXR file; called from a thread other than the
-/// UI's. Throws std::exception, whose what() is shown.
-using SnapshotWriter =
-    std::function<void(const std::filesystem::path& file, const std::filesystem::path& scene_file,
-                       const Snapshot& snapshot, const ReconstructionSettings& reconstruction)>;
+/// What is saved of a pane.
+struct SavedPicture {
+    std::shared_ptr<const Snapshot> snapshot;
+    ReconstructionSettings reconstruction;
+    std::filesystem::path scene_file; ///< empty: it is in none
+};
+
+/// Writes a picture with its layers, camera and settings to an EXR file; called from a thread other than the UI's.
+/// Throws std::exception, whose what() is shown.
+using PictureWriter = std::function<void(const std::filesystem::path& file, const SavedPicture& picture)>;
 
 struct ViewerOptions {
     std::vector<PaneSettings> panes; ///< what each pane starts with; 1 to most_panes
@@ -37,11 +43,12 @@ struct ViewerOptions {
     int spp_limit = 0;
     int threads = 0; ///< of references that are made; as in ThreadPool
     bool show_panel = true;
+    bool panes_as_remembered = false;            ///< as many as the last time, if that is known
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
     bool log_controls = false;                   ///< also where each control lies
     std::filesystem::path reference;             ///< EXR file to measure errors against; empty: none
     SceneOpener open;                            ///< for files dropped on the window; may be empty
-    SnapshotWriter write_exr;                    ///< may be empty
+    PictureWriter write_exr;                     ///< may be empty
     std::filesystem::path preferences;           ///< file that remembers the layout; empty: none does
     std::function<void()> wake;                  ///< called from other threads when there is something new to draw
 };
@@ -61,8 +68,14 @@ public:
     /// Where there is none yet, the one that was to be loaded last.
     void reload();
 
-    /// Loads the first scene file among those dropped on the window, and the first EXR file as the reference.
+    /// Takes the first scene file among those dropped on the window, the first EXR file as the reference, and the
+    /// first settings, which count once the scene is there.
     void drop(const std::vector<std::filesystem::path>& files);
+
+    /// Writes in the background, after what is being written already: a message then says "Saved " and what comes
+    /// back, or what was thrown.
+    void save(SaveQueue::Work write) { save_queue_.add(std::move(write), options_.wake); }
+    bool saving() const { return save_queue_.running(); }
 
     /// Stores what the next viewer begins with: the layout, the recent scenes.
     void remember();
@@ -91,8 +104,8 @@ private:
     void fulfil_wishes();
     void load_settings(const std::filesystem::path& file);
     void fulfil_saves();
-    void save(const std::function<std::string()>& write);
     void save_exr();
+    void save_view();
     void take_preferences();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
@@ -114,8 +127,9 @@ private:
     SurroundingsJob surroundings_job_;
     ChartJob chart_job_;
     FileDialog file_dialog_;
-    BackgroundJob<std::string> save_job_; // what to say when it is done
-    Preferences preferences_;             // as in the file
+    SaveQueue save_queue_;
+    Preferences preferences_;                // as in the file
+    std::vector<std::string> opened_scenes_; // by this viewer, the last one last
     SceneLoad load_;
     SceneOrigin shown_; // where the scene on show is from
     SceneOrigin asked_; // the last that was to be loaded

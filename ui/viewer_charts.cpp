@@ -2,6 +2,7 @@
 
 #include "recon/slope.h"
 #include "ui/path_overlay.h"
+#include "ui/picture_error.h"
 
 #include <algorithm>
 
@@ -17,6 +18,14 @@ Method method_of(const ViewerState& state, std::size_t pane) {
     return state.panes[pane].settings.render.method;
 }
 
+std::string method_name(std::size_t pane, Method method) {
+    return fmt::format("{}  {}", pane + 1, paper_name(method));
+}
+
+const PassHistory<ShiftPoint>& shifts_of(const ViewerState& state, std::size_t pane) {
+    return state.chart_of(state.panes[pane]).shifts;
+}
+
 template <class Point>
 double x_of(const ViewerState& state, const Point& p) {
     return state.charts_by_spp ? p.spp : p.seconds;
@@ -26,13 +35,49 @@ ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scal
     return {state.charts_by_spp ? "samples a pixel" : "seconds", std::move(y_label), Scale::log, y_scale, {}, {}};
 }
 
+/// A line of the chart of errors.
+struct PaneLine {
+    std::size_t pane;
+    const ErrorCurve* curve; // null: the pane has none yet
+    std::string name;
+    std::size_t age; // lines of the pane that are newer
+};
+
+/// Which of the pane's lines: as much of its reconstruction as tells it from the others.
+std::string curve_name(std::size_t pane, const ErrorCurve& curve, const std::vector<ErrorCurve>& all) {
+    std::string name = method_name(pane, curve.method);
+    const auto norms = std::count_if(all.begin(), all.end(), [&](const ErrorCurve& other) {
+        return other.reconstruction.norm == curve.reconstruction.norm;
+    });
+    if (all.size() > 1)
+        name += fmt::format(", {}", to_string(curve.reconstruction.norm));
+    if (norms > 1)
+        name += fmt::format(" {:.3g}{}", curve.reconstruction.alpha,
+                            curve.reconstruction.joint_colour ? "" : " by channel");
+    return name;
+}
+
+std::vector<PaneLine> error_lines(const ViewerState& state) {
+    std::vector<PaneLine> lines;
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        for (std::size_t c = 0; c < curves.size(); ++c)
+            lines.push_back({i, &curves[c], curve_name(i, curves[c], curves), curves.size() - 1 - c});
+        if (curves.empty())
+            lines.push_back({i, nullptr, pane_name(state, i), 0});
+    }
+    return lines;
+}
+
 ChartPlot error_plot(const ViewerState& state) {
     const bool is_error = state.chart_kind == ChartKind::error;
     ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
-    for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        ChartSeries series{pane_name(state, i), {}, false, true};
-        for (const ErrorPoint& p : state.charts[i].errors.points())
-            series.points.push_back({x_of(state, p), is_error ? p.error : efficiency_of(p), 0});
+    for (const PaneLine& line : error_lines(state)) {
+        ChartSeries series{line.name, {}, false, true};
+        if (line.curve)
+            for (const ErrorPoint& p : line.curve->points())
+                series.points.push_back(
+                    {x_of(state, p), is_error ? p.error : efficiency_of(p), is_error ? p.standard_error : 0});
         plot.series.push_back(std::move(series));
     }
     return plot;
@@ -46,10 +91,12 @@ std::string label_of(ShiftOutcome outcome) {
 }
 
 ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
-    ChartPlot plot = empty_plot(state, pane_name(state, pane) + "  % of shifts", Scale::log);
+    const std::vector<ShiftPoint>& points = shifts_of(state, pane).points();
+    const std::string name = method_name(pane, points.back().method);
+    ChartPlot plot = empty_plot(state, name + "  % of shifts", Scale::log);
     for (ShiftOutcome outcome : seen_outcomes(state)) {
         ChartSeries series{label_of(outcome), {}, false, true};
-        for (const ShiftPoint& p : state.charts[pane].shifts.points())
+        for (const ShiftPoint& p : points)
             series.points.push_back({x_of(state, p), 100 * p.shares[static_cast<std::size_t>(outcome)], 0});
         plot.series.push_back(std::move(series));
     }
@@ -72,10 +119,31 @@ ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
     return ImGui::ColorConvertFloat4ToU32(c);
 }
 
+/// The newest of a pane's lines in its colour, older ones fainter.
+ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(pane_colour(state, line.pane));
+    c.w *= 1 / (1 + 0.8f * static_cast<float>(line.age));
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
 } // namespace
 
 std::string pane_name(const ViewerState& state, std::size_t pane) {
-    return fmt::format("{}  {}", pane + 1, paper_name(method_of(state, pane)));
+    return method_name(pane, method_of(state, pane));
+}
+
+std::string chart_caveat(const ViewerState& state) {
+    if (!state.companions.reference)
+        return {};
+    std::string text = caveat_of(*state.companions.reference);
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        const std::size_t all = curves.empty() ? 0 : curves.back().points().back().not_finite;
+        if (all > state.companions.reference->not_finite)
+            text += fmt::format("{}Pane {}: {} pixels are not finite, and left out.", text.empty() ? "" : " ",
+                                i + 1, all);
+    }
+    return text;
 }
 
 double efficiency_of(const ErrorPoint& point) {
@@ -85,7 +153,7 @@ double efficiency_of(const ErrorPoint& point) {
 std::vector<std::size_t> shifting_panes(const ViewerState& state) {
     std::vector<std::size_t> panes;
     for (std::size_t i = 0; i < state.panes.size(); ++i)
-        if (!state.charts[i].shifts.points().empty())
+        if (!shifts_of(state, i).points().empty())
             panes.push_back(i);
     return panes;
 }
@@ -121,15 +189,15 @@ std::vector<ImU32> line_colours(const ViewerState& state) {
         for (ShiftOutcome outcome : seen_outcomes(state))
             colours.push_back(readable(outcome_colour(outcome), state.theme));
     else
-        for (std::size_t i = 0; i < state.panes.size(); ++i)
-            colours.push_back(readable(pane_colour(state, i), state.theme));
+        for (const PaneLine& line : error_lines(state))
+            colours.push_back(readable(line_colour(state, line), state.theme));
     return colours;
 }
 
 ChartPlot histogram_plot(const ViewerState& state) {
     ChartPlot plot{"luminance", "pixels", Scale::log, Scale::linear, {}, {}};
     const auto pane = static_cast<std::size_t>(state.active_pane);
-    const auto& histogram = state.charts[pane].histogram;
+    const auto& histogram = state.chart_of(state.panes[pane]).histogram;
     if (!histogram)
         return plot;
     ChartSeries series{"pixels of " + pane_name(state, pane), {}, false, true};

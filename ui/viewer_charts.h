@@ -9,10 +9,15 @@
 
 namespace tessera {
 
-/// The chart that is chosen. Of errors and efficiencies: one plot with a line a pane, in their order, empty ones
-/// among them; no plot without a reference. Of shifts: a plot for each of the shifting_panes, and in each a line
-/// for every outcome that any of them has had.
+/// The chart that is chosen. Of errors and efficiencies: one plot with the panes' lines in their order, one for
+/// each way in which a pane's pictures were reconstructed, and an empty one where there is none yet; no plot
+/// without a reference. Of shifts: a plot for each of the shifting_panes, and in each a line for every outcome
+/// that any of them has had.
 Chart viewer_chart(const ViewerState& state);
+
+/// What is to be told beside a chart of errors: that the reference's own are in them, how many pixels are left
+/// out; empty: nothing.
+std::string chart_caveat(const ViewerState& state);
 
 /// Those that have shifted paths.
 std::vector<std::size_t> shifting_panes(const ViewerState& state);

@@ -1,8 +1,11 @@
 // Viewer: what it reads and writes.
 #include "render/load/camera_file.h"
+#include "render/load/png.h"
+#include "render/load/temporary_file.h"
 #include "ui/camera_store.h"
 #include "ui/output_files.h"
 #include "ui/settings_file.h"
+#include "ui/view_picture.h"
 #include "ui/viewer.h"
 
 #include <algorithm>
@@ -15,6 +18,8 @@
 namespace tessera {
 
 namespace {
+
+constexpr const char* no_picture_yet = "There is no picture to save yet: only a first look, or none.";
 
 /// The first file with the extension, in either case; null: there is none.
 const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
@@ -52,7 +57,7 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
     if (reference)
         state_.reference_file = reference->string();
     if (settings)
-        load_settings(*settings);
+        state_.settings_file = settings->string();
     if (!files.empty() && options_.open && !scene && !reference && !settings)
         state_.add_message(Message::Kind::error, files.front().string() +
                                                      ": this is no scene; what can be dropped here is a Mitsuba "
@@ -72,12 +77,19 @@ void Viewer::load_settings(const std::filesystem::path& file) {
 // --- wishes ---
 
 void Viewer::fulfil_wishes() {
+    if (std::exchange(state_.cancel_load, false) && load_.running()) {
+        state_.add_message(Message::Kind::note, "Loading " + load_.origin().name + " was given up.",
+                           Message::Origin::failed_load);
+        load_.cancel();
+        state_.loading.clear();
+    }
     if (std::exchange(state_.reload, false))
         reload();
     if (const std::string file = std::exchange(state_.open_scene, {}); !file.empty() && options_.open)
         load(file, options_.open(file), file);
-    if (const std::string file = std::exchange(state_.settings_file, {}); !file.empty())
-        load_settings(file);
+    // Settings wait for a scene under way, which would put its own camera and depth in their place.
+    if (!state_.settings_file.empty() && !load_.running())
+        load_settings(std::exchange(state_.settings_file, {}));
     fulfil_saves();
     if (std::exchange(state_.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
@@ -88,38 +100,50 @@ void Viewer::fulfil_wishes() {
 
 void Viewer::fulfil_saves() {
     if (std::exchange(state_.save_camera, false) && state_.scene)
-        save([&] { return "the camera to " + store_camera(shown_.file, state_.camera.camera()).string(); });
+        save([file = shown_.file, camera = state_.camera.camera()] {
+            return "the camera to " + store_camera(file, camera).string();
+        });
     if (std::exchange(state_.save_settings, false))
-        save([&] { return "the settings to " + write_dated("-settings.json", settings_json(state_)); });
+        save([file = dated_file("-settings.json"), text = settings_json(state_)] {
+            write_text(file, text);
+            return "the settings to " + file.string();
+        });
     if (std::exchange(state_.save_exr, false))
         save_exr();
-    if (const auto outcome = save_job_.poll())
+    if (std::exchange(state_.save_view, false))
+        save_view();
+    if (const auto outcome = save_queue_.poll())
         state_.add_message(outcome->result ? Message::Kind::note : Message::Kind::error,
                            outcome->result ? "Saved " + *outcome->result : outcome->error);
 }
 
-/// Tells how it went. `write` returns what was saved where.
-void Viewer::save(const std::function<std::string()>& write) {
-    try {
-        state_.add_message(Message::Kind::note, "Saved " + write());
-    } catch (const std::exception& e) {
-        state_.add_message(Message::Kind::error, e.what());
-    }
-}
-
 void Viewer::save_exr() {
     const PaneState& pane = state_.active();
-    if (!options_.write_exr || !pane.snapshot || pane.snapshot->coarse || save_job_.running())
-        return;
-    const std::filesystem::path file =
-        dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr");
-    save_job_.start(
-        [write = options_.write_exr, file, scene = shown_.file, snapshot = pane.snapshot,
-         reconstruction = pane.settings.reconstruction](std::stop_token) {
-            write(file, scene, *snapshot, reconstruction);
-            return file.string();
-        },
-        options_.wake);
+    if (!options_.write_exr)
+        return state_.add_message(Message::Kind::error, "EXR files cannot be written here.");
+    if (!pane.snapshot || pane.snapshot->coarse)
+        return state_.add_message(Message::Kind::error, no_picture_yet);
+    save([write = options_.write_exr,
+          file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
+          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.file}] {
+        write(file, picture);
+        return file.string();
+    });
+}
+
+void Viewer::save_view() {
+    const PaneSettings& pane = state_.active().settings;
+    ScreenPixels picture = view_picture(state_.active_pane, shader_, images_, state_);
+    if (picture.rgb.empty()) {
+        const std::string why = missing_text(sides_of(state_, state_.active_pane).left, state_);
+        return state_.add_message(Message::Kind::error, why.empty() ? no_picture_yet : why);
+    }
+    const std::string name =
+        std::string(short_name(pane.render.method)) + "-" + std::string(short_name(pane.buffer));
+    save([file = dated_file("-" + name + ".png"), picture = std::move(picture)] {
+        write_png(file, picture.size, picture.rgb);
+        return file.string();
+    });
 }
 
 // --- what is remembered ---
@@ -132,8 +156,12 @@ void Viewer::take_preferences() {
     if (!note.empty())
         state_.add_message(Message::Kind::note, note);
     state_.recent_scenes = preferences_.recent_scenes;
+    state_.window_place = preferences_.window; // until the window tells
     state_.theme = preferences_.theme;
-    state_.ui_scale = preferences_.ui_scale;
+    state_.text_factor = preferences_.text_factor;
+    state_.panel_width = preferences_.panel_width;
+    if (options_.panes_as_remembered && preferences_.panes > 0)
+        state_.set_pane_count(preferences_.panes);
     state_.show_panel = preferences_.show_panel;
     state_.show_statistics = preferences_.show_statistics;
     state_.show_charts = preferences_.show_charts;
@@ -143,10 +171,18 @@ void Viewer::take_preferences() {
 void Viewer::remember() {
     if (options_.preferences.empty())
         return;
+    // Another viewer may have opened scenes meanwhile.
+    std::string ignored;
+    preferences_.recent_scenes = read_preferences(options_.preferences, ignored).recent_scenes;
+    for (const std::string& scene : opened_scenes_)
+        preferences_.add_recent(scene);
+    state_.recent_scenes = preferences_.recent_scenes;
     if (state_.window_size.x > 0) // it has been drawn
-        preferences_.window_size = state_.window_size;
+        preferences_.window = state_.window_place;
+    preferences_.panes = static_cast<int>(state_.panes.size());
     preferences_.theme = state_.theme;
-    preferences_.ui_scale = state_.ui_scale;
+    preferences_.text_factor = state_.text_factor;
+    preferences_.panel_width = state_.panel_width;
     preferences_.show_panel = state_.show_panel;
     preferences_.show_statistics = state_.show_statistics;
     preferences_.show_charts = state_.show_charts;

@@ -15,7 +15,9 @@
 #include "ui/theme.h"
 #include "ui/tone.h"
 #include "ui/value_range.h"
+#include "ui/window_place.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -66,7 +68,8 @@ struct PaneState {
 struct PaneChart {
     std::uint64_t generation = 0;               ///< of the request whose errors these are, ...
     std::shared_ptr<const Reference> reference; ///< ... against this
-    PassHistory<ErrorPoint> errors;
+    /// In the order of their newest points, those without any left out.
+    std::vector<ErrorCurve> curves;
     std::uint64_t shift_generation = 0;         ///< of the request whose shifts these are
     PassHistory<ShiftPoint> shifts;             ///< without points where the method makes none
     std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none yet
@@ -141,17 +144,19 @@ struct ViewerState {
     bool paused = false;
 
     Theme theme = Theme::dark;
-    float covered_from = 0;        ///< below this, panels lie over the pictures; as last drawn, screen units
-    glm::ivec2 window_size{0};     ///< as last drawn, screen units
-    std::optional<float> ui_scale; ///< of text and controls; empty: as the display says
-    float shown_ui_scale = 1;      ///< at which this frame is drawn
+    float covered_from = 0;    ///< below this, panels lie over the pictures; as last drawn, screen units
+    glm::ivec2 window_size{0}; ///< as last drawn, screen units
+    WindowPlace window_place;  ///< as it is now
+    float display_scale = 1;   ///< of text and controls, as the display says
+    float text_factor = 1;     ///< against that: another display has text as large as this one
+    float panel_width = 20;    ///< of the panels at the side, in heights of a line
     bool show_panel = true;
     bool show_statistics = false;
     bool show_charts = false;
     bool large_charts = false; ///< over the pictures, too
     ChartKind chart_kind = ChartKind::error;
-    bool charts_by_spp = false; ///< against samples; otherwise against seconds
-    std::array<PaneChart, most_panes> charts;
+    bool charts_by_spp = false;               ///< against samples; otherwise against seconds
+    std::array<PaneChart, most_panes> charts; ///< by slot: see chart_of
     bool show_help = false;
     bool show_messages = false;
     std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
@@ -162,22 +167,38 @@ struct ViewerState {
     bool restart = false;
     int steps = 0; ///< passes to do though paused
     bool reload = false;
+    bool cancel_load = false; ///< the scene that is being loaded is wanted no more
     bool save_camera = false;
     bool copy_camera = false;
-    bool save_picture = false;
-    bool save_charts = false; ///< as CSV, SVG and PNG
-    bool save_exr = false;    ///< of the active pane
+    bool save_picture = false; ///< of the window
+    bool save_view = false;    ///< of the active pane's image
+    bool save_charts = false;  ///< as CSV, SVG and PNG
+    bool save_exr = false;     ///< of the active pane
     bool save_settings = false;
     std::string open_scene;    ///< a file
-    std::string settings_file; ///< to be loaded
+    std::string settings_file; ///< to be loaded, once no scene is on its way
     bool quit = false;
 
     PaneState& active() { return panes[static_cast<std::size_t>(active_pane)]; }
     const PaneState& active() const { return panes[static_cast<std::size_t>(active_pane)]; }
 
+    static constexpr float least_ui_scale = 1, most_ui_scale = 3;
+    /// Of text and controls.
+    float ui_scale() const { return std::clamp(display_scale * text_factor, least_ui_scale, most_ui_scale); }
+    /// Sets the factor that leads to it on this display.
+    void set_ui_scale(float scale) {
+        text_factor = std::clamp(scale, least_ui_scale, most_ui_scale) / display_scale;
+    }
+
+    static constexpr float least_panel_width = 14, most_panel_width = 48;
+
     /// Adds panes, with the settings of those taken away or a method that no pane has yet, or takes the last away;
     /// the active one stays. `count` of 1 to most_panes.
     void set_pane_count(int count);
+
+    /// What charts show of a pane. It is the slot's that renders it, and so stays when the layout changes.
+    PaneChart& chart_of(const PaneState& pane) { return charts[static_cast<std::size_t>(pane.slot)]; }
+    const PaneChart& chart_of(const PaneState& pane) const { return charts[static_cast<std::size_t>(pane.slot)]; }
 
     bool is_on_show(int pane) const { return !alone || pane == active_pane; }
 

@@ -4,6 +4,7 @@
 
 #include <glad/gl.h>
 #define GLFW_INCLUDE_NONE
+#include "ui/desktop.h"
 #include "ui/gui.h"
 #include "ui/lost_display.h"
 #include "ui/surface.h"
@@ -64,13 +65,6 @@ const char* printed_on(int key, int scancode) {
     return key > GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
 }
 
-glm::ivec2 on_screen(glm::ivec2 size) {
-    glm::ivec2 corner(0), room(0);
-    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
-        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
-    return glm::max(room.x > 0 && room.y > 0 ? glm::min(size, room) : size, glm::ivec2(1));
-}
-
 class Window final : public Surface {
 public:
     ~Window() override;
@@ -84,6 +78,7 @@ public:
 private:
     void install_callbacks();
     void wait_until_due(double next_frame_in);
+    void tell_place(ViewerState& state) const;
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_character(GLFWwindow* window, unsigned character);
@@ -122,10 +117,14 @@ std::string Window::open(const SurfaceOptions& options) {
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    const glm::ivec2 size = options.exact_size ? glm::max(options.size, glm::ivec2(1)) : on_screen(options.size);
+    const WindowPlace& place = options.place;
+    const glm::ivec2 size = options.exact_size ? glm::max(place.size, glm::ivec2(1)) : on_screen(place.size);
+    glfwWindowHint(GLFW_MAXIMIZED, place.maximised ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
     if (window_ == nullptr)
         return last_glfw_error;
+    if (place.position && is_on_a_screen(*place.position))
+        glfwSetWindowPos(window_, place.position->x, place.position->y);
     glfwMakeContextCurrent(window_);
     if (gladLoadGL(glfwGetProcAddress) == 0)
         return "OpenGL cannot be loaded";
@@ -229,6 +228,19 @@ void Window::wait_until_due(double next_frame_in) {
     frames_due_ = std::max(frames_due_, 1);
 }
 
+void Window::tell_place(ViewerState& state) const {
+    state.display_scale = std::max(wanted_scale_, ViewerState::least_ui_scale);
+    WindowPlace& place = state.window_place;
+    place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+    if (place.maximised)
+        return; // the rest is what it comes back to
+    glm::ivec2 corner(0), size(0);
+    glfwGetWindowPos(window_, &corner.x, &corner.y);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    place.position = corner;
+    place.size = size;
+}
+
 void Window::run(Viewer& viewer, const FrameHooks& hooks) {
     const LastCall last_call(hooks.lost);
     viewer_ = &viewer;
@@ -253,7 +265,8 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
             continue;
         frames_due_ = std::max(frames_due_ - 1, 0);
         last_frame_ = now;
-        gui_->set_look(viewer.state().ui_scale.value_or(wanted_scale_), viewer.state().theme);
+        tell_place(viewer.state());
+        gui_->set_look(viewer.state().ui_scale(), viewer.state().theme);
         ImGui_ImplGlfw_NewFrame();
         if (hooks.before)
             hooks.before(took);

@@ -38,7 +38,9 @@ std::string to_string(const LoadProgress::State& state) {
         text = "BVH";
         break;
     }
-    if (state.total > 0)
+    if (state.total > 0 && state.stage == LoadProgress::Stage::bvh)
+        text += ", " + std::to_string(100 * state.done / state.total) + " %";
+    else if (state.total > 0)
         text += ", " + std::to_string(state.done) + " of " + std::to_string(state.total);
     return text;
 }

@@ -68,6 +68,16 @@ void TemporaryFile::commit() {
     temporary_.clear();
 }
 
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    TemporaryFile temporary(path);
+    std::ofstream out(temporary.path(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out)
+        throw std::runtime_error(path.string() + ": cannot be written");
+    temporary.commit();
+}
+
 void check_writable(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path))
         throw std::runtime_error(path.string() + ": is a folder, not a file to write to");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace tessera {
 
@@ -23,6 +24,9 @@ private:
     std::filesystem::path final_;
     std::filesystem::path temporary_;
 };
+
+/// Writes such a file and commits it. Throws std::runtime_error that names the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// Throws std::runtime_error that names the file where none can be made at `path`: better before a render than
 /// after it.

@@ -33,6 +33,8 @@ public:
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
     /// What the newest pass knew of where tiles are to be cut.
     const ReusePlan& newest_plan() const { return newest_plan_; }
+    /// The same of the pass of counters().first_refused; null: none was refused in the passes of this render.
+    std::shared_ptr<const ReusePlan> refused_plan() const { return refused_plan_; }
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
     /// filled with this goes on with the same bits.
     Memory memory();
@@ -47,6 +49,7 @@ private:
     Film film_;
     ReusePlan plan_;
     ReusePlan newest_plan_; // plan_ before it learnt from the newest pass
+    std::shared_ptr<const ReusePlan> refused_plan_;
     Counters counters_;
     int spp_ = 0;
     double seconds_ = 0;

@@ -30,7 +30,7 @@ Session::~Session() {
     {
         const std::lock_guard lock(mutex_);
         for (const auto& pane : panes_)
-            pane->stop.request_stop();
+            pane->end_work();
     }
     render_thread_.request_stop();
     reconstruct_thread_.request_stop();
@@ -43,8 +43,7 @@ std::uint64_t Session::submit(int pane_index, RenderRequest request) {
     {
         const std::lock_guard lock(mutex_);
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
-        pane.stop.request_stop();
-        pane.stop = std::stop_source();
+        pane.end_work();
         std::swap(pane.request, request);
         pane.generation = generation = ++generation_;
         pane.failed = false;
@@ -61,8 +60,7 @@ void Session::withdraw(int pane_index) {
     {
         const std::lock_guard lock(mutex_);
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
-        pane.stop.request_stop();
-        pane.stop = std::stop_source();
+        pane.end_work();
         std::swap(pane.request, request);
         std::swap(pane.latest, latest);
         std::swap(pane.reconstructed, reconstructed);
@@ -74,7 +72,10 @@ void Session::withdraw(int pane_index) {
 void Session::set_reconstruction(int pane_index, const ReconstructionSettings& settings) {
     {
         const std::lock_guard lock(mutex_);
-        panes_[static_cast<std::size_t>(pane_index)]->reconstruction = settings;
+        Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
+        if (!(pane.reconstruction == settings))
+            pane.end_solve();
+        pane.reconstruction = settings;
     }
     reconstruct_wake_.notify_one();
 }
@@ -268,6 +269,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->camera = render.camera();
     snapshot->plan = std::make_shared<ReusePlan>(render.newest_plan());
     snapshot->counters = render.counters();
+    snapshot->refused_plan = render.refused_plan();
     snapshot->images = std::make_shared<GradientImages>(render.images());
     if (ReuseMaps maps = render.reuse_maps(); !maps.reused.empty())
         snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));
@@ -277,6 +279,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
             return;
         if (pane.latest && pane.latest->generation == generation && !pane.latest->coarse) {
             snapshot->reconstruction = pane.latest->reconstruction;
+            snapshot->reconstructed_with = pane.latest->reconstructed_with;
             snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
             snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
         }

@@ -55,7 +55,8 @@ public:
     /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
     void withdraw(int pane);
 
-    /// Settings of the pane's reconstruction; a change reconstructs the newest snapshot again, renders nothing.
+    /// Settings of the pane's reconstruction; a change ends the one under way and reconstructs the newest snapshot
+    /// again, renders nothing.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
     void set_paused(bool paused);

@@ -13,9 +13,10 @@ struct Session::Pane {
     std::uint64_t generation = 0; // 0: nothing asked for yet
     ReconstructionSettings reconstruction;
     std::shared_ptr<const Snapshot> latest;
-    std::stop_source stop; // ends work on the present generation
-    bool failed = false;   // nothing more to do for this generation
-    int steps = 0;         // passes to do whatever the pace says
+    std::stop_source stop;       // ends work on the present generation, ...
+    std::stop_source solve_stop; // ... and its reconstruction with the present settings
+    bool failed = false;         // nothing more to do for this generation
+    int steps = 0;               // passes to do whatever the pace says
 
     // What the newest reconstruction was made from.
     std::shared_ptr<const GradientImages> reconstructed;
@@ -27,6 +28,16 @@ struct Session::Pane {
     int published_spp = 0;
     std::chrono::steady_clock::time_point published_at;
     std::uint64_t served = 0; ///< turn in which it was last chosen
+
+    void end_solve() {
+        solve_stop.request_stop();
+        solve_stop = std::stop_source();
+    }
+    void end_work() {
+        stop.request_stop();
+        stop = std::stop_source();
+        end_solve();
+    }
 
     bool is_fresh() const { return render_generation != generation; } ///< nothing of its request is rendered yet
 

@@ -15,7 +15,7 @@ void Session::reconstruct_loop(std::stop_token stop) {
         Pane* pane = nullptr;
         std::shared_ptr<const Snapshot> snapshot;
         ReconstructionSettings settings;
-        std::stop_token generation_stop;
+        std::stop_token solve_stop;
         {
             std::unique_lock lock(mutex_);
             const auto find = [&] {
@@ -31,9 +31,9 @@ void Session::reconstruct_loop(std::stop_token stop) {
             ++turn;
             snapshot = pane->latest;
             settings = pane->reconstruction;
-            generation_stop = pane->stop.get_token();
+            solve_stop = pane->solve_stop.get_token();
         }
-        reconstruct_snapshot(*pane, *snapshot, settings, generation_stop);
+        reconstruct_snapshot(*pane, *snapshot, settings, solve_stop);
     }
 }
 
@@ -63,6 +63,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
             // pass.
             auto updated = std::make_shared<Snapshot>(*pane.latest);
             updated->reconstruction = std::move(result);
+            updated->reconstructed_with = settings;
             updated->reconstruction_spp = snapshot.spp;
             updated->reconstruction_seconds = snapshot.seconds;
             latest = std::exchange(pane.latest, std::move(updated));

@@ -24,13 +24,15 @@ struct Snapshot {
     Camera camera;
     std::shared_ptr<const ReusePlan> plan; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
     Counters counters;
+    std::shared_ptr<const ReusePlan> refused_plan; ///< of the pass of counters.first_refused; null: none was
     std::shared_ptr<const GradientImages> images;
     std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)
 
     /// Of the newest pass that has been reconstructed, perhaps an older one than `images`; empty at first.
     std::shared_ptr<const Reconstruction> reconstruction;
-    int reconstruction_spp = 0;        ///< the samples a pixel that it stands on, ...
-    double reconstruction_seconds = 0; ///< ... and the wall time spent on these
+    ReconstructionSettings reconstructed_with; ///< what it was asked for with
+    int reconstruction_spp = 0;                ///< the samples a pixel that it stands on, ...
+    double reconstruction_seconds = 0;         ///< ... and the wall time spent on these
 };
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 
 #include "render/random.h"
 #include "render/scene/texture.h"
+#include "render/trace/build_monitor.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,6 +33,8 @@ bool is_sound(glm::vec3 v) {
 }
 
 void on_error(void*, RTCError code, const char* text) {
+    if (code == RTC_ERROR_CANCELLED)
+        return; // by the monitor: see build()
     throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " + (text ? text : ""));
 }
 
@@ -39,6 +42,30 @@ void on_error(void*, RTCError code, const char* text) {
 bool count_bytes(void* sum, ssize_t bytes, bool) {
     *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
     return true;
+}
+
+/// What a monitor is told, and whether it has ended the build.
+struct Watch {
+    const BuildMonitor* monitor;
+    std::atomic<bool> given_up = false;
+};
+
+bool watch_build(void* watch, double share) {
+    Watch& w = *static_cast<Watch*>(watch);
+    if (!w.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
+        w.given_up = true;
+    return !w.given_up;
+}
+
+/// Builds the BVH; throws std::runtime_error if that is wanted no more.
+void build(RTCScene scene) {
+    Watch watch{BuildMonitor::current()};
+    if (watch.monitor)
+        rtcSetSceneProgressMonitorFunction(scene, watch_build, &watch);
+    rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    if (watch.given_up)
+        throw std::runtime_error("building the BVH was given up");
 }
 
 RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
@@ -234,7 +261,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
             mask = impl_->masks.emplace_back(new Mask{&shapes[i].mesh, opacities[i]}).get();
         attach(impl_->device, impl_->scene, shapes[i].mesh, mask, static_cast<unsigned>(i));
     }
-    rtcCommitScene(impl_->scene);
+    build(impl_->scene);
     smallest_coordinate_ = extent(shapes) / 8;
 }
 

@@ -60,6 +60,38 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
     EXPECT_EQ(texts.size(), 1u); // whoever came first
 }
 
+/// All that a plan has learnt.
+std::string learnt(ReusePlan plan) {
+    std::string bytes;
+    for (const auto& piece : plan.memory())
+        bytes.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+    return bytes;
+}
+
+TEST(RefusedPlan, IsThatOfThePassOfTheFirst) {
+    const auto scene = blinding_room();
+    RenderSettings settings;
+    settings.method = Method::gpr;
+    settings.max_depth = 6;
+    settings.adapt_tile = true;
+    settings.tile = 4;
+    ThreadPool pool(1);
+    for (settings.seed = 0; settings.seed < 50; ++settings.seed) {
+        Render render(scene, scene->camera(), {5, 4}, settings); // few pixels: not in every pass
+        while (!render.counters().first_refused && render.spp() < 20)
+            render.pass(pool);
+        EXPECT_EQ(render.refused_plan() != nullptr, render.counters().first_refused.has_value());
+        if (!render.refused_plan() || render.spp() < 2)
+            continue; // the plan of the first pass has learnt nothing
+        const std::string then = learnt(render.newest_plan());
+        render.pass(pool);
+        EXPECT_EQ(learnt(*render.refused_plan()), then);
+        EXPECT_NE(learnt(render.newest_plan()), then);
+        return;
+    }
+    FAIL() << "no sample was refused in a later pass";
+}
+
 INSTANTIATE_TEST_SUITE_P(methods, Refused, testing::ValuesIn(all_methods),
                          [](const auto& p) { return std::string(short_name(p.param)); });
 

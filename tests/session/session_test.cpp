@@ -98,6 +98,30 @@ TEST(Session, PausePublishesAndStops) {
     EXPECT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
 }
 
+TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
+    std::atomic<bool> saw_l1{false};
+    std::atomic<Session*> all{nullptr};
+    Session session(1, 2, [&] {
+        Session* of = all;
+        const auto s = of ? of->latest(0) : nullptr;
+        saw_l1 = saw_l1 || (s && s->reconstruction && s->reconstructed_with.norm == Norm::l1);
+    });
+    const auto is_made_with = [&](Norm norm) {
+        const auto s = session.latest(0);
+        return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
+    };
+    session.set_pace(until(1));
+    session.set_reconstruction(0, {Norm::none});
+    session.submit(0, request(Method::gpt, {320, 240}));
+    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::none); }));
+    all = &session;                            // nothing is published by now
+    session.set_reconstruction(0, {Norm::l1}); // takes most of a second
+    std::this_thread::sleep_for(100ms);
+    session.set_reconstruction(0, {Norm::l2});
+    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::l2); }));
+    EXPECT_FALSE(saw_l1);
+}
+
 TEST(Session, PanesShareTheTime) {
     Session session(2, 2);
     session.submit(0, request(Method::pt, {96, 64}));

@@ -36,12 +36,14 @@ struct CameraActions : testing::Test, ViewerHarness {
 
 TEST_F(CameraActions, SavesBesideTheScene) {
     type(Key::k);
+    finish_saving();
     const fs::path file = folder.path() / "room-camera.json";
     EXPECT_TRUE(read_camera(file) == state().camera.camera());
     EXPECT_NE(newest().find(file.string()), std::string::npos) << newest();
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
     state().camera.dolly(0.5f);
     type(Key::k);
+    finish_saving();
     EXPECT_TRUE(read_camera(file) == state().camera.camera());
     EXPECT_FALSE(state().save_camera);
 }
@@ -49,6 +51,7 @@ TEST_F(CameraActions, SavesBesideTheScene) {
 TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {
     show({});
     type(Key::k);
+    finish_saving();
     EXPECT_TRUE(read_camera(elsewhere.path() / "tessera-camera.json") == state().camera.camera());
 }
 
@@ -62,6 +65,7 @@ TEST_F(CameraActions, SayWhyNothingCouldBeSaved) {
     fs::create_directories(folder.path() / "room-camera.json/x");
     fs::create_directories(elsewhere.path() / "room-camera.json/x");
     type(Key::k);
+    finish_saving();
     ASSERT_FALSE(state().messages.empty());
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
     EXPECT_NE(newest().find("room-camera.json"), std::string::npos) << newest();

@@ -3,6 +3,7 @@
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/chart_file.h"
+#include "ui/picture_error.h"
 #include "ui/viewer_charts.h"
 
 #include <cmath>
@@ -20,12 +21,12 @@ namespace {
 TEST(PassHistory, KeepsTheNewestAndThinsOutTheOld) {
     PassHistory<ErrorPoint> history;
     for (int spp = 1; spp <= 1000; ++spp)
-        history.add({spp, 0.01 * spp, 2.0 / spp});
+        history.add({spp, 0.01 * spp, 2.0 / spp, 0, 0});
     EXPECT_EQ(history.points().back().spp, 1000);
     EXPECT_LT(history.points().size(), 200u);
     EXPECT_GT(history.points().size(), 50u);
     EXPECT_EQ(history.points().front().spp, 1);
-    history.add({1000, 10, 7}); // reconstructed anew
+    history.add({1000, 10, 7, 0, 0}); // reconstructed anew
     EXPECT_EQ(history.points().back().error, 7);
 }
 
@@ -61,12 +62,141 @@ struct Charts : testing::Test, ViewerHarness {
     Charts() { rest(2); }
 
     void set_reference(Rgb value) {
-        auto reference = std::make_shared<Reference>();
-        reference->name = "a reference";
-        reference->image = RgbImage(48, 36, value);
-        state().companions.reference = reference;
+        state().companions.reference = make_reference("a reference", RgbImage(48, 36, value), {});
+    }
+
+    /// The newest line of a pane; empty: it has none.
+    std::vector<ErrorPoint> errors(int i) {
+        const auto& curves = state().chart_of(pane(i)).curves;
+        return curves.empty() ? std::vector<ErrorPoint>() : curves.back().points();
+    }
+
+    void wait_for_errors(int i, int spp) {
+        wait_until([&] { return !errors(i).empty() && errors(i).back().spp == spp; });
     }
 };
+
+TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
+    set_reference(Rgb(0.3f));
+    for (int spp : {4, 8}) {
+        state().pace.spp_limit = spp;
+        wait_for_errors(1, spp);
+    }
+    const std::size_t weighted = errors(1).size();
+    EXPECT_GE(weighted, 2u);
+    state().panes[1].settings.reconstruction = {Norm::l1, 0.3f, true};
+    wait_until([&] { return state().charts[1].curves.size() == 2; });
+    state().pace.spp_limit = 16;
+    wait_for_errors(1, 16);
+    EXPECT_EQ(state().charts[1].curves[0].points().size(), weighted);
+    EXPECT_EQ(state().charts[1].curves[0].reconstruction.norm, Norm::weighted);
+    EXPECT_EQ(state().charts[1].curves[1].reconstruction.norm, Norm::l1);
+    EXPECT_EQ(state().charts[0].curves.size(), 1u); // PT reconstructs nothing
+    const std::string csv = chart_csv(state());
+    for (const char* line :
+         {"1,pt,none,,,16,", "2,gpr,weighted,0.2,1,8,", "2,gpr,l1,0.3,1,8,", "2,gpr,l1,0.3,1,16,"})
+        EXPECT_NE(csv.find(line), std::string::npos) << line << "\n" << csv;
+    EXPECT_EQ(csv.find("weighted,0.2,1,16"), std::string::npos) << csv;
+    const Chart chart = viewer_chart(state());
+    ASSERT_EQ(chart.plots.at(0).series.size(), 3u);
+    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, weighted");
+    EXPECT_EQ(chart.plots[0].series[2].label, "2  G-PR, l1");
+    EXPECT_EQ(line_colours(state()).size(), 3u);
+    type(Key::h);
+    frames(2);
+    save("charts-two-lines.png");
+
+    // A slider that passes by leaves no lines; what is asked for again goes on.
+    for (float alpha : {0.31f, 0.32f, 0.33f}) {
+        state().panes[1].settings.reconstruction.alpha = alpha;
+        wait_until([&] { return state().charts[1].curves.back().reconstruction.alpha == alpha; });
+    }
+    EXPECT_EQ(state().charts[1].curves.size(), 3u);
+    state().panes[1].settings.reconstruction = {};
+    wait_until([&] { return state().charts[1].curves.back().reconstruction.norm == Norm::weighted; });
+    EXPECT_EQ(errors(1).size(), weighted + 1);
+
+    // Until another method's pictures have been measured, the points are still the old one's.
+    state().panes[1].settings.render.method = Method::pr;
+    EXPECT_EQ(chart_csv(state()).find("2,pr,"), std::string::npos);
+    EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label, "2  G-PR, weighted");
+}
+
+TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
+    set_reference(Rgb(0.3f));
+    for (int spp : {4, 8}) {
+        state().pace.spp_limit = spp;
+        wait_for_errors(1, spp);
+    }
+    state().active_pane = 1;
+    const auto before = errors(1);
+    ASSERT_GE(before.size(), 2u);
+    state().set_pane_count(1); // the second is now the first
+    frames(3);
+    EXPECT_EQ(errors(0).size(), before.size());
+    ASSERT_EQ(viewer_chart(state()).plots.at(0).series.size(), 1u);
+    EXPECT_EQ(viewer_chart(state()).plots[0].series[0].label, "1  G-PR");
+    EXPECT_EQ(viewer_chart(state()).plots[0].series[0].points.size(), before.size());
+    EXPECT_NE(chart_csv(state()).find("1,gpr,weighted"), std::string::npos);
+    state().set_pane_count(2);
+    wait_for_errors(1, 8);
+    EXPECT_EQ(errors(0).size(), before.size());
+}
+
+/// Noise of mean zero, the same for a seed.
+RgbImage noisy(Rgb value, float noise, unsigned seed) {
+    RgbImage image(48, 36, value);
+    for (Rgb& pixel : image) {
+        seed = seed * 1664525u + 1013904223u;
+        pixel += Rgb(noise * (static_cast<float>(seed >> 8) / static_cast<float>(1 << 23) - 1));
+    }
+    return image;
+}
+
+TEST_F(Charts, AReferenceOfTwoHalvesAddsNoErrorOfItsOwn) {
+    const Rgb truth(0.5f);
+    const RgbImage a = noisy(truth, 0.1f, 1), b = noisy(truth, 0.1f, 7);
+    RgbImage mean = a;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        mean.data()[i] = 0.5f * (a.data()[i] + b.data()[i]);
+    const auto plain = make_reference("plain", mean, {}), halves = make_reference("halves", mean, {a, b});
+    const RgbImage picture(48, 36, truth);
+    const PictureError with_floor = error_to(*plain, picture).value(), error = error_to(*halves, picture).value();
+    EXPECT_GT(with_floor.relative_mse, 0.004); // 0.1^2 / 3 / 2 / 0.25
+    EXPECT_TRUE(std::isnan(with_floor.standard_error));
+    EXPECT_LT(std::abs(error.relative_mse), 4 * error.standard_error);
+    EXPECT_LT(error.standard_error, 0.001);
+    EXPECT_NE(caveat_of(*plain).find("no halves"), std::string::npos);
+    EXPECT_EQ(caveat_of(*halves), "");
+    EXPECT_TRUE(make_reference("other size", mean, {RgbImage(4, 4), RgbImage(4, 4)})->halves[0].empty());
+}
+
+TEST_F(Charts, PixelsThatAreNotFiniteAreLeftOutAndCounted) {
+    for (const bool halves : {false, true}) {
+        RgbImage image(48, 36, Rgb(0.5f));
+        image(3, 4) = Rgb(NAN);
+        image(5, 4) = Rgb(INFINITY);
+        const auto pair = halves ? std::array{image, image} : std::array<RgbImage, 2>{};
+        const auto reference = make_reference("broken", image, pair);
+        EXPECT_EQ(reference->not_finite, 2u);
+        RgbImage picture(48, 36, Rgb(0.7f));
+        picture(9, 9) = Rgb(NAN);
+        const PictureError error = error_to(*reference, picture).value();
+        EXPECT_EQ(error.not_finite, 3u);
+        EXPECT_NEAR(error.relative_mse, 0.04 / 0.251, 1e-6);
+        EXPECT_FALSE(error_to(*reference, RgbImage(48, 36, Rgb(NAN))).has_value());
+    }
+    RgbImage image(48, 36, Rgb(0.5f));
+    image(3, 4) = Rgb(NAN);
+    state().companions.reference = make_reference("broken", image, {});
+    wait_until([&] { return !errors(1).empty(); });
+    EXPECT_EQ(errors(1).back().not_finite, 1u);
+    type(Key::h);
+    frames(2);
+    EXPECT_TRUE(has("charts.caveat"));
+    EXPECT_NE(chart_caveat(state()).find("1 of its pixels"), std::string::npos) << chart_caveat(state());
+    save("charts-caveat.png");
+}
 
 TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     set_reference(Rgb(0.3f));
@@ -74,8 +204,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
         state().pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });
         wait_until([&] {
-            const auto& a = state().charts[0].errors.points();
-            const auto& b = state().charts[1].errors.points();
+            const auto a = errors(0), b = errors(1);
             return !a.empty() && a.back().spp == spp && !b.empty() && b.back().spp == spp;
         });
     }
@@ -87,18 +216,18 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     EXPECT_TRUE(has("charts.error"));
     EXPECT_TRUE(has("charts.histogram"));
     const std::string csv = chart_csv(state());
-    EXPECT_NE(csv.find("1,pt,none,16,"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("2,gpr,weighted,16,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("1,pt,none,,,16,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("2,gpr,weighted,0.2,1,16,"), std::string::npos) << csv;
     choose("charts.axis", "spp");
     EXPECT_TRUE(state().charts_by_spp);
 
     // Another reference, and another request, begin anew.
     set_reference(Rgb(0.5f));
     wait_until([&] { return state().charts[0].reference == state().companions.reference; });
-    EXPECT_EQ(state().charts[0].errors.points().size(), 1u);
+    EXPECT_EQ(errors(0).size(), 1u);
     state().panes[0].settings.render.max_depth = 2;
     wait_until([&] { return state().charts[0].generation == pane(0).generation; });
-    EXPECT_LE(state().charts[0].errors.points().size(), 3u);
+    EXPECT_LE(errors(0).size(), 3u);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
@@ -153,15 +282,16 @@ TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     EXPECT_EQ(state().charts[1].shifts.points().back().seconds, pane(1).snapshot->seconds);
     state().set_pane_count(1);
     frames(2);
-    EXPECT_TRUE(state().charts[1].shifts.points().empty());
+    EXPECT_EQ(state().chart_of(pane(0)).shifts.points().back().spp, 16); // the active pane stays
+    EXPECT_TRUE(state().charts[0].shifts.points().empty());
 }
 
 TEST_F(Charts, EfficiencyIsTheInverseOfErrorAndTime) {
     set_reference(Rgb(0.3f));
     type(Key::h);
     choose("charts.kind", "efficiency");
-    wait_until([&] { return !state().charts[1].errors.points().empty(); });
-    const ErrorPoint& p = state().charts[1].errors.points().back();
+    wait_until([&] { return !errors(1).empty(); });
+    const ErrorPoint p = errors(1).back();
     const Chart chart = viewer_chart(state());
     ASSERT_EQ(chart.plots.size(), 1u);
     EXPECT_NEAR(chart.plots[0].series[1].points.back().y * p.error * p.seconds, 1, 1e-9);
@@ -197,15 +327,15 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
         state().pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });
     }
-    wait_until([&] { return !state().charts[1].errors.points().empty(); });
+    wait_until([&] { return !errors(1).empty(); });
     type(Key::z); // with the panel closed
-    frames(4);
+    finish_saving();
     EXPECT_FALSE(state().save_charts);
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
     EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
     const auto files = files_here();
     ASSERT_EQ(files.size(), 3u);
-    for (const char* header : {"relMSE,efficiency\n", "seconds,ok,occluded"})
+    for (const char* header : {"efficiency,not_finite\n", "seconds,ok,occluded"})
         EXPECT_NE(files.at(".csv").find(header), std::string::npos) << header;
     pugi::xml_document svg;
     ASSERT_TRUE(svg.load_string(files.at(".svg").c_str()));
@@ -230,7 +360,7 @@ TEST_F(Charts, AreDrawnLarge) {
     set_reference(Rgb(0.3f));
     state().show_panel = false;
     type(Key::h);
-    wait_until([&] { return !state().charts[1].errors.points().empty() && state().charts[1].histogram; });
+    wait_until([&] { return !errors(1).empty() && state().charts[1].histogram; });
     click("charts.large");
     frames(2);
     save("charts-large.png");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -22,6 +23,12 @@ struct CompanionsTest : testing::Test, ViewerHarness {
         viewer.drop({file_});
         wait_until([&] { return state().companions.reference != nullptr; });
         frames(3);
+    }
+
+    /// Whether there are whole first hits other than these.
+    bool is_other_than(const std::shared_ptr<const FirstHits>& before) {
+        const auto& hits = state().companions.first_hits;
+        return hits && hits != before && hits->depth.width() == 48;
     }
 
     std::filesystem::path file_ =
@@ -101,6 +108,18 @@ TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
+TEST_F(CompanionsTest, TheHalvesOfAReferenceAreRead) {
+    const RgbImage grey(48, 36, Rgb(0.5f));
+    write_exr(file_,
+              {{{"", grey}, {"half1", RgbImage(48, 36, Rgb(0.4f))}, {"half2", RgbImage(48, 36, Rgb(0.6f))}}, {}});
+    viewer.drop({file_});
+    wait_until([&] { return state().companions.reference != nullptr; });
+    const Reference& reference = *state().companions.reference;
+    EXPECT_EQ(reference.halves[0](7, 7), Rgb(0.4f));
+    EXPECT_EQ(reference.halves[1](7, 7), Rgb(0.6f));
+    EXPECT_EQ(reference.mean, luminance(Rgb(0.5f)));
+}
+
 TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
     viewer.drop({"/nowhere/reference.exr"});
     wait_until([&] { return !state().messages.empty(); });
@@ -112,16 +131,22 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     EXPECT_EQ(state().companions.first_hits, nullptr); // only if one is to be seen
     type(Key::digit4, false, true);
     EXPECT_EQ(pane(0).settings.buffer, Buffer::depth);
-    wait_until([&] { return state().companions.first_hits != nullptr; });
+    std::vector<int> widths; // a quarter comes first
+    wait_until([&] {
+        const auto& hits = state().companions.first_hits;
+        if (hits && (widths.empty() || widths.back() != hits->depth.width()))
+            widths.push_back(hits->depth.width());
+        return hits && hits->depth.width() == 48;
+    });
+    EXPECT_EQ(widths, (std::vector<int>{12, 48}));
     frames(2);
     const auto before = state().companions.first_hits;
-    EXPECT_EQ(before->depth.width(), 48);
     EXPECT_NEAR(before->depth(24, 30), 3.5f, 1.5f);
     EXPECT_GT(brightness("pane0.picture"), 10);
     EXPECT_TRUE(has("pane0.legend")); // path tracing, too
     save("depth.png");
     state().camera.dolly(0.5f);
-    wait_until([&] { return state().companions.first_hits != before; });
+    wait_until([&] { return is_other_than(before); });
     EXPECT_LT(state().companions.first_hits->depth(24, 4), before->depth(24, 4));
     type(Key::digit3, false, true);
     frames(2);
@@ -131,12 +156,27 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     save("albedo.png");
     const auto near = state().companions.first_hits;
     state().camera.go_home();
-    wait_until([&] { return state().companions.first_hits != near; });
+    wait_until([&] { return is_other_than(near); });
     frames(2);
     // The red wall's, wherever the light is.
     const Rgb red = viewer.pane_image(0).pixels()(1, 18);
     EXPECT_NEAR(red.r, 0.63f, 0.02f);
     EXPECT_NEAR(red.g, 0.065f, 0.01f);
+}
+
+TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {
+    type(Key::digit4, false, true);
+    wait_until([&] { return is_other_than(nullptr); });
+    const std::weak_ptr<const Scene> before = state().scene;
+    const auto old = state().companions.first_hits;
+    type(Key::digit1); // nobody wants any now
+    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    wait_until([&] { return state().scene != before.lock() && viewer.settled(3); });
+    frames(2);
+    EXPECT_EQ(state().companions.first_hits, nullptr);
+    EXPECT_TRUE(wait_until([&] { return before.expired(); }));
+    type(Key::digit4, false, true);
+    EXPECT_TRUE(wait_until([&] { return is_other_than(old); }));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/false_colours.h"
+#include "ui/path_overlay.h"
 #include "ui/statistics.h"
 #include "ui/theme.h"
 
@@ -223,6 +224,43 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
     h.wait_until([&] { return h.viewer.settled(3); });
     h.frames(3);
     EXPECT_EQ(told("G-PR"), 2);
+}
+
+TEST(RefusedSamples, OpenAsTheyWere) {
+    ViewerHarness h;
+    h.state().pace.spp_limit = 2;
+    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.wait_until([&] { return h.viewer.settled(2) && h.state().messages.size() == 2; });
+    const Message gpr = *std::find_if(h.state().messages.begin(), h.state().messages.end(),
+                                      [](const Message& m) { return m.text.rfind("G-PR", 0) == 0; });
+    const Camera camera = h.state().camera.camera();
+    // Another method and another view, of the same scene: the message stays.
+    h.state().panes[1].settings.render.method = Method::pr;
+    h.state().panes[1].settings.render.seed = 5;
+    h.state().camera.dolly(-3);
+    h.frames(2);
+    h.wait_until([&] { return h.viewer.settled(2); });
+    h.state().messages = {gpr};
+    h.state().show_messages = true;
+    h.frames(2);
+    h.click("inspect_message0");
+    ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
+    const Inspection& found = *h.state().inspector.inspection;
+    EXPECT_EQ(found.method, Method::gpr);
+    EXPECT_TRUE(found.is_refused);
+    EXPECT_EQ(found.pixel, gpr.sample->pixel);
+    const glm::vec3 seen = Projection(camera, found.size).project(found.path.front().position);
+    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), found.pixel);
+    EXPECT_FALSE(is_on_show(*gpr.sample->origin, h.state()));
+    h.frames(3);
+    h.save("refused-earlier.png");
+
+    // And when the scene is another.
+    h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    h.wait_until([&] { return h.viewer.settled(2); });
+    h.frames(5);
+    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 } // namespace

@@ -1,12 +1,12 @@
-// What the viewer saves, and what it remembers.
+// Settings that are saved and taken back.
 
+#include "render/load/camera_file.h"
 #include "render/load/messages.h"
+#include "render/load/temporary_file.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/preferences.h"
 #include "ui/settings_file.h"
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 
@@ -35,7 +35,15 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     state().tone = {Tone::Curve::filmic, -2.5f, 1.75f};
     state().size = {SizeChoice::Base::custom, 0.5f, {80, 60}};
     state().pace = {Pace::Equal::spp, 12, 34.5};
+    state().panes[3].settings.reconstruction.joint_colour = false;
+    state().active_pane = 1;
+    state().alone = state().show_tiles = state().magnifier = state().charts_by_spp = state().mark_negative = true;
+    state().chart_kind = ChartKind::shifts;
+    state().wipe = 0.125f;
+    state().view = ImageView(3.5f, {0.25f, 0.75f});
+    state().ranges = {{Buffer::depth, {0.5f, 7, false}}, {Buffer::error_squared, {1e-6f, 1e-2f, true}}};
     state().camera.orbit({30, 10}, 300);
+    state().camera.dolly(0.5f);
     const auto camera = state().camera.camera();
     std::vector<PaneSettings> settings;
     for (const PaneState& pane : state().panes)
@@ -45,6 +53,7 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     ViewerState other;
     for (const PaneSettings& s : default_panes(1))
         other.panes.push_back({s, nullptr, 0, {}});
+    other.camera.set_home(state().scene->camera(), state().scene->center(), state().scene->radius());
     apply_settings_json(other, text, "settings.json");
     ASSERT_EQ(other.panes.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i)
@@ -54,7 +63,35 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     EXPECT_TRUE(other.size == state().size);
     EXPECT_TRUE(other.pace == state().pace);
     EXPECT_TRUE(other.camera.camera() == camera);
-    EXPECT_EQ(settings_json(other).substr(0, 400), text.substr(0, 400));
+    EXPECT_EQ(other.camera.distance(), state().camera.distance());
+    EXPECT_EQ(other.active_pane, 1);
+    EXPECT_TRUE(other.alone && other.show_tiles && other.magnifier && other.charts_by_spp && other.mark_negative);
+    EXPECT_EQ(other.chart_kind, ChartKind::shifts);
+    EXPECT_EQ(other.wipe, 0.125f);
+    EXPECT_TRUE(other.view == state().view);
+    EXPECT_TRUE(other.ranges == state().ranges);
+    other.scene_name = state().scene_name;
+    EXPECT_EQ(settings_json(other), text);
+}
+
+TEST_F(SettingsFile, ACameraAloneIsTurnedAboutTheScene) {
+    load_scene();
+    const CameraControl home = state().camera;
+    const std::string camera = camera_json(home.camera());
+    state().camera.dolly(0.25f);
+    apply_settings_json(state(), camera, "camera.json");
+    EXPECT_TRUE(state().camera.camera() == home.camera());
+    EXPECT_NEAR(state().camera.distance(), home.distance(), 1e-4f * home.distance());
+}
+
+TEST_F(SettingsFile, TheReferenceIsLoadedAgain) {
+    state().companions.reference = std::make_shared<Reference>(Reference{"room.exr", {}, 1});
+    const std::string text = settings_json(state());
+    apply_settings_json(state(), text, "settings.json");
+    EXPECT_EQ(state().reference_file, ""); // it is that one
+    state().companions.reference.reset();
+    apply_settings_json(state(), text, "settings.json");
+    EXPECT_EQ(state().reference_file, "room.exr");
 }
 
 TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
@@ -63,7 +100,11 @@ TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
          {"", "{", "[]", "{\"panes\": []}", "{\"panes\": [{\"method\": \"xyz\"}]}",
           "{\"panes\": [{\"settings\": {\"tile\": \"99\"}}]}", "{\"panes\": [{\"settings\": {\"tile\": 4}}]}",
           "{\"panes\": [{}], \"tone\": {\"exposure\": 1e9}}", "{\"panes\": [{}], \"camera\": {\"fov\": 1}}",
-          "{\"panes\": [{}], \"size\": {\"base\": \"moon\"}}", "{\"panes\": [{\"alpha\": \"much\"}]}"}) {
+          "{\"panes\": [{}], \"size\": {\"base\": \"moon\"}}", "{\"panes\": [{}], \"active\": 2}",
+          "{\"panes\": [{}], \"ranges\": {\"moon\": {}}}",
+          "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 3, \"high\": 2}}}",
+          "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 0, \"logarithmic\": true}}}",
+          "{\"panes\": [{\"alpha\": \"much\"}]}"}) {
         try {
             apply_settings_json(state(), text, "bad.json");
             ADD_FAILURE() << text;
@@ -97,107 +138,45 @@ TEST_F(SettingsFile, IsSavedByItsActionAndTakenByDropping) {
     load_scene();
     state().panes[0].settings.render.tile = 3;
     type(Key::p, true);
+    finish_saving();
     fs::path file;
     for (const auto& entry : fs::directory_iterator(folder.path))
         file = entry.path();
     ASSERT_EQ(file.extension(), ".json");
     state().panes[0].settings.render.tile = 8;
     viewer.drop({file});
+    frame();
     EXPECT_EQ(state().panes[0].settings.render.tile, 3);
     viewer.drop({folder.path / "none.json"});
+    frame();
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
 }
 
-TEST(Preferences, AreReadAsTheyWereWritten) {
-    CurrentFolder folder;
-    const fs::path file = folder.path / "deep" / "viewer.json";
-    std::string note;
-    EXPECT_TRUE(read_preferences(file, note) == Preferences{});
-    EXPECT_EQ(note, "");
-    Preferences p{{1200, 700}, Theme::light, 1.5f, false, true, true, {}};
-    for (int i = 0; i < 12; ++i)
-        p.add_recent("/scenes/" + std::to_string(i % 10) + ".xml");
-    EXPECT_EQ(p.recent_scenes.size(), Preferences::most_recent);
-    EXPECT_EQ(p.recent_scenes.front(), "/scenes/1.xml");
-    write_preferences(file, p);
-    EXPECT_TRUE(read_preferences(file, note) == p);
-    EXPECT_EQ(note, "");
-}
-
-TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
-    CurrentFolder folder;
-    for (const char* text : {"{", "[1]", "{\"window\": \"large\"}", "{\"recent_scenes\": 3}", "\xff\xfe"}) {
-        std::ofstream("viewer.json") << text;
-        std::string note;
-        EXPECT_TRUE(read_preferences("viewer.json", note) == Preferences{}) << text;
-        EXPECT_NE(note.find("viewer.json"), std::string::npos) << text;
-    }
-    std::ofstream("viewer.json") << "{\"window\": [0, -5], \"ui_scale\": 99}"; // odd numbers do no harm
-    std::string note;
-    EXPECT_EQ(read_preferences("viewer.json", note).window_size, glm::ivec2(0));
-    EXPECT_EQ(read_preferences("viewer.json", note).ui_scale, 3.0f);
-}
-
-TEST(Preferences, FollowTheXdgSpecification) {
-    const char* old = std::getenv("XDG_CONFIG_HOME");
-    const std::string before = old ? old : "", home = std::getenv("HOME") ? std::getenv("HOME") : "/";
-    ::setenv("XDG_CONFIG_HOME", "/somewhere", 1);
-    EXPECT_EQ(preferences_file(), "/somewhere/tessera/viewer.json");
-    ::setenv("XDG_CONFIG_HOME", "relative", 1);
-    ::setenv("HOME", "/home/me", 1);
-    EXPECT_EQ(preferences_file(), "/home/me/.config/tessera/viewer.json");
-    old ? ::setenv("XDG_CONFIG_HOME", before.c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
-    ::setenv("HOME", home.c_str(), 1);
-}
-
-TEST(Remembered, LayoutAndRecentScenes) {
+TEST(DroppedTogether, TheSettingsCountAfterTheScene) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
-    std::atomic<int> opened = 0;
-    options.open = [&](const fs::path&) -> SceneLoader {
-        ++opened;
+    options.open = [](const fs::path&) -> SceneLoader {
         return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
     };
-    {
-        ViewerHarness h({900, 600}, 1, options);
-        h.viewer.drop({folder.path / "room.xml"});
-        h.wait_until([&] { return h.state().scenes_shown == 1; });
-        h.type(Key::h);
-        h.type(Key::f9);
-    }
-    ViewerHarness h({640, 480}, 1, options);
-    EXPECT_TRUE(h.state().show_charts);
-    EXPECT_EQ(h.state().theme, Theme::light);
-    ASSERT_EQ(h.state().recent_scenes.size(), 1u);
-    std::string note;
-    EXPECT_EQ(read_preferences(options.preferences, note).window_size, glm::ivec2(900, 600));
-    h.frames(3);
-    h.click("menu File");
-    h.click("menu File/recent 0");
-    h.wait_until([&] { return h.state().scenes_shown == 1; });
-    EXPECT_EQ(opened, 2);
-}
-
-TEST(SavedAsExr, TheWriterGetsTheActivePane) {
-    CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    std::atomic<int> calls = 0;
-    options.write_exr = [&](const fs::path& file, const fs::path&, const Snapshot& snapshot,
-                            const ReconstructionSettings&) {
-        EXPECT_EQ(file.extension(), ".exr");
-        EXPECT_EQ(snapshot.settings.method, Method::gpr);
-        if (++calls == 2)
-            throw std::runtime_error("the disk is full");
-    };
     ViewerHarness h({900, 600}, 1, options);
-    h.rest(2);
-    h.type(Key::e, true);
-    h.wait_until([&] { return !h.state().messages.empty(); });
-    EXPECT_EQ(h.state().messages.back().text.find("Saved "), 0u);
-    h.type(Key::e, true);
-    h.wait_until([&] { return h.state().messages.back().kind == Message::Kind::error; });
-    EXPECT_EQ(h.state().messages.back().text, "the disk is full");
+    h.load_scene();
+    for (PaneState& pane : h.state().panes)
+        pane.settings.render.max_depth = 3;
+    h.state().camera.orbit({40, 10}, 300);
+    h.state().view = ImageView(2, {0.25f, 0.5f});
+    const Camera camera = h.state().camera.camera();
+    write_text(folder.path / "s.json", settings_json(h.state()));
+    h.state().camera.go_home();
+    for (PaneState& pane : h.state().panes)
+        pane.settings.render.max_depth = 9;
+
+    const int before = h.state().scenes_shown;
+    h.viewer.drop({folder.path / "s.json", folder.path / "other.xml"});
+    h.wait_until([&] { return h.state().scenes_shown > before && h.state().settings_file.empty(); });
+    EXPECT_TRUE(h.state().camera.camera() == camera);
+    EXPECT_EQ(h.state().view.zoom(), 2);
+    for (const PaneState& pane : h.state().panes)
+        EXPECT_EQ(pane.settings.render.max_depth, 3);
 }
 
 } // namespace

@@ -233,6 +233,40 @@ TEST_F(SceneChange, LoadingShowsWhatIsDoneAndIsGivenUpForAnother) {
     EXPECT_TRUE(state().messages.empty()) << "nothing is heard of what was given up";
 }
 
+TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
+    show();
+    for (const bool by_key : {false, true}) {
+        std::atomic<bool> ended{false};
+        viewer.load("slow.xml", [&](Notes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
+            progress.begin(LoadProgress::Stage::files, 8);
+            while (!progress.given_up())
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ended = true;
+            progress.check_wanted();
+            return nullptr;
+        });
+        wait_until([&] { return !state().loading.empty() && has("cancel_load"); });
+        frames(2);
+        save("cancel_load.png");
+        if (by_key) {
+            state().show_help = true;
+            type(Key::escape); // closes the help alone
+            EXPECT_FALSE(state().show_help);
+            EXPECT_TRUE(viewer.loading());
+            type(Key::escape);
+        } else {
+            click("cancel_load");
+        }
+        EXPECT_FALSE(viewer.loading());
+        EXPECT_TRUE(state().loading.empty());
+        wait_until([&] { return ended.load(); });
+        frames(3);
+        EXPECT_EQ(state().scene_name, "room.xml");
+        EXPECT_TRUE(says("slow.xml was given up"));
+        EXPECT_FALSE(has("cancel_load"));
+    }
+}
+
 TEST_F(SceneChange, EndsWhileASceneIsLoading) {
     viewer.load("slow.xml", [&](Notes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
         while (!progress.given_up())

@@ -176,7 +176,7 @@ TEST_F(SlowMotionView, StandsChangesOfAllKinds) {
     frames(3);
     resize({1280, 720});
     state().theme = Theme::light;
-    state().ui_scale = 2.0f;
+    state().text_factor = 2.0f;
     frames(30);
     save("slow-motion-200.png");
     type(Key::digit1, true);

@@ -12,12 +12,25 @@ TEST(Look, TextGrowsByKeysUpToThreeHundredPercent) {
     for (int i = 0; i < 20; ++i)
         h.type(Key::up, true);
     h.frames(2);
-    EXPECT_EQ(h.state().shown_ui_scale, 3);
+    EXPECT_EQ(h.state().ui_scale(), 3);
     EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 3, 4);
     for (int i = 0; i < 20; ++i)
         h.type(Key::down, true);
     h.frames(2);
-    EXPECT_EQ(h.state().shown_ui_scale, 1);
+    EXPECT_EQ(h.state().ui_scale(), 1);
+}
+
+TEST(Look, TextIsAsMuchLargerOnAnotherDisplay) {
+    ViewerHarness h({1920, 1200}, 1.5f);
+    h.frames(2);
+    EXPECT_EQ(h.state().ui_scale(), 1.5f);
+    h.type(Key::up, true);
+    EXPECT_EQ(h.state().ui_scale(), 1.75f);
+    h.scale_ = 1; // the window is moved there
+    h.frames(2);
+    EXPECT_NEAR(h.state().ui_scale(), 1.75f / 1.5f, 1e-5f);
+    h.type(Key::digit0, true);
+    EXPECT_EQ(h.state().ui_scale(), 1);
 }
 
 TEST(Look, ThemesAreDarkAndLight) {

@@ -36,7 +36,8 @@ ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options
     : context(size), gui(scale), scale_(scale), session(most_panes, 1), viewer(session, std::move(options)) {}
 
 void ViewerHarness::frame(float seconds) {
-    gui.set_look(state().ui_scale.value_or(scale_), state().theme);
+    state().display_scale = scale_;
+    gui.set_look(state().ui_scale(), state().theme);
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();
@@ -59,6 +60,14 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return true;
+}
+
+void ViewerHarness::finish_saving() {
+    wait_until([&] {
+        const ViewerState& s = state();
+        return !s.save_picture && !s.save_charts && !s.save_camera && !s.save_settings && !s.save_exr &&
+               !s.save_view && !viewer.saving();
+    });
 }
 
 void ViewerHarness::load_scene() {

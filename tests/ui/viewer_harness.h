@@ -31,6 +31,8 @@ public:
     void load_scene();
     /// Loads the scene and waits until both panes rest at so many samples a pixel: nothing moves any more.
     void rest(int spp);
+    /// Until all that is to be saved is written, and told.
+    void finish_saving();
 
     /// Input; each ends with frames in which it takes effect.
     void move_to(glm::vec2 position);

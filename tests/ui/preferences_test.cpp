@@ -1,0 +1,147 @@
+// What the viewer remembers.
+
+#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer_harness.h"
+#include "ui/preferences.h"
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Preferences, AreReadAsTheyWereWritten) {
+    CurrentFolder folder;
+    const fs::path file = folder.path / "deep" / "viewer.json";
+    std::string note;
+    EXPECT_TRUE(read_preferences(file, note) == Preferences{});
+    EXPECT_EQ(note, "");
+    Preferences p;
+    p.window = {{1200, 700}, glm::ivec2(-40, 25), true};
+    p.panes = 4;
+    p.theme = Theme::light;
+    p.text_factor = 1.5f;
+    p.panel_width = 31;
+    p.show_panel = false;
+    p.show_statistics = p.show_charts = true;
+    for (int i = 0; i < 12; ++i)
+        p.add_recent("/scenes/" + std::to_string(i % 10) + ".xml");
+    EXPECT_EQ(p.recent_scenes.size(), Preferences::most_recent);
+    EXPECT_EQ(p.recent_scenes.front(), "/scenes/1.xml");
+    write_preferences(file, p);
+    EXPECT_TRUE(read_preferences(file, note) == p);
+    EXPECT_EQ(note, "");
+}
+
+TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
+    CurrentFolder folder;
+    for (const char* text : {"{", "[1]", "{\"window\": \"large\"}", "{\"recent_scenes\": 3}", "\xff\xfe"}) {
+        std::ofstream("viewer.json") << text;
+        std::string note;
+        EXPECT_TRUE(read_preferences("viewer.json", note) == Preferences{}) << text;
+        EXPECT_NE(note.find("viewer.json"), std::string::npos) << text;
+    }
+    std::ofstream("viewer.json")
+        << "{\"window\": [0, -5], \"text_factor\": 99, \"panes\": 9, \"panel_width\": 0}"; // odd numbers do no
+                                                                                           // harm
+    std::string note;
+    EXPECT_EQ(read_preferences("viewer.json", note).window.size, glm::ivec2(0));
+    EXPECT_EQ(read_preferences("viewer.json", note).text_factor, 3.0f);
+    EXPECT_EQ(read_preferences("viewer.json", note).panes, most_panes);
+    EXPECT_EQ(read_preferences("viewer.json", note).panel_width, ViewerState::least_panel_width);
+}
+
+TEST(Preferences, FollowTheXdgSpecification) {
+    const char* old = std::getenv("XDG_CONFIG_HOME");
+    const std::string before = old ? old : "", home = std::getenv("HOME") ? std::getenv("HOME") : "/";
+    ::setenv("XDG_CONFIG_HOME", "/somewhere", 1);
+    EXPECT_EQ(preferences_file(), "/somewhere/tessera/viewer.json");
+    ::setenv("XDG_CONFIG_HOME", "relative", 1);
+    ::setenv("HOME", "/home/me", 1);
+    EXPECT_EQ(preferences_file(), "/home/me/.config/tessera/viewer.json");
+    old ? ::setenv("XDG_CONFIG_HOME", before.c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
+    ::setenv("HOME", home.c_str(), 1);
+}
+
+TEST(Remembered, LayoutAndRecentScenes) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    std::atomic<int> opened = 0;
+    options.open = [&](const fs::path&) -> SceneLoader {
+        ++opened;
+        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+    };
+    float width = 0;
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.viewer.drop({folder.path / "room.xml"});
+        h.wait_until([&] { return h.state().scenes_shown == 1; });
+        h.type(Key::h);
+        h.type(Key::f9);
+        h.type(Key::digit4, true);
+        h.drag(h.place("panel edge").center(), {-60, 0});
+        EXPECT_GT(h.state().panel_width, 22);
+        width = h.place("panel edge").center().x;
+    }
+    options.panes_as_remembered = true;
+    ViewerHarness h({900, 480}, 1, options);
+    EXPECT_EQ(h.state().panes.size(), 4u);
+    h.frames(2);
+    EXPECT_EQ(h.place("panel edge").center().x, width);
+    EXPECT_TRUE(h.state().show_charts);
+    EXPECT_EQ(h.state().theme, Theme::light);
+    ASSERT_EQ(h.state().recent_scenes.size(), 1u);
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).window.size, glm::ivec2(900, 600));
+    h.frames(3);
+    h.click("menu File");
+    h.click("menu File/recent 0");
+    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    EXPECT_EQ(opened, 2);
+}
+
+TEST(Remembered, TheScenesOfTwoViewersAtATime) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    options.open = [](const fs::path&) -> SceneLoader {
+        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+    };
+    ViewerHarness h({900, 600}, 1, options);
+    h.frames(2);
+    Preferences of_another;
+    of_another.add_recent("/scenes/theirs.xml");
+    write_preferences(options.preferences, of_another);
+    h.viewer.drop({"/scenes/ours.xml"});
+    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    const std::vector<std::string> both{"/scenes/ours.xml", "/scenes/theirs.xml"};
+    EXPECT_EQ(h.state().recent_scenes, both);
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
+}
+
+TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.frames(2);
+        h.state().window_place.position = {30, 40};
+        h.state().window_place.maximised = true;
+        h.resize({1280, 720});
+        h.frames(2);
+    }
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).window,
+              (WindowPlace{{900, 600}, glm::ivec2(30, 40), true}));
+}
+
+} // namespace
+} // namespace tessera::test

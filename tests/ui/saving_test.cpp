@@ -1,0 +1,195 @@
+// Pictures that the viewer saves: of a pane as EXR and PNG.
+
+#include "render/load/png.h"
+#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer_harness.h"
+#include "ui/output_files.h"
+#include "ui/view_picture.h"
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+namespace tessera::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<fs::path> files_in(const fs::path& folder) {
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        files.insert(entry.path().filename());
+    return files;
+}
+
+TEST(DatedFile, NoNameIsGivenTwice) {
+    const CurrentFolder folder;
+    std::set<fs::path> names;
+    for (int i = 0; i < 5; ++i)
+        names.insert(dated_file("-charts.csv")); // all within a second, and none of them written
+    EXPECT_EQ(names.size(), 5u);
+    for (const fs::path& name : names)
+        EXPECT_EQ(name.string().find("-charts.csv"), name.string().size() - 11);
+}
+
+struct SavedAsExr : testing::Test {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    std::atomic<int> calls = 0;
+};
+
+TEST_F(SavedAsExr, TheWriterGetsTheActivePane) {
+    options.write_exr = [&](const fs::path& file, const SavedPicture& picture) {
+        EXPECT_EQ(file.extension(), ".exr");
+        EXPECT_EQ(picture.snapshot->settings.method, Method::gpr);
+        EXPECT_FALSE(picture.reconstruction.joint_colour);
+        if (++calls == 2)
+            throw std::runtime_error("the disk is full");
+    };
+    ViewerHarness h({900, 600}, 1, options);
+    h.state().panes[1].settings.reconstruction.joint_colour = false;
+    h.rest(2);
+    h.type(Key::e, true);
+    h.finish_saving();
+    EXPECT_EQ(h.state().messages.back().text.find("Saved "), 0u);
+    h.type(Key::e, true);
+    h.finish_saving();
+    EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
+    EXPECT_EQ(h.state().messages.back().text, "the disk is full");
+}
+
+TEST_F(SavedAsExr, OneAfterTheOtherAndEachInAFileOfItsOwn) {
+    std::atomic<int> at_once = 0;
+    std::atomic<bool> go = false;
+    options.write_exr = [&](const fs::path& file, const SavedPicture&) {
+        EXPECT_EQ(++at_once, 1);
+        while (!go)
+            std::this_thread::yield();
+        std::ofstream(file) << "exr";
+        --at_once;
+    };
+    ViewerHarness h({900, 600}, 1, options);
+    h.rest(2);
+    for (int i = 0; i < 3; ++i)
+        h.type(Key::e, true); // while the first is being written
+    go = true;
+    h.finish_saving();
+    EXPECT_EQ(files_in(folder.path).size(), 3u);
+    EXPECT_EQ(h.state().messages.size(), 3u);
+}
+
+TEST_F(SavedAsExr, WhatIsWishedBeforeTheEndIsWritten) {
+    std::atomic<bool> go = false;
+    options.write_exr = [&](const fs::path&, const SavedPicture&) {
+        while (!go)
+            std::this_thread::yield();
+        ++calls;
+    };
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.rest(2);
+        for (int i = 0; i < 3; ++i)
+            h.type(Key::e, true);
+        go = true;
+    }
+    EXPECT_EQ(calls, 3);
+}
+
+TEST_F(SavedAsExr, ItSaysWhyNothingCanBeSaved) {
+    options.write_exr = [&](const fs::path&, const SavedPicture&) { ++calls; };
+    ViewerHarness h({900, 600}, 1, options);
+    h.frames(2);
+    h.type(Key::e, true); // without a scene
+    ASSERT_EQ(h.state().messages.size(), 1u);
+    EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
+    EXPECT_NE(h.state().messages.back().text.find("no picture to save"), std::string::npos);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST(SaveQueue, GivesWayToWhatDraws) {
+    const int own = getpriority(PRIO_PROCESS, 0);
+    int there = own;
+    SaveQueue queue;
+    queue.add(
+        [&] {
+            there = getpriority(PRIO_PROCESS, 0);
+            return std::string();
+        },
+        {});
+    while (!queue.poll())
+        std::this_thread::yield();
+    EXPECT_GT(there, own);
+}
+
+struct SavedView : testing::Test, ViewerHarness {
+    CurrentFolder folder;
+    ScreenPixels picture(int pane) { return view_picture(pane, CanvasShader(), viewer.pane_images(), state()); }
+};
+
+TEST_F(SavedView, HasAPixelForEachOfTheImageInTheColoursOnShow) {
+    rest(2);
+    state().tone.curve = Tone::Curve::srgb;
+    state().view = ImageView(7, {0.1f, 0.9f}); // does not matter
+    frames(2);
+    const ScreenPixels saved = picture(1);
+    const RgbImage& image = viewer.pane_image(1).pixels();
+    ASSERT_EQ(saved.size, glm::ivec2(image.width(), image.height()));
+    for (const glm::ivec2 p : {glm::ivec2(0, 0), glm::ivec2(40, 3), glm::ivec2(5, 30), glm::ivec2(47, 35)}) {
+        const Rgb& value = image(p.x, p.y);
+        EXPECT_NEAR(saved.at(p.x, p.y)[0], srgb_byte(value.r), 1) << p.x << ' ' << p.y;
+        EXPECT_NEAR(saved.at(p.x, p.y)[2], srgb_byte(value.b), 1) << p.x << ' ' << p.y;
+    }
+    state().tone.exposure = -1;
+    EXPECT_NEAR(picture(1).at(5, 30)[0], srgb_byte(image(5, 30).r / 2), 1);
+    state().panes[1].settings.buffer = Buffer::reused; // false colours
+    frames(2);
+    const ScreenPixels coloured = picture(1);
+    const std::uint8_t* pixel = coloured.at(5, 30);
+    EXPECT_FALSE(pixel[0] == pixel[1] && pixel[1] == pixel[2]);
+}
+
+TEST_F(SavedView, IsOfTheActivePaneAndItsDifference) {
+    rest(2);
+    const ScreenPixels own = picture(1);
+    state().panes[1].settings.comparison = {Comparison::Kind::difference, 0};
+    frames(2);
+    EXPECT_NE(picture(1).rgb, own.rgb);
+    state().panes[1].settings.comparison = {Comparison::Kind::wipe, 0};
+    state().wipe = 0;
+    frames(2);
+    EXPECT_EQ(picture(1).rgb, own.rgb); // its own, wherever the line is
+}
+
+TEST_F(SavedView, IsWrittenByItsActionOrItSaysWhyNot) {
+    rest(2);
+    type(Key::s, true, true);
+    finish_saving();
+    auto files = files_in(folder.path);
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_NE(files.begin()->string().find("-gpr-reconstruction.png"), std::string::npos) << *files.begin();
+    EXPECT_EQ(state().messages.back().text.find("Saved "), 0u);
+    state().panes[1].settings.buffer = Buffer::error_squared;
+    frames(2);
+    type(Key::s, true, true);
+    finish_saving();
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
+    EXPECT_NE(state().messages.back().text.find("No reference"), std::string::npos);
+    EXPECT_EQ(files_in(folder.path).size(), 1u);
+}
+
+TEST_F(SavedView, TheWindowIsWrittenTooAndNotByItsThread) {
+    rest(2);
+    type(Key::s, true);
+    finish_saving();
+    EXPECT_EQ(files_in(folder.path).size(), 1u);
+    EXPECT_EQ(state().messages.back().text.find("Saved "), 0u);
+}
+
+} // namespace
+} // namespace tessera::test

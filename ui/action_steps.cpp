@@ -1,0 +1,79 @@
+#include "ui/action_steps.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace tessera {
+
+void set_buffer(ViewerState& state, Buffer buffer) {
+    for (PaneState& pane : state.panes)
+        pane.settings.buffer = buffer;
+}
+
+void step_method(ViewerState& state, int step) {
+    constexpr int count = static_cast<int>(std::size(all_methods));
+    Method& method = state.active().settings.render.method;
+    method = all_methods[(static_cast<int>(method) + step + count) % count];
+}
+
+void step_tile(ViewerState& state, int step) {
+    int& tile = state.active().settings.render.tile;
+    tile = std::clamp(tile + step, 1, 16);
+    state.share_settings();
+}
+
+void step_exposure(ViewerState& state, float stops) {
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, -10.0f, 10.0f);
+}
+
+void next_pane(ViewerState& state) {
+    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+void next_grid(ViewerState& state) {
+    const std::size_t count = state.panes.size();
+    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
+}
+
+void step_pass(ViewerState& state) {
+    state.paused = true;
+    ++state.steps;
+}
+
+void step_ui_scale(ViewerState& state, float by) {
+    state.set_ui_scale(std::round(state.ui_scale() * 4) / 4 + by);
+}
+
+void next_tone(ViewerState& state) {
+    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
+}
+
+// Both have the mouse's left button: one gives way.
+void toggle_inspector(ViewerState& state) {
+    state.inspector.active = !state.inspector.active;
+    state.slow_motion.active = false;
+}
+
+void toggle_slow_motion(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    slow.active = !slow.active;
+    state.inspector.active = false;
+    slow.frames = true;
+    slow.held = false;
+    slow.sample.reset();
+}
+
+void next_tile(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (slow.tile)
+        slow.start({slow.pane, slow.next_pixel(state.request_size()), {}});
+}
+
+void toggle_comparison(ViewerState& state, Comparison::Kind kind) {
+    if (state.compared_with(state.active_pane) == state.active_pane)
+        state.set_pane_count(2);
+    Comparison::Kind& own = state.active().settings.comparison.kind;
+    own = own == kind ? Comparison::Kind::off : kind;
+}
+
+} // namespace tessera
