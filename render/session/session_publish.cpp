@@ -1,0 +1,56 @@
+// How a session's passes become snapshots.
+#include "render/session/session_pane.h"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+void Session::publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse) {
+    const auto snapshot = std::make_shared<Snapshot>();
+    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before
+    snapshot->generation = generation;
+    snapshot->coarse = coarse;
+    snapshot->spp = render.spp();
+    snapshot->seconds = render.seconds();
+    snapshot->cpu_seconds = render.cpu_seconds();
+    snapshot->settings = render.settings();
+    snapshot->camera = render.camera();
+    snapshot->plan = std::make_shared<ReusePlan>(render.newest_plan());
+    snapshot->counters = render.counters();
+    snapshot->refused_plan = render.refused_plan();
+    snapshot->images = std::make_shared<GradientImages>(render.images());
+    if (ReuseMaps maps = render.reuse_maps(); !maps.reused.empty())
+        snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));
+    {
+        const std::lock_guard lock(mutex_);
+        if (!pane.request.scene || (pane.generation != generation && !coarse))
+            return;
+        if (pane.latest && pane.latest->generation == generation && !pane.latest->coarse) {
+            snapshot->reconstruction = pane.latest->reconstruction;
+            snapshot->reconstructed_with = pane.latest->reconstructed_with;
+            snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
+            snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
+        }
+        std::swap(pane.latest, latest);
+    }
+    reconstruct_wake_.notify_one();
+    if (on_publish_)
+        on_publish_();
+}
+
+/// The pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again with
+/// later passes: the render itself has lost nothing.
+void Session::publish_passes(Pane& pane) {
+    try {
+        publish(pane, *pane.render, pane.render_generation, false);
+    } catch (const std::exception& error) {
+        report(fmt::format("pass {} is not shown: {}", pane.render->spp(), error.what()));
+    }
+    pane.published_spp = pane.render->spp();
+    pane.published_at = std::chrono::steady_clock::now();
+}
+
+} // namespace tessera
