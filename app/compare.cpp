@@ -3,6 +3,7 @@
 #include "recon/metrics.h"
 #include "recon/tile_spectrum.h"
 #include "render/load/exr.h"
+#include "render/load/json_text.h"
 #include "render/session/reference_image.h"
 
 #include <array>
@@ -127,7 +128,7 @@ void print_json(const CompareOptions& options, const Comparison& c) {
     }
     if (c.tiles)
         out["tiles"] = {{"error", c.tiles->error}, {"edges", c.tiles->edges}, {"edge_ratio", c.tiles->edge_ratio}};
-    std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    std::printf("%s\n", to_text(out, 2).c_str());
 }
 
 } // namespace

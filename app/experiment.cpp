@@ -8,7 +8,6 @@
 #include "app/stats.h"
 #include "render/load/exr.h"
 #include "render/method/settings_table.h"
-#include "render/session/picture_identity.h"
 
 #include <algorithm>
 #include <cctype>
@@ -94,7 +93,7 @@ void Experiment::run_scene(MeasuredScene& scene, const std::function<void()>& re
     if (!scene.make_references(opened.scene, usual))
         return;
     triangles_ = opened.scene->triangle_count();
-    scene_checksum_ = scene_checksum({scene.source(), opened.scene, opened.scene->camera()}, {}, usual);
+    scene_checksums_ = checksums_of(opened.scene->description(), opened.scene->camera());
     progress_.emplace("measuring");
     for (int i = 0; i < options_.seeds && !interrupted(); ++i) {
         run_round(scene, opened.scene, options_.settings.render.seed + static_cast<std::uint64_t>(i));
@@ -209,7 +208,7 @@ nlohmann::json Experiment::key_of(const MeasuredScene& scene, const Point& point
     RenderSettings settings = point.settings.render;
     settings.seed = seed;
     return {{"scene", scene.name()},
-            {"scene_checksum", scene_checksum_},
+            {"scene_checksums", to_string(scene_checksums_)},
             {"settings", settings_json({}, settings, point.settings.size, 0, point.settings.reconstruction.alpha)},
             {"recon", to_string(point.settings.reconstruction.norm)},
             {"threads", point.settings.threads},

@@ -72,7 +72,7 @@ private:
     std::map<int, std::unique_ptr<ThreadPool>> pools_;        ///< by their threads
     std::optional<Journal> journal_;
     std::size_t triangles_ = 0; ///< of the scene at hand, as what follows
-    std::uint32_t scene_checksum_ = 0;
+    SceneChecksums scene_checksums_;
     double renders_ = 0, finished_ = 0; ///< in all, and in this call
     std::optional<Progress> progress_;
     std::chrono::steady_clock::time_point start_;

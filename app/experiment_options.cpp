@@ -63,7 +63,7 @@ constexpr const char* common_footer =
     "kill the same command goes on from there. Another build (but see --any-build), machine, reference or setting "
     "begins anew.\n"
     "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them; missing ones are rendered "
-    "first.";
+    "first, and those that remember another scene are refused.";
 
 } // namespace
 

@@ -1,5 +1,8 @@
 #include "app/journal.h"
 
+#include "render/load/json_text.h"
+#include "render/load/temporary_file.h"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -44,20 +47,20 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
         const json line = json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
                                       text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
         if (line.is_object() && line.contains("key") && line.contains("value"))
-            entries_[line["key"].dump()] = line["value"].dump();
+            entries_[to_text(line["key"])] = to_text(line["value"]);
     }
-    append(file_, begin < text.size() ? "\n" : ""); // the torn line ends here
+    append(file_, begin < text.size() ? "\n" : "");                            // the torn line ends here
+    write_through_folder(file_.has_parent_path() ? file_.parent_path() : "."); // in which it may be new
 }
 
 json Journal::find(const json& key) const {
-    const auto found = entries_.find(key.dump());
+    const auto found = entries_.find(to_text(key));
     return found == entries_.end() ? json() : json::parse(found->second);
 }
 
 void Journal::record(const json& key, const json& value) {
-    append(file_,
-           json{{"key", key}, {"value", value}}.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
-    entries_[key.dump()] = value.dump();
+    append(file_, to_text(json{{"key", key}, {"value", value}}) + "\n");
+    entries_[to_text(key)] = to_text(value);
 }
 
 } // namespace tessera

@@ -5,6 +5,7 @@
 #include "app/output_file.h"
 #include "app/process_usage.h"
 #include "app/stats.h"
+#include "render/load/json_text.h"
 
 #include <chrono>
 #include <utility>
@@ -33,11 +34,6 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"alpha", options.layers.alpha},
             {"per_channel", options.layers.per_channel},
             {"repaired_pixels", input.repaired}};
-}
-
-/// JSON as text, where names of files need not be UTF-8.
-std::string text_of(const json& value, int indent = -1) {
-    return value.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
 void check_finite(const ExrFile& file) {
@@ -69,7 +65,7 @@ int run_reconstruct(const ReconstructOptions& options) {
     ExrFile file = reconstruct_layers(std::move(input.images), options.layers, pool, recon);
     check_finite(file);
     file.attributes = std::move(input.attributes);
-    file.attributes["tessera:reconstruction"] = text_of(settings);
+    file.attributes["tessera:reconstruction"] = to_text(settings);
     write_picture(options.output, file);
     if (!options.stats.empty()) {
         const json stats{
@@ -78,7 +74,7 @@ int run_reconstruct(const ReconstructOptions& options) {
             {"seconds",
              {{"load", {{"wall", load_wall}, {"cpu", load_cpu}}}, {"reconstruct", reconstructions_json(recon)}}},
             {"peak_memory", peak_memory_bytes()}};
-        write_text(options.stats, text_of(stats, 2) + "\n");
+        write_text(options.stats, to_text(stats, 2) + "\n");
     }
     for (const ReconstructionStats& r : recon)
         fmt::print(stderr, "{}: {} in {:.3f} s ({:.3f} CPU s)\n", options.output.string(), to_string(r.norm),

@@ -34,11 +34,26 @@ std::array<std::uint64_t, 2> FolderReference::seeds() const {
 
 bool FolderReference::make(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
                            ThreadPool& pool) {
-    if (is_complete())
+    if (is_complete()) {
+        check_scene(source, *scene);
         return true;
+    }
     fmt::print(stderr, "{} is missing: rendering it\n", path_.string());
     image_ = render_reference(path_, source, scene, recipe_, pool);
     return is_complete();
+}
+
+void FolderReference::check_scene(const SceneSource& source, const Scene& scene) const {
+    if (!image_->scene)
+        return fmt::print(stderr, "note: {} does not say which scene it is of: that cannot be checked\n",
+                          path_.string());
+    const std::string difference =
+        tessera::difference(*image_->scene, checksums_of(scene.description(), scene.camera()));
+    if (!difference.empty())
+        throw BadInput(
+            fmt::format("{} shows something else than {} does now, in its {}. Without that file it is rendered "
+                        "anew; or name another folder with --reference",
+                        path_.string(), to_string(source), difference));
 }
 
 } // namespace tessera

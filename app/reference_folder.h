@@ -16,7 +16,8 @@ public:
     bool is_complete() const { return image_.has_value(); }
     /// Makes the folder. Throws BadInput where the reference cannot be written.
     void check_writable() const;
-    /// Renders it if it is missing. False: Ctrl-C ended it.
+    /// Renders it if it is missing. Throws BadInput for one of another scene; one that does not say which it is of
+    /// is taken, with a note. False: Ctrl-C ended it.
     bool make(const SceneSource& source, const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
 
     const ReferenceImage& image() const { return *image_; } ///< once it is complete
@@ -24,6 +25,8 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
+    void check_scene(const SceneSource& source, const Scene& scene) const;
+
     std::filesystem::path path_;
     ReferenceRecipe recipe_;
     std::optional<ReferenceImage> image_;

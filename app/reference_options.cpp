@@ -16,7 +16,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         "half2, and their mean, the plain RGB. From the difference of the halves its own error is known, and is "
         "printed and written to the header; what a biased reconstruction (l1, mixed, weighted) does to both alike "
         "is not in "
-        "it.\n"
+        "it. The header has the scene's checksums, too, by which others refuse it for another scene.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;

@@ -7,6 +7,7 @@
 #include "app/progress.h"
 #include "app/reconstruction_layers.h"
 #include "app/stats.h"
+#include "render/load/json_text.h"
 #include "render/method/settings_table.h"
 #include "render/session/render.h"
 
@@ -83,11 +84,11 @@ int run_render(const RenderOptions& options) {
     const nlohmann::json settings =
         settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;
-    file.attributes["tessera:settings"] = settings.dump();
+    file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);
     if (!options.stats.empty())
         write_text(options.stats,
-                   stats_json(settings, opened, render, pool.size(), recon, interrupted()).dump(2) + "\n");
+                   to_text(stats_json(settings, opened, render, pool.size(), recon, interrupted()), 2) + "\n");
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
     return exit_ok;

@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/stats.h"
+#include "render/load/json_text.h"
 
 #include <cmath>
 #include <thread>
@@ -101,7 +102,7 @@ std::string to_json(const ExperimentOptions& options, const std::vector<Result>&
                            {"effort", to_string(options.effort)},
                            {"reference_folder", options.references.string()},
                            {"results", rows}};
-    return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return to_text(out, 2) + "\n";
 }
 
 Effort effort_of(const ExperimentOptions& options, const Result& result) {

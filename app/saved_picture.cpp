@@ -3,6 +3,7 @@
 #include "app/reconstruction_layers.h"
 #include "app/stats.h"
 #include "render/load/camera_file.h"
+#include "render/load/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,8 +41,8 @@ void write_saved_picture(const std::filesystem::path& file, const SavedPicture& 
     ExrFile exr = picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
                                  {{norm}, reconstruction.alpha, !reconstruction.joint_colour, true}, pool, stats);
     exr.attributes["tessera:version"] = TESSERA_VERSION;
-    exr.attributes["tessera:settings"] = settings_of(picture, norm).dump();
-    exr.attributes["tessera:stats"] = stats_of(snapshot, stats).dump();
+    exr.attributes["tessera:settings"] = to_text(settings_of(picture, norm));
+    exr.attributes["tessera:stats"] = to_text(stats_of(snapshot, stats));
     exr.attributes["tessera:camera"] = camera_json(snapshot.camera);
     write_picture(file, exr);
 }

@@ -1,6 +1,6 @@
 #include "ui/companion_jobs.h"
 
-#include "render/load/exr.h"
+#include "render/session/reference_image.h"
 #include "render/session/thread_priority.h"
 #include "ui/picture_error.h"
 
@@ -8,6 +8,8 @@
 #include <array>
 #include <filesystem>
 #include <utility>
+
+#include <fmt/core.h>
 
 namespace tessera {
 
@@ -19,7 +21,7 @@ std::shared_ptr<const Reference> load_reference(const std::filesystem::path& fil
     for (std::size_t i = 0; i < halves.size(); ++i)
         if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))
             halves[i] = *half;
-    return make_reference(file.string(), require_layer(exr, "", file), std::move(halves));
+    return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
 }
 
 constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
@@ -34,6 +36,7 @@ bool wants_first_hits(const ViewerState& state) {
 
 void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake) {
     update_reference(state, wake);
+    check_reference(state, wake);
     update_first_hits(state, wake);
 }
 
@@ -54,6 +57,28 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
     }
     state.companions.reference = *outcome->result;
     state.add_message(Message::Kind::note, "The reference is now " + state.companions.reference->name);
+}
+
+/// Once for each reference and scene, as either may come first; the camera is the one that it is seen with then.
+void CompanionJobs::check_reference(ViewerState& state, const std::function<void()>& wake) {
+    const auto& reference = state.companions.reference;
+    const bool is_known = checked_reference_.lock() == reference && checked_scene_.lock() == state.scene;
+    if (reference && reference->scene && state.scene && !is_known) {
+        checked_reference_ = reference;
+        checked_scene_ = state.scene;
+        check_.start(
+            [reference, scene = state.scene, camera = state.camera.camera()](std::stop_token) {
+                work_in_background();
+                return difference(*reference->scene, checksums_of(scene->description(), camera));
+            },
+            wake);
+    }
+    if (const auto outcome = check_.poll(); outcome && outcome->result && !outcome->result->empty())
+        state.add_message(Message::Kind::error,
+                          fmt::format("The reference shows something else than the panes, in its {}: errors to it "
+                                      "mean little. It is {}",
+                                      *outcome->result, reference ? reference->name : "gone"),
+                          Message::Origin::scene);
 }
 
 /// Whatever the size that was traced.

@@ -9,7 +9,8 @@
 namespace tessera {
 
 /// Makes in the background what some buffers need beside a snapshot, and puts it into the state: the reference
-/// that is wished for, and the first hits of what the panes show, once one of them wants to see any.
+/// that is wished for, and the first hits of what the panes show, once one of them wants to see any. Says so where
+/// the reference knows that it shows something else than the panes.
 class CompanionJobs {
 public:
     /// To be called every frame. `wake` is called from other threads when there is something new.
@@ -26,11 +27,15 @@ private:
     static bool is_of(const View& view, const ViewerState& state);
     void take_first_hits(ViewerState& state);
     void update_reference(ViewerState& state, const std::function<void()>& wake);
+    void check_reference(ViewerState& state, const std::function<void()>& wake);
     void update_first_hits(ViewerState& state, const std::function<void()>& wake);
 
     BackgroundJob<std::shared_ptr<const Reference>> reference_;
+    BackgroundJob<std::string> check_; // of the reference: in what it differs
+    std::weak_ptr<const Reference> checked_reference_;
+    std::weak_ptr<const Scene> checked_scene_;
     BackgroundJob<std::shared_ptr<const FirstHits>> first_hits_;
-    View asked_; // by the last job that was started
+    View asked_; // by the last job of first hits that was started
 };
 
 } // namespace tessera

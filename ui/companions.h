@@ -1,10 +1,12 @@
 #pragma once
 
+#include "render/scene/scene_checksums.h"
 #include "render/session/first_hits.h"
 
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tessera {
@@ -17,7 +19,8 @@ struct Reference {
     /// Two renders that are independent of each other, whose mean is the image: errors against both are free of
     /// the reference's own (recon/metrics.h). Empty: it has none, and how noisy it is is not known.
     std::array<RgbImage, 2> halves{};
-    std::size_t not_finite = 0; ///< pixels that errors cannot be measured at
+    std::size_t not_finite = 0;            ///< pixels that errors cannot be measured at
+    std::optional<SceneChecksums> scene{}; ///< what it shows; empty: its file does not say
 };
 
 /// What some buffers are made of beside a pane's snapshot; null: there is none.

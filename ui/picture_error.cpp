@@ -75,10 +75,12 @@ std::string caveat_of(const Reference& reference) {
     return text;
 }
 
-std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves) {
+std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves,
+                                                std::optional<SceneChecksums> scene) {
     auto reference = std::make_shared<Reference>();
     reference->name = std::move(name);
     reference->image = std::move(image);
+    reference->scene = scene;
     if (!halves[0].empty() && is_like(halves[0], reference->image) && is_like(halves[1], reference->image))
         reference->halves = std::move(halves);
     const Reference& r = *reference;

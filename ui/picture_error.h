@@ -22,6 +22,7 @@ std::optional<PictureError> error_to(const Reference& reference, const RgbImage&
 std::string caveat_of(const Reference& reference);
 
 /// A reference from the layers of a file. `halves` that are not both of the image's size are dropped.
-std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves);
+std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves,
+                                                std::optional<SceneChecksums> scene = {});
 
 } // namespace tessera

@@ -1,5 +1,6 @@
 #include "ui/preferences.h"
 
+#include "render/load/json_text.h"
 #include "render/load/temporary_file.h"
 #include "ui/viewer_state.h"
 
@@ -85,7 +86,7 @@ void write_preferences(const std::filesystem::path& file, const Preferences& p) 
                       {"recent_scenes", p.recent_scenes}};
     if (p.window.position)
         json["position"] = {p.window.position->x, p.window.position->y};
-    write_text(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    write_text(file, to_text(json, 2) + "\n");
 }
 
 } // namespace tessera

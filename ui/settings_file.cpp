@@ -1,6 +1,7 @@
 #include "ui/settings_file.h"
 
 #include "render/load/camera_file.h"
+#include "render/load/json_text.h"
 #include "render/load/messages.h"
 #include "render/method/settings_table.h"
 #include "ui/json_fields.h"
@@ -218,7 +219,7 @@ std::string settings_json(const ViewerState& state) {
     };
     if (state.companions.reference)
         json["reference"] = state.companions.reference->name;
-    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return to_text(json, 2) + "\n";
 }
 
 void apply_settings_json(ViewerState& state, const std::string& text, const std::string& name) {

@@ -80,6 +80,14 @@ private:
 
 } // namespace
 
+std::string to_text(const nlohmann::json& value, int indent) {
+    return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string to_text(const nlohmann::ordered_json& value, int indent) {
+    return value.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 nlohmann::ordered_json JsonText::parse() const {
     if (text_.empty())
         fail_at(0, "the file is empty");

@@ -7,6 +7,11 @@
 
 namespace tessera {
 
+/// As text, on one line, or with `indent` blanks a level. What is not UTF-8, as names of files may be, becomes
+/// U+FFFD: the library's own dump() throws.
+std::string to_text(const nlohmann::json& value, int indent = -1);
+std::string to_text(const nlohmann::ordered_json& value, int indent = -1);
+
 /// A text of JSON, for messages that point into it.
 class JsonText {
 public:

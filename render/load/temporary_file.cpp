@@ -27,22 +27,28 @@ int maker_of(const std::string& file, const std::string& name) {
     return name.size() + static_cast<std::size_t>(used) == file.size() ? process : 0;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 void remove_leftovers(const std::filesystem::path& final_path) {
     std::error_code ignored;
-    const std::filesystem::path folder = final_path.has_parent_path() ? final_path.parent_path() : ".";
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_of(final_path), ignored)) {
         const int process = maker_of(entry.path().filename().string(), final_path.filename().string());
         if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
             std::filesystem::remove(entry.path(), ignored);
     }
 }
 
-/// What the system still holds of a file or folder goes to the disk, if it can be had.
-void write_through(const std::filesystem::path& path) {
-    if (const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); file >= 0) {
-        ::fsync(file);
-        ::close(file);
-    }
+/// What the system still holds of a file or folder goes to the disk. The error, or 0: some file systems cannot do
+/// so, and say EINVAL.
+int write_through(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return errno;
+    const int error = ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
+    ::close(file);
+    return error;
 }
 
 } // namespace
@@ -61,11 +67,17 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::commit() {
-    // On the disk before it takes the old one's place: else a power cut could leave neither.
-    write_through(temporary_);
+    // On the disk before it takes the old one's place: else a power cut could leave neither. A full or broken disk
+    // may say so only now.
+    if (const int error = write_through(temporary_))
+        throw std::filesystem::filesystem_error("cannot be written", final_, {error, std::generic_category()});
     std::filesystem::rename(temporary_, final_);
-    write_through(final_.has_parent_path() ? final_.parent_path() : ".");
+    write_through_folder(folder_of(final_));
     temporary_.clear();
+}
+
+void write_through_folder(const std::filesystem::path& folder) {
+    write_through(folder); // a folder that may not be read cannot be helped
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -81,13 +93,11 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 void check_writable(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path))
         throw std::runtime_error(path.string() + ": is a folder, not a file to write to");
-    // Trying is the only test that holds for root, full disks and odd file systems alike.
-    const std::filesystem::path trial = path.string() + ".part";
-    const bool made = static_cast<bool>(std::ofstream(trial, std::ios::binary));
-    const std::string reason = std::strerror(errno);
-    if (!made)
-        throw std::runtime_error(path.string() + ": cannot be written: " + reason);
-    std::filesystem::remove(trial);
+    // Trying is the only test that holds for root, full disks and odd file systems alike: with the very name that
+    // the file will be written under at first, which is no other run's.
+    const TemporaryFile trial(path);
+    if (!std::ofstream(trial.path(), std::ios::binary))
+        throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 } // namespace tessera

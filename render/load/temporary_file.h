@@ -17,7 +17,8 @@ public:
 
     const std::filesystem::path& path() const { return temporary_; }
 
-    /// Renames the file. Throws std::filesystem::filesystem_error.
+    /// The file is on the disk when it takes its name, and under that name when this returns: whatever is written
+    /// later may rely on it, power cuts included. Throws std::filesystem::filesystem_error.
     void commit();
 
 private:
@@ -28,8 +29,12 @@ private:
 /// Writes such a file and commits it. Throws std::runtime_error that names the file.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// Makes sure that what was last made or renamed in the folder is there after a power cut, where the file system
+/// can.
+void write_through_folder(const std::filesystem::path& folder);
+
 /// Throws std::runtime_error that names the file where none can be made at `path`: better before a render than
-/// after it.
+/// after it. Touches no other file.
 void check_writable(const std::filesystem::path& path);
 
 } // namespace tessera

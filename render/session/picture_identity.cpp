@@ -2,6 +2,7 @@
 
 #include "render/checksum.h"
 #include "render/load/camera_file.h"
+#include "render/load/json_text.h"
 #include "render/session/picture_settings.h"
 #include "render/session/render.h"
 
@@ -25,9 +26,8 @@ std::uint32_t checksum_of(const std::filesystem::path& file) {
     return checksum(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-} // namespace
-
-std::uint32_t scene_checksum(const PictureSubject& subject, const RenderSettings& settings, ThreadPool& pool) {
+std::uint32_t checksum_of_samples(const PictureSubject& subject, const RenderSettings& settings,
+                                  ThreadPool& pool) {
     Render small(subject.scene, subject.camera, {48, 27}, settings);
     for (int i = 0; i < 4; ++i)
         small.pass(pool);
@@ -38,21 +38,23 @@ std::uint32_t scene_checksum(const PictureSubject& subject, const RenderSettings
     return sum;
 }
 
+} // namespace
+
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
                              ThreadPool& pool) {
     nlohmann::json identity = settings_json(subject.source, settings, size, 0, 0);
     for (const char* other : {"spp", "alpha", "variables"})
         identity.erase(other);
     identity["camera"] = nlohmann::json::parse(camera_json(subject.camera));
-    identity["scene"] = scene_checksum(subject, settings, pool);
-    return identity.dump();
+    identity["scene"] = checksum_of_samples(subject, settings, pool);
+    return to_text(identity);
 }
 
 std::string identity_difference(const std::string& theirs, const std::string& mine) {
     const nlohmann::json a = nlohmann::json::parse(theirs), b = nlohmann::json::parse(mine);
     for (const auto& [key, value] : b.items())
         if (key != "scene" && key != "camera" && a.value(key, nlohmann::json()) != value)
-            return fmt::format("{} {}, not {}", key, a.value(key, nlohmann::json()).dump(), value.dump());
+            return fmt::format("{} {}, not {}", key, to_text(a.value(key, nlohmann::json())), to_text(value));
     if (a.size() != b.size())
         return "another version of the program";
     if (a["camera"] != b["camera"])

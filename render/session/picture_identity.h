@@ -19,12 +19,9 @@ struct PictureSubject {
     Camera camera; ///< the scene's, or another
 };
 
-/// Of the scene's file, and of a few samples of a small picture with these settings: so it knows meshes, textures,
-/// camera and the program itself by what they do, wherever the files lie.
-std::uint32_t scene_checksum(const PictureSubject& subject, const RenderSettings& settings, ThreadPool& pool);
-
-/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and the
-/// scene's checksum.
+/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and a
+/// checksum of the scene's file and of a few samples of a small picture: so it knows meshes, textures and the
+/// program itself by what they do, wherever the files lie.
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
                              ThreadPool& pool);
 

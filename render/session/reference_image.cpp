@@ -1,7 +1,7 @@
 #include "render/session/reference_image.h"
 
 #include "render/checksum.h"
-#include "render/load/exr.h"
+#include "render/load/json_text.h"
 
 #include <stdexcept>
 
@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* half_names[] = {"half1", "half2"};
 constexpr const char* reference_attribute = "tessera:reference";
+constexpr const char* scene_attribute = "tessera:scene";
 
 } // namespace
 
@@ -46,7 +47,9 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
     file.attributes = {{"tessera:version", TESSERA_VERSION},
                        {"tessera:settings", reference.settings},
                        {"tessera:camera", reference.camera},
-                       {reference_attribute, about.dump()}};
+                       {reference_attribute, to_text(about)}};
+    if (reference.scene)
+        file.attributes[scene_attribute] = to_string(*reference.scene);
     write_exr(path, file);
 }
 
@@ -68,7 +71,13 @@ ReferenceImage read_reference(const std::filesystem::path& path) {
     }
     reference.settings = file.attributes["tessera:settings"];
     reference.camera = file.attributes["tessera:camera"];
+    reference.scene = scene_of(file);
     return reference;
+}
+
+std::optional<SceneChecksums> scene_of(const ExrFile& file) {
+    const auto found = file.attributes.find(scene_attribute);
+    return found == file.attributes.end() ? std::nullopt : scene_checksums_from(found->second);
 }
 
 } // namespace tessera

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "recon/metrics.h"
+#include "render/load/exr.h"
+#include "render/scene/scene_checksums.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace tessera {
@@ -15,9 +18,10 @@ namespace tessera {
 struct ReferenceImage {
     RgbImage mean;
     std::array<RgbImage, 2> halves;
-    std::array<std::uint64_t, 2> seeds; ///< of the halves: no picture to be measured may have one of them
-    std::string settings;               ///< JSON: how it was made
-    std::string camera = {};            ///< JSON: from where (render/load/camera_file.h)
+    std::array<std::uint64_t, 2> seeds;       ///< of the halves: no picture to be measured may have one of them
+    std::string settings;                     ///< JSON: how it was made
+    std::string camera = {};                  ///< JSON: from where (render/load/camera_file.h)
+    std::optional<SceneChecksums> scene = {}; ///< what it shows; empty: its file does not say
 };
 
 /// Of the mean.
@@ -29,8 +33,8 @@ RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 /// Of the halves' pixels.
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
-/// An EXR file: the mean as plain RGB, the layers half1 and half2, and the mean's error in its header. Throws
-/// std::runtime_error that names the file.
+/// An EXR file: the mean as plain RGB, the layers half1 and half2, and in its header the mean's error and the
+/// scene's checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
 /// Whether the file is one of these. Throws std::runtime_error that names a file that is no EXR.
@@ -38,5 +42,8 @@ bool is_reference(const std::filesystem::path& path);
 
 /// Throws std::runtime_error that names the file if it is none that write_reference wrote.
 ReferenceImage read_reference(const std::filesystem::path& path);
+
+/// What the header of a picture says that it shows; empty: it does not, as those of other programs.
+std::optional<SceneChecksums> scene_of(const ExrFile& file);
 
 } // namespace tessera

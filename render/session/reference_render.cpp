@@ -1,6 +1,7 @@
 #include "render/session/reference_render.h"
 
 #include "render/load/camera_file.h"
+#include "render/load/json_text.h"
 #include "render/session/checkpoint.h"
 #include "render/session/picture_settings.h"
 
@@ -91,9 +92,10 @@ std::vector<std::string> ReferenceRender::warnings() const {
 
 ReferenceImage ReferenceRender::finish() {
     ReferenceImage reference;
-    reference.settings =
-        settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction.alpha).dump();
+    reference.settings = to_text(
+        settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction.alpha));
     reference.camera = camera_json(subject_.camera);
+    reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
     for (std::size_t i = 0; i < 2; ++i) {
         reference.halves[i] = reconstruct(halves_[i].take_images(), recipe_.reconstruction).image;
         reference.seeds[i] = halves_[i].settings().seed;

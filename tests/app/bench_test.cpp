@@ -112,6 +112,38 @@ TEST_F(BenchCommand, GoesOnAfterAKill) {
     EXPECT_TRUE(fs::exists(folder() / "out/images/box-pt.exr"));
 }
 
+TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
+    const std::string bench = "bench box.xml --methods pt --seeds 1" + small_;
+    ASSERT_EQ(run(folder(), bench).exit_code, 0);
+    ASSERT_EQ(run(folder(), "reference box.xml -m pt --spp 4 --size 32x18 --max-depth 8 -o refs/pt.exr").exit_code,
+              0);
+    std::string box = text("box.xml");
+    folder_.write("box.xml", box + "<!-- a remark -->\n");
+    const Outcome same = run(folder(), bench);
+    EXPECT_EQ(same.exit_code, 0) << same.output;
+    EXPECT_THAT(same.output, Not(HasSubstr("refs/"))) << "nothing is to be said";
+
+    const std::string red = "0.60, 0.06, 0.05";
+    folder_.write("box.xml", box.replace(box.find(red), red.size(), "0.60, 0.06, 0.06"));
+    for (const std::string& command :
+         {bench,
+          "sweep box.xml --vary tile=2,3" + small_.substr(0, small_.find(" --halvings")) +
+              " --reference refs --threads 1 -o out",
+          std::string("stability box.xml --size 32x18 --spp 8 --seeds 2 --reference refs --threads 1 -o out")}) {
+        if (command.rfind("stability", 0) == 0) // which takes those of PT alone
+            fs::rename(folder() / "refs/pt.exr", folder() / "refs/box-32x18-d8.exr");
+        const Outcome other = run(folder(), command);
+        EXPECT_EQ(other.exit_code, 2) << other.output;
+        EXPECT_THAT(
+            other.output,
+            HasSubstr("refs/box-32x18-d8.exr shows something else than box.xml does now, in its materials. "
+                      "Without that file"))
+            << command;
+    }
+    fs::remove(folder() / "refs/box-32x18-d8.exr");
+    EXPECT_EQ(run(folder(), bench).exit_code, 0);
+}
+
 TEST_F(BenchCommand, AnErrorBelowItsUncertaintyIsNoNumber) {
     // Halves that lie on both sides of the very picture that is rendered.
     ASSERT_EQ(run(folder(), "render box.xml -m gpr --size 32x18 --max-depth 8 --spp 4 -o box.exr").exit_code, 0);
@@ -123,10 +155,10 @@ TEST_F(BenchCommand, AnErrorBelowItsUncertaintyIsNoNumber) {
     }
     fs::create_directories(folder() / "refs");
     write_reference(folder() / "refs/box-32x18-d8.exr", {picture, {low, high}, {77, 78}, ""});
-    ASSERT_EQ(run(folder(), "bench box.xml --methods gpr --recon l2 --seeds 1 --size 32x18 --spp 4 --halvings 0 "
-                            "--reference refs -o out")
-                  .exit_code,
-              0);
+    const Outcome o = run(folder(), "bench box.xml --methods gpr --recon l2 --seeds 1 --size 32x18 --spp 4 "
+                                    "--halvings 0 --reference refs -o out");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_THAT(o.output, HasSubstr("note: refs/box-32x18-d8.exr does not say which scene it is of"));
     const json row = json::parse(text("out/bench.json"))["results"][0];
     EXPECT_EQ(row["below_uncertainty"], 1);
     EXPECT_EQ(row["relmse_floor_free"], json());

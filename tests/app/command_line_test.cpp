@@ -90,7 +90,21 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         EXPECT_FALSE(fs::exists(folder_ / "out.exr")) << arguments;
     }
     for (const auto& entry : fs::directory_iterator(folder_))
-        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+}
+
+TEST_F(CommandLine, NamesNeedNotBeUtf8) {
+    fs::copy_file(folder_ / "box.xml", folder_ / "sc\xe8ne.xml");
+    const std::string size = " --size 24x16 --max-depth 3 ";
+    for (const std::string& command :
+         {"render sc\xe8ne.xml --spp 1 -o out.exr --stats out.json" + size,
+          "reference sc\xe8ne.xml --spp 2 --checkpoint 0 -o ref.exr" + size,
+          "bench sc\xe8ne.xml --spp 2 --methods pt --seeds 1 --reference refs --reference-spp 2 -o out" + size}) {
+        const Outcome o = run(folder_, command);
+        EXPECT_EQ(o.exit_code, 0) << command << "\n" << o.output;
+    }
+    std::ifstream stats(folder_ / "out.json");
+    EXPECT_EQ(nlohmann::json::parse(stats)["settings"]["scene"], "sc\xef\xbf\xbdne.xml");
 }
 
 TEST_F(CommandLine, WritesAPngWhereTheNameSaysSo) {

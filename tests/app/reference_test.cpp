@@ -88,6 +88,25 @@ TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
     EXPECT_FALSE(fs::exists(checkpoint_));
 }
 
+TEST_F(ReferenceCommand, RemembersItsSceneWhereverThatLies) {
+    const auto scene = [&](const std::string& arguments) {
+        const Outcome o = run(folder(), "reference " + arguments + " --size 24x16 --max-depth 3 --spp 2 -o a.exr");
+        EXPECT_EQ(o.exit_code, 0) << o.output;
+        return read_exr(folder() / "a.exr").attributes["tessera:scene"];
+    };
+    std::ostringstream xml;
+    xml << std::ifstream(box).rdbuf();
+    const std::string known = scene(box + " --threads 1");
+    EXPECT_EQ(known.rfind("geometry ", 0), 0u) << known;
+    folder_.write("elsewhere/mine.xml", xml.str() + "<!-- a remark -->\n");
+    EXPECT_EQ(scene("elsewhere/mine.xml --threads 2 -m pt --seed 7"), known);
+    EXPECT_NE(scene("elsewhere/mine.xml -D alpha=0.13"), known);
+    folder_.write("camera.json", R"({"to_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "fov": 40})");
+    const std::string other = scene("elsewhere/mine.xml --camera camera.json");
+    EXPECT_EQ(other.substr(0, other.find("camera")), known.substr(0, known.find("camera")));
+    EXPECT_NE(other, known);
+}
+
 /// The error known from the halves is the one to a far better reference.
 TEST_F(ReferenceCommand, KnowsItsError) {
     ASSERT_EQ(reference("-m pt --spp 32 -o a.exr").exit_code, 0);

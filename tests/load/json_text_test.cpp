@@ -23,6 +23,12 @@ std::string found(std::string_view path) {
     return value;
 }
 
+TEST(JsonText, WhatIsNotUtf8IsReplaced) {
+    const nlohmann::json value{{"scene", "sc\xe8ne.xml"}};
+    EXPECT_EQ(to_text(value), "{\"scene\":\"sc\xef\xbf\xbdne.xml\"}");
+    EXPECT_EQ(to_text(nlohmann::ordered_json(value), 1), "{\n \"scene\": \"sc\xef\xbf\xbdne.xml\"\n}");
+}
+
 TEST(JsonText, FindsValuesByTheirPaths) {
     EXPECT_EQ(found("a/0"), "1");
     EXPECT_EQ(found("a/1/b"), R"("}]\"")");

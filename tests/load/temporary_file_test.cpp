@@ -34,6 +34,22 @@ TEST(TemporaryFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
     EXPECT_EQ(names, others);
 }
 
+TEST(TemporaryFile, LookingWhetherAFileCanBeWrittenTouchesNoOther) {
+    const TemporaryFolder folder;
+    const std::set<std::string> others = {"a.exr", "a.exr.part", "a.exr.checkpoint", "a.exr.tmp"};
+    for (const std::string& name : others)
+        folder.write(name, "another run's");
+    check_writable(folder.path() / "a.exr");
+    EXPECT_THROW(check_writable(folder.path() / "none/a.exr"), std::runtime_error);
+    EXPECT_THROW(check_writable(folder.path()), std::runtime_error);
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        names.insert(entry.path().filename().string());
+        EXPECT_EQ(entry.file_size(), 13u) << entry.path();
+    }
+    EXPECT_EQ(names, others);
+}
+
 } // namespace
 
 } // namespace tessera::test

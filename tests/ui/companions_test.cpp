@@ -3,6 +3,7 @@
 #include "render/load/exr.h"
 #include "tests/ui/viewer_harness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -118,6 +119,35 @@ TEST_F(CompanionsTest, TheHalvesOfAReferenceAreRead) {
     EXPECT_EQ(reference.halves[0](7, 7), Rgb(0.4f));
     EXPECT_EQ(reference.halves[1](7, 7), Rgb(0.6f));
     EXPECT_EQ(reference.mean, luminance(Rgb(0.5f)));
+}
+
+TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
+    const auto load = [&](const std::string& scene) {
+        const auto before = state().companions.reference;
+        write_exr(file_, {{{"", RgbImage(48, 36, Rgb(0.5f))}}, {{"tessera:scene", scene}}});
+        viewer.drop({file_});
+        wait_until([&] { return state().companions.reference != before; });
+    };
+    const auto said = [&] {
+        return std::count_if(state().messages.begin(), state().messages.end(), [](const Message& m) {
+            return m.text.find("something else than the panes, in its lights") != m.text.npos;
+        });
+    };
+    SceneChecksums sums = checksums_of(state().scene->description(), state().camera.camera());
+    load(to_string(sums));
+    load("nonsense"); // as one that says nothing
+    const auto plain = state().companions.reference;
+    EXPECT_FALSE(plain->scene);
+    ++sums.lights;
+    load(to_string(sums));
+    ASSERT_TRUE(wait_until([&] { return said() == 1; }));
+    EXPECT_NE(state().companions.reference, plain);
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
+    frames(2);
+    save("reference-of-another-scene.png");
+    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    EXPECT_TRUE(wait_until([&] { return said() == 0; })) << "that was of the other scene";
+    EXPECT_TRUE(wait_until([&] { return said() == 1; })) << "and is true of this one as well";
 }
 
 TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {

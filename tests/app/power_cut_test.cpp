@@ -1,0 +1,88 @@
+// What is on the disk when: that what is said to be finished has reached it, and that the disk's word counts.
+#include "app/experiment.h"
+#include "render/load/temporary_file.h"
+#include "tests/load/temporary_folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+
+std::vector<std::string> synced; // names of files and folders, without their folders
+bool disk_is_broken = false;
+
+} // namespace
+
+/// Stands in this program for the system's.
+extern "C" int fsync(int file) {
+    synced.push_back(std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file)).filename());
+    if (disk_is_broken) {
+        errno = EIO;
+        return -1;
+    }
+    return static_cast<int>(::syscall(SYS_fsync, file));
+}
+
+namespace tessera::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the first one that begins so stands in the list, from some place on.
+std::size_t find(const std::string& beginning, std::size_t from) {
+    while (from < synced.size() && synced[from].rfind(beginning, 0) != 0)
+        ++from;
+    return from;
+}
+
+TEST(PowerCut, NoLineOfTheJournalIsOfAPictureThatIsNotThere) {
+    const TemporaryFolder folder;
+    ExperimentOptions options;
+    options.scenes = {fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml"};
+    options.settings.size = options.recipe.size = {16, 9};
+    options.settings.threads = 1;
+    options.effort = {1, Effort::Unit::spp};
+    options.recipe.spp = 2;
+    options.references = folder.path() / "refs";
+    options.output = folder.path() / "out";
+    options.keeps_images = true;
+    Experiment experiment(options);
+    synced.clear();
+    experiment.run([] {});
+    const std::size_t picture = find("cornell-box-gpr-weighted.exr.", 0), name = find("images", picture),
+                      line = find("journal.jsonl", 0);
+    EXPECT_LT(picture, name);
+    EXPECT_LT(name, line) << "the picture, its name, and only then what refers to it";
+    EXPECT_LT(line, synced.size());
+}
+
+TEST(PowerCut, ANewJournalIsInItsFolder) {
+    const TemporaryFolder folder;
+    synced.clear();
+    const Journal journal(folder.path() / "journal.jsonl");
+    EXPECT_LT(find(folder.path().filename(), 0), synced.size());
+}
+
+TEST(PowerCut, WhatDoesNotReachTheDiskIsNotWritten) {
+    const TemporaryFolder folder;
+    folder.write("a.txt", "before");
+    disk_is_broken = true;
+    EXPECT_THROW(write_text(folder.path() / "a.txt", "after"), std::runtime_error);
+    disk_is_broken = false;
+    std::ifstream in(folder.path() / "a.txt");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "before");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+} // namespace
+
+} // namespace tessera::test
