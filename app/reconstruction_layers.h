@@ -15,13 +15,13 @@ inline constexpr const char* patch_attribute = "tessera:patch";
 
 /// The layers of a picture file that are made from gradients.
 struct ReconstructionLayers {
-    std::vector<Norm> norms; ///< not empty; the first is the file's plain RGB
+    std::vector<Norm> norms; ///< the first is the file's plain RGB; empty: none is made
     float alpha = 0.2f;
     bool per_channel = false; ///< l1 and mixed: each channel is on its own
     bool buffers = false;     ///< primal, dx, dy, direct and variances, too
 };
 
-/// What one reconstruction cost: wall and CPU seconds.
+/// What one reconstruction cost: wall and CPU seconds, not a number where they are not known.
 struct ReconstructionStats {
     Norm norm;
     double seconds, cpu_seconds;

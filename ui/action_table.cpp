@@ -44,8 +44,8 @@ constexpr Action table[] = {
      "the current folder.",
      ctrl_shift(Key::s), no_shortcut, [](State& s) { s.save_view = true; }, nullptr},
     {"File", "Save as EXR",
-     "Writes the active pane's picture with all its buffers, camera and settings to an EXR file in the current "
-     "folder.",
+     "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
+     "settings to an EXR file in the current folder.",
      ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
     {"File", "Save settings", "Writes panes, camera, size and display to a JSON file in the current folder.",
      ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},

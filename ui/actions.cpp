@@ -47,7 +47,10 @@ bool counts_in_text(const Shortcut& typed) {
 
 void close_overlays(ViewerState& state) {
     const bool any = state.show_help || state.large_charts || state.reference_making.show || state.choosing;
-    state.cancel_load = state.cancel_load || (!any && !state.loading.empty());
+    // What is on its way goes one after the other, the scene first.
+    const bool loads = !state.loading.empty();
+    state.cancel_load = state.cancel_load || (!any && loads);
+    state.cancel_reference = state.cancel_reference || (!any && !loads && state.reference_read);
     state.show_help = false;
     state.large_charts = false;
     state.reference_making.show = false;

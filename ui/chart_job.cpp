@@ -29,9 +29,11 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
 } // namespace
 
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (auto outcome = job_.poll(); outcome && outcome->result)
+    if (auto outcome = job_.poll(); outcome && outcome->result) {
         for (Measured& measured : *outcome->result)
             take(state, measured);
+        state.redraw = true;
+    }
     for (std::size_t slot = 0; slot < state.charts.size(); ++slot) {
         if (pane_of(state, slot))
             continue;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -15,8 +16,11 @@ namespace tessera {
 
 namespace {
 
-std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file) {
-    const ExrFile exr = read_exr(file);
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds between_news(100);
+
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
+    const ExrFile exr = read_exr(file, watch);
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < halves.size(); ++i)
         if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))
@@ -40,15 +44,33 @@ void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake
     update_first_hits(state, wake);
 }
 
+void CompanionJobs::start_reference(std::string file, const std::function<void()>& wake) {
+    reference_file_ = std::move(file);
+    share_read_ = std::make_shared<std::atomic<float>>(0.0f);
+    reference_.start(
+        [file = reference_file_, share = share_read_, wake](std::stop_token stop) {
+            work_in_background();
+            return load_reference(file, [&, told = Clock::now()](float now) mutable {
+                *share = now;
+                if (wake && Clock::now() - told > between_news) {
+                    told = Clock::now();
+                    wake();
+                }
+                return !stop.stop_requested();
+            });
+        },
+        wake);
+}
+
 void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
-    if (const std::string file = std::exchange(state.reference_file, {}); !file.empty())
-        reference_.start(
-            [file](std::stop_token) {
-                work_in_background();
-                return load_reference(file);
-            },
-            wake);
+    if (std::exchange(state.cancel_reference, false) && reference_.running()) {
+        reference_.cancel();
+        state.add_message(Message::Kind::note, "Reading " + reference_file_ + " was given up.");
+    }
+    if (std::string file = std::exchange(state.reference_file, {}); !file.empty())
+        start_reference(std::move(file), wake);
     const auto outcome = reference_.poll();
+    state.reference_read = reference_.running() ? std::optional(share_read_->load()) : std::nullopt;
     if (!outcome)
         return;
     if (!outcome->result) {
@@ -91,13 +113,16 @@ void CompanionJobs::take_first_hits(ViewerState& state) {
     const bool is_of_scene = asked_.scene.lock() == state.scene;
     if (!is_of_scene)
         state.companions.first_hits = nullptr; // of a camera moved on it may stay for the moment
-    const auto outcome = first_hits_.poll();
-    if (!outcome)
-        return;
-    if (!outcome->result)
-        state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
-    else if (is_of_scene)
-        state.companions.first_hits = *outcome->result;
+    if (const auto outcome = first_hits_.poll()) {
+        if (!outcome->result)
+            state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
+        else if (is_of_scene) {
+            state.companions.first_hits = *outcome->result;
+            hit_ = asked_;
+            state.redraw = true;
+        }
+    }
+    state.companions.first_hits_are_earlier = state.companions.first_hits && !is_of(hit_, state);
 }
 
 /// A look at a fraction of the size first, which is not given up when the camera moves on: a picture somewhat late

@@ -3,7 +3,9 @@
 #include "ui/background_job.h"
 #include "ui/viewer_state.h"
 
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace tessera {
@@ -26,16 +28,20 @@ private:
     };
     static bool is_of(const View& view, const ViewerState& state);
     void take_first_hits(ViewerState& state);
+    void start_reference(std::string file, const std::function<void()>& wake);
     void update_reference(ViewerState& state, const std::function<void()>& wake);
     void check_reference(ViewerState& state, const std::function<void()>& wake);
     void update_first_hits(ViewerState& state, const std::function<void()>& wake);
 
+    std::string reference_file_;                     // that is read, ...
+    std::shared_ptr<std::atomic<float>> share_read_; // ... and how far, told by the job
     BackgroundJob<std::shared_ptr<const Reference>> reference_;
     BackgroundJob<std::string> check_; // of the reference: in what it differs
     std::weak_ptr<const Reference> checked_reference_;
     std::weak_ptr<const Scene> checked_scene_;
     BackgroundJob<std::shared_ptr<const FirstHits>> first_hits_;
     View asked_; // by the last job of first hits that was started
+    View hit_;   // what the first hits of the state are of
 };
 
 } // namespace tessera

@@ -26,7 +26,8 @@ struct Reference {
 /// What some buffers are made of beside a pane's snapshot; null: there is none.
 struct Companions {
     std::shared_ptr<const Reference> reference;
-    std::shared_ptr<const FirstHits> first_hits; ///< of the camera and size that the panes show
+    std::shared_ptr<const FirstHits> first_hits; ///< of the camera and size that the panes show, ...
+    bool first_hits_are_earlier = false;         ///< ... or showed before: newer ones are on their way
 };
 
 } // namespace tessera

@@ -18,6 +18,7 @@ void InspectionJob::take(ViewerState& state) {
     inspector.generation = asked_.generation;
     inspector.origin = origin_;
     inspector.inspection = found.value_or(nullptr);
+    state.redraw = true;
     if (!found)
         state.add_message(Message::Kind::error, outcome->error);
 }

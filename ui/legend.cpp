@@ -66,7 +66,9 @@ ScreenRect draw_legend(const ScreenRect& picture, const std::string& id, const L
                        Controls& controls) {
     const float font = ImGui::GetFontSize(), pad = std::floor(font * 0.5f), bar = std::floor(font * 0.5f);
     const ImVec2 text_size = ImGui::CalcTextSize(legend.text.c_str());
-    const glm::vec2 size(std::max(text_size.x, font * 10) + 2 * pad, text_size.y + bar + 2.5f * pad);
+    const bool has_bar = !legend.colours.empty();
+    const glm::vec2 size(std::max(text_size.x, has_bar ? font * 10 : 0) + 2 * pad,
+                         text_size.y + 2 * pad + (has_bar ? bar + 0.5f * pad : 0));
     if (size.x + 2 * pad > picture.size().x || size.y + 2 * pad > picture.size().y)
         return {};
     const float left = at_right ? picture.max.x - pad - size.x : picture.min.x + pad;
@@ -76,14 +78,15 @@ ScreenRect draw_legend(const ScreenRect& picture, const std::string& id, const L
     list.AddRectFilled({min.x, min.y}, {max.x, max.y}, colours::overlay, pad * 0.5f);
     list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, legend.text.c_str());
     const ScreenRect colours_at{{min.x + pad, max.y - pad - bar}, {max.x - pad, max.y - pad}};
-    draw_colours(list, colours_at.min, colours_at.max, legend.colours);
+    if (has_bar)
+        draw_colours(list, colours_at.min, colours_at.max, legend.colours);
 
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({min.x, min.y});
     ImGui::Dummy({size.x, size.y});
     controls.note(id.c_str(), legend.help.c_str());
     ImGui::SetCursorScreenPos(cursor);
-    return colours_at;
+    return has_bar ? colours_at : ScreenRect{};
 }
 
 } // namespace tessera

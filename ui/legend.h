@@ -13,7 +13,7 @@ namespace tessera {
 struct Legend {
     std::string text;
     std::string help;
-    std::vector<glm::vec3> colours;
+    std::vector<glm::vec3> colours; ///< empty: there is no bar
 };
 
 /// Of a buffer's false colours. Its bar is for dragging.

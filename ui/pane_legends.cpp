@@ -26,6 +26,31 @@ Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
     return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1, state.tone.exposure);
 }
 
+/// First hits of where the camera was are shown until there are others.
+bool is_of_earlier_view(const Showing& showing, const ViewerState& state) {
+    const auto has_first_hits = [&](int pane) {
+        return pane >= 0 && family(buffer_of(pane, state)) == BufferFamily::first_hit;
+    };
+    return state.companions.first_hits_are_earlier &&
+           (has_first_hits(showing.pane) || has_first_hits(showing.subtrahend));
+}
+
+/// Without text: the picture needs none.
+Legend legend_of(const Showing& showing, const PaneTools& tools) {
+    const Buffer buffer = buffer_of(showing.pane, tools.state);
+    Legend legend;
+    if (colour_map(showing, tools.state) == ColourMap::false_colour)
+        legend = false_colour_legend(buffer, range_of(buffer, tools.state, tools.images));
+    else if (colour_map(showing, tools.state) == ColourMap::signed_difference)
+        legend = signed_legend_of(showing, tools.state);
+    if (is_of_earlier_view(showing, tools.state)) {
+        legend.text = (legend.text.empty() ? std::string(info(buffer).id) : legend.text) + "  of an earlier view";
+        legend.help += std::string(legend.help.empty() ? "" : "\n\n") +
+                       "The camera or the size has changed since; what it sees now is being traced.";
+    }
+    return legend;
+}
+
 } // namespace
 
 ValueRange HeldRange::at(float x) const {
@@ -52,21 +77,15 @@ void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pan
 
 PaneLegends::Drawn PaneLegends::draw_one(const ScreenRect& rect, const std::string& id, const Showing& showing,
                                          bool at_right, PaneTools& tools) {
-    const ViewerState& state = tools.state;
-    const Buffer buffer = buffer_of(showing.pane, state);
     if (!has_picture(showing, tools))
         return {};
-    switch (colour_map(showing, state)) {
-    case ColourMap::false_colour:
-        return {draw_legend(rect, id, false_colour_legend(buffer, range_of(buffer, state, tools.images)), at_right,
-                            tools.controls),
-                buffer};
-    case ColourMap::signed_difference:
-        draw_legend(rect, id, signed_legend_of(showing, state), at_right, tools.controls);
+    const Legend legend = legend_of(showing, tools);
+    if (legend.text.empty())
         return {};
-    default:
-        return {};
-    }
+    const ScreenRect bar = draw_legend(rect, id, legend, at_right, tools.controls);
+    if (colour_map(showing, tools.state) != ColourMap::false_colour)
+        return {}; // only the range of these can be dragged
+    return {bar, buffer_of(showing.pane, tools.state)};
 }
 
 std::optional<HeldRange> PaneLegends::held_at(glm::vec2 point, const PaneTools& tools) const {

@@ -22,7 +22,7 @@ struct HeldRange {
 };
 
 /// The legends over a pane's picture: of what is shown on each side of its line that is on the screen, in that
-/// side's corner. Two sides with the same colours have one.
+/// side's corner. Two sides with the same colours have one. Pictures of an earlier view are marked here, too.
 class PaneLegends {
 public:
     /// `id` of the pane. To be called after the item that the picture is.

@@ -41,6 +41,15 @@ std::string minutes(double seconds) {
     return text;
 }
 
+/// "reconstruction of pass 11, 14 steps in 0.021 s".
+std::string reconstruction_text(const Snapshot& snapshot) {
+    const Reconstruction& made = *snapshot.reconstruction;
+    char text[96];
+    std::snprintf(text, sizeof text, "reconstruction of pass %d, %d step%s in %.2g s", snapshot.reconstruction_spp,
+                  made.iterations, made.iterations == 1 ? "" : "s", made.seconds);
+    return text;
+}
+
 } // namespace
 
 std::string status_text(const ViewerState& state, int index) {
@@ -70,7 +79,7 @@ std::string status_text(const ViewerState& state, int index) {
     if (snapshot.coarse)
         line += "   first look";
     else if (snapshot.reconstruction && has_gradients(snapshot.settings.method))
-        line += "   reconstruction of pass " + std::to_string(snapshot.reconstruction_spp);
+        line += "   " + reconstruction_text(snapshot);
     if (snapshot.counters.refused_samples > 0)
         line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
     return line;
@@ -162,7 +171,8 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
     ImGui::Dummy({room, height});
     const std::string help = // a narrow pane cuts the line off
         status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
-                 "second; the pass that the picture on show is reconstructed from.";
+                 "second; the pass that the picture on show is reconstructed from, the steps of its solver and "
+                 "their wall seconds.";
     controls.note((id + ".status").c_str(), help.c_str());
     if (cursor.empty())
         return;

@@ -60,18 +60,28 @@ std::string shortened(const std::string& name, float width) {
     return "..." + name.substr(cut);
 }
 
-/// How far the reference is that is being made.
-void draw_making(Controls& controls, ViewerState& state) {
-    const auto& progress = state.reference_making.progress;
-    if (!progress)
-        return;
-    char text[48];
-    std::snprintf(text, sizeof text, "Reference %.0f %%##making", 100 * progress->share());
+/// An item of the menu bar, about something under way. True: it was clicked.
+bool progress_item(const char* id, const char* what, float share, const char* help, Controls& controls) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %.0f %%###%s", what, static_cast<double>(100 * share), id);
     ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
-    if (ImGui::MenuItem(text))
-        state.reference_making.show = !state.reference_making.show;
+    const bool clicked = ImGui::MenuItem(text);
     ImGui::PopStyleColor();
-    controls.note("making", "A reference is being made: shows or hides how far it is.");
+    controls.note(id, help);
+    return clicked;
+}
+
+/// How far the reference is that is being read, and the one that is being made.
+void draw_references_under_way(Controls& controls, ViewerState& state) {
+    if (state.reference_read && progress_item("reading", "Reading reference", *state.reference_read,
+                                              "A reference is being read. A click gives it up (Esc): what errors "
+                                              "are measured against stays.",
+                                              controls))
+        state.cancel_reference = true;
+    const auto& making = state.reference_making.progress;
+    if (making && progress_item("making", "Reference", static_cast<float>(making->share()),
+                                "A reference is being made: shows or hides how far it is.", controls))
+        state.reference_making.show = !state.reference_making.show;
 }
 
 // At the right end of the menu bar: the scene, and whether there is something to read.
@@ -177,7 +187,7 @@ float draw_menu_bar(Controls& controls, ViewerState& state) {
             draw_menu(controls, action.menu, state);
         previous = action.menu;
     }
-    draw_making(controls, state);
+    draw_references_under_way(controls, state);
     draw_menu_bar_end(controls, state);
     const float height = ImGui::GetWindowHeight();
     ImGui::EndMainMenuBar();

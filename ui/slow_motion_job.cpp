@@ -11,7 +11,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     if (const auto outcome = job_.poll()) {
         if (outcome->result) {
             slow.take(*outcome->result, asked_.sample.pane, asked_.generation);
-            state.space.fits = true;
+            state.space.fits = state.redraw = true;
         } else {
             state.add_message(Message::Kind::error, outcome->error);
         }

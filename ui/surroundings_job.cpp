@@ -60,6 +60,7 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
         const bool first = state.space.surroundings == nullptr;
         state.space.surroundings = *outcome->result;
         state.space.fits = state.space.fits || first;
+        state.redraw = true;
     }
     if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
         return;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr float most_panel_share = 0.5f; // of the window's width
+constexpr int frames_until_still = 3;    // Dear ImGui fits tables a frame or two later
 constexpr float longest_step = 0.1f;     // seconds that a held key moves in one frame at the most
 
 /// Panes beside each other; from three on in two rows.
@@ -109,6 +110,7 @@ void Viewer::read_keyboard() {
 // --- drawing ---
 
 void Viewer::draw_frame() {
+    frames_due_ = std::exchange(state_.redraw, false) ? frames_until_still - 1 : std::max(frames_due_ - 1, 0);
     take_scene();
     link_.take(state_);
     controls_.begin_frame(ImGui::GetTime());
@@ -210,7 +212,7 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
 }
 
 double Viewer::next_frame_in() const {
-    if (flying_ || state_.slow_motion.is_playing())
+    if (flying_ || state_.slow_motion.is_playing() || state_.redraw || frames_due_ > 0)
         return 0;
     if (load_.running() || controls_.tooltip_pending())
         return 0.1;

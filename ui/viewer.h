@@ -29,7 +29,9 @@ namespace tessera {
 struct SavedPicture {
     std::shared_ptr<const Snapshot> snapshot;
     ReconstructionSettings reconstruction;
-    std::filesystem::path scene_file; ///< empty: it is in none
+    std::filesystem::path scene_file;           ///< empty: it is in none
+    std::shared_ptr<const Scene> scene;         ///< for first hits; null: it is no more
+    std::shared_ptr<const Reference> reference; ///< for errors; null: there is none
 };
 
 /// Writes a picture with its layers, camera and settings to an EXR file; called from a thread other than the UI's.
@@ -134,6 +136,7 @@ private:
     SceneOrigin shown_; // where the scene on show is from
     SceneOrigin asked_; // the last that was to be loaded
     bool flying_ = false;
+    int frames_due_ = 0; // after this one, although nothing happens
     ChangeLog change_log_;
     ReferenceJob reference_job_; // last: its end waits for a pass
 };

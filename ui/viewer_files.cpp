@@ -125,7 +125,8 @@ void Viewer::save_exr() {
         return state_.add_message(Message::Kind::error, no_picture_yet);
     save([write = options_.write_exr,
           file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
-          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.file}] {
+          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.file,
+                                 pane.snapshot->scene.lock(), state_.companions.reference}] {
         write(file, picture);
         return file.string();
     });

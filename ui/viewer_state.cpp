@@ -96,6 +96,7 @@ void ViewerState::add_message(Message::Kind kind, std::string text, Message::Ori
     if (messages.size() >= most_messages)
         messages.erase(messages.begin());
     messages.push_back({kind, std::move(text), origin, {}});
+    redraw = true;
     if (kind == Message::Kind::error)
         show_messages = scroll_to_newest = true;
 }

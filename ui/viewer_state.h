@@ -117,6 +117,7 @@ struct ViewerState {
     Companions companions;                  ///< what some buffers need
     std::vector<std::string> recent_scenes; ///< files, the newest first
     std::string reference_file;             ///< a wish: to be loaded as the reference
+    std::optional<float> reference_read;    ///< the share of it that is read so far, [0, 1]; empty: none is read
     ReferenceMaking reference_making;
 
     std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
@@ -162,12 +163,14 @@ struct ViewerState {
     std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
     std::vector<Message> messages;
     bool scroll_to_newest = false; ///< the list is to show its end
+    bool redraw = false;           ///< something has come since this was drawn, and is to be seen
 
     // Wishes, cleared by who fulfils them.
     bool restart = false;
     int steps = 0; ///< passes to do though paused
     bool reload = false;
-    bool cancel_load = false; ///< the scene that is being loaded is wanted no more
+    bool cancel_load = false;      ///< the scene that is being loaded is wanted no more
+    bool cancel_reference = false; ///< the reference that is being read is wanted no more
     bool save_camera = false;
     bool copy_camera = false;
     bool save_picture = false; ///< of the window

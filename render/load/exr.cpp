@@ -20,6 +20,8 @@ namespace tessera {
 
 namespace {
 
+constexpr int rows_at_once = 64; // of what is read: OpenEXR itself can neither be watched nor stopped
+
 constexpr const char* channel_names[] = {"R", "G", "B"};
 
 /// "" and "R": "R"; "primal" and "R": "primal.R".
@@ -94,7 +96,17 @@ Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 
-ExrFile read_layers(const std::filesystem::path& path) {
+void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch) {
+    const auto row = [&](std::int64_t n) { return static_cast<int>(std::min<std::int64_t>(first + n, last)); };
+    const std::int64_t count = std::int64_t{last} - first + 1;
+    for (std::int64_t done = 0; done < count; done += rows_at_once) {
+        if (watch && !watch(static_cast<float>(done) / static_cast<float>(count)))
+            throw std::runtime_error("it is wanted no more");
+        part.readPixels(row(done), row(done + rows_at_once - 1));
+    }
+}
+
+ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
     Imf::MultiPartInputFile input(path.c_str());
     Imf::InputPart part(input, 0);
     const Imf::Header& header = part.header();
@@ -113,7 +125,7 @@ ExrFile read_layers(const std::filesystem::path& path) {
                           slice(layer.image, i, window.min.x, window.min.y));
     }
     part.setFrameBuffer(buffer);
-    part.readPixels(window.min.y, window.max.y);
+    read_rows(part, window.min.y, window.max.y, watch);
     for (ExrLayer& layer : file.layers)
         if (layer.name.empty() && !header.channels().findChannel("R"))
             for (Rgb& pixel : layer.image)
@@ -151,9 +163,9 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file) {
     }
 }
 
-ExrFile read_exr(const std::filesystem::path& path) {
+ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch) {
     try {
-        return read_layers(path);
+        return read_layers(path, watch);
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
     }

@@ -3,6 +3,7 @@
 #include "recon/image.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,8 +32,12 @@ const RgbImage& require_layer(const ExrFile& file, const std::string& name, cons
 /// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
 void write_exr(const std::filesystem::path& path, const ExrFile& file);
 
+/// Is told now and then which share of a file is read, [0, 1]; false: it is wanted no more.
+using ReadWatch = std::function<bool(float share)>;
+
 /// Reads every layer with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part),
-/// and the header's string attributes. Throws std::runtime_error that names the file.
-ExrFile read_exr(const std::filesystem::path& path);
+/// and the header's string attributes. Throws std::runtime_error that names the file, also where `watch`, which
+/// may be empty, wants it no more.
+ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {});
 
 } // namespace tessera

@@ -25,6 +25,7 @@ public:
     double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
+    const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Camera& camera() const { return camera_; }
     GradientImages images() const { return with_patch(film_.means(spp_)); }
     /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and

@@ -17,6 +17,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->seconds = render.seconds();
     snapshot->cpu_seconds = render.cpu_seconds();
     snapshot->settings = render.settings();
+    snapshot->scene = render.scene();
     snapshot->camera = render.camera();
     snapshot->plan = std::make_shared<ReusePlan>(render.newest_plan());
     snapshot->counters = render.counters();

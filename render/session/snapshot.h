@@ -13,6 +13,8 @@
 
 namespace tessera {
 
+class Scene;
+
 /// What a pane shows: the state of a render after a whole number of passes. Immutable once published.
 struct Snapshot {
     std::uint64_t generation = 0; ///< of the request that it answers
@@ -21,6 +23,7 @@ struct Snapshot {
     double seconds = 0;           ///< wall time spent on this pane's passes
     double cpu_seconds = 0;       ///< CPU time of all workers for these passes
     RenderSettings settings;
+    std::weak_ptr<const Scene> scene; ///< gone once no other has a use for it: a picture keeps none alive
     Camera camera;
     std::shared_ptr<const ReusePlan> plan; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
     Counters counters;

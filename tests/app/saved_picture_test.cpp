@@ -1,7 +1,11 @@
 #include "app/saved_picture.h"
 #include "render/load/exr.h"
+#include "render/session/first_hits.h"
+#include "tests/support/scene_builder.h"
+#include "ui/error_map.h"
 
 #include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,36 +14,117 @@
 namespace tessera {
 namespace {
 
-TEST(SavedPicture, ItsHeaderTellsHowItWasMade) {
-    auto images = std::make_shared<GradientImages>();
-    images->primal = RgbImage(16, 12, Rgb(0.5f));
-    images->dx = images->dy = RgbImage(16, 12, Rgb(0));
-    auto snapshot = std::make_shared<Snapshot>();
-    snapshot->settings.method = Method::gpt;
-    snapshot->spp = 7;
+using nlohmann::json;
+
+struct SavedPictureTest : testing::Test {
+    SavedPictureTest() {
+        auto images = std::make_shared<GradientImages>();
+        images->primal = RgbImage(16, 12, Rgb(0.5f));
+        images->dx = images->dy = RgbImage(16, 12, Rgb(0));
+        snapshot->settings.method = Method::gpt;
+        snapshot->spp = 7;
+        snapshot->images = images;
+    }
+    ExrFile saved(const SavedPicture& picture) const {
+        const auto file =
+            std::filesystem::temp_directory_path() / ("tessera-saved-" + std::to_string(::getpid()) + ".exr");
+        write_saved_picture(file, picture);
+        ExrFile exr = read_exr(file);
+        std::filesystem::remove(file);
+        return exr;
+    }
+    /// That of the snapshot: one that no solver would come to.
+    void reconstruct(int spp) {
+        snapshot->reconstruction = std::make_shared<Reconstruction>(Reconstruction{marked, 0.25, 42, 1.5});
+        snapshot->reconstruction_spp = spp;
+        snapshot->reconstructed_with = settings;
+    }
+    RgbImage plain(const SavedPicture& picture) const { return *find_layer(saved(picture), ""); }
+
+    std::shared_ptr<Snapshot> snapshot = std::make_shared<Snapshot>();
+    ReconstructionSettings settings;
+    const RgbImage marked{16, 12, Rgb(0.125f, 0.25f, 3)};
+};
+
+TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     snapshot->seconds = 3.5;
     snapshot->cpu_seconds = 9.25;
     snapshot->counters.camera_paths = 1344;
-    snapshot->images = images;
-    ReconstructionSettings reconstruction;
-    reconstruction.norm = Norm::l1;
-    reconstruction.joint_colour = false;
-    const auto file =
-        std::filesystem::temp_directory_path() / ("tessera-saved-" + std::to_string(::getpid()) + ".exr");
-    write_saved_picture(file, {snapshot, reconstruction, "room.xml"});
-    const ExrFile exr = read_exr(file);
-    std::filesystem::remove(file);
+    settings.norm = Norm::l1;
+    settings.joint_colour = false;
+    const ExrFile exr = saved({snapshot, settings, "room.xml", nullptr, nullptr});
 
-    const auto settings = nlohmann::json::parse(exr.attributes.at("tessera:settings"));
-    EXPECT_EQ(settings.at("norm"), "l1");
-    EXPECT_EQ(settings.at("joint_colour"), false);
-    const auto stats = nlohmann::json::parse(exr.attributes.at("tessera:stats"));
+    const auto about = json::parse(exr.attributes.at("tessera:settings"));
+    EXPECT_EQ(about.at("norm"), "l1");
+    EXPECT_EQ(about.at("joint_colour"), false);
+    const auto stats = json::parse(exr.attributes.at("tessera:stats"));
     EXPECT_EQ(stats.at("seconds").at("render").at("wall"), 3.5);
     EXPECT_EQ(stats.at("seconds").at("render").at("cpu"), 9.25);
     EXPECT_EQ(stats.at("spp"), 7);
     EXPECT_EQ(stats.at("camera_paths"), 1344);
     EXPECT_EQ(exr.attributes.count("tessera:camera"), 1u);
     EXPECT_NE(find_layer(exr, "dx"), nullptr);
+    EXPECT_EQ(find_layer(exr, "albedo"), nullptr); // of what scene?
+    EXPECT_EQ(find_layer(exr, "error_relMSE"), nullptr);
+}
+
+TEST_F(SavedPictureTest, TheReconstructionIsTheOneOnShow) {
+    reconstruct(7);
+    const ExrFile exr = saved({snapshot, settings, {}, nullptr, nullptr});
+    EXPECT_EQ((*find_layer(exr, ""))(3, 4), marked(3, 4));
+    const auto stats = json::parse(exr.attributes.at("tessera:stats")).at("seconds").at("reconstruct").at(0);
+    EXPECT_EQ(stats.at("iterations"), 42);
+    EXPECT_EQ(stats.at("wall"), 1.5);
+    EXPECT_TRUE(stats.at("cpu").is_null());
+    EXPECT_EQ(stats.at("norm"), "weighted");
+    EXPECT_NE(find_layer(exr, "primal"), nullptr);
+}
+
+TEST_F(SavedPictureTest, TheReconstructionIsMadeWhereTheOneOnShowIsAnother) {
+    reconstruct(6); // of an earlier pass
+    EXPECT_NEAR(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4).b, 0.5f, 1e-3f);
+    reconstruct(7);
+    settings.alpha = 0.1f; // since
+    EXPECT_NEAR(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4).b, 0.5f, 1e-3f);
+    reconstruct(7);
+    snapshot->settings.method = Method::pt; // which has none
+    EXPECT_EQ(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4), Rgb(0.5f));
+}
+
+TEST_F(SavedPictureTest, HasWhatTheCameraSeesFirst) {
+    test::SceneBuilder room;
+    const int red = room.diffuse({0.6f, 0.1f, 0.1f});
+    room.room({red, red, red, red, red});
+    room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
+    const std::shared_ptr<const Scene> scene = room.build();
+    snapshot->camera = scene->camera();
+    const ExrFile exr = saved({snapshot, settings, {}, scene, nullptr});
+    const FirstHits hits = trace_first_hits(*scene, scene->camera(), {16, 12});
+    EXPECT_NEAR((*find_layer(exr, "albedo"))(8, 6).r, 0.6f, 0.02f);
+    EXPECT_EQ((*find_layer(exr, "normal"))(8, 6), hits.normal(8, 6));
+    EXPECT_EQ((*find_layer(exr, "depth"))(8, 6), Rgb(hits.depth(8, 6)));
+    EXPECT_GT(hits.depth(8, 6), 0);
+}
+
+TEST_F(SavedPictureTest, HasTheErrorsOfThePictureSaved) {
+    reconstruct(7);
+    auto reference = std::make_shared<Reference>();
+    reference->name = "truth.exr";
+    reference->image = RgbImage(16, 12, Rgb(1));
+    const ExrFile exr = saved({snapshot, settings, {}, nullptr, reference});
+    const std::pair<const char*, ErrorKind> layers[] = {{"error_relMSE", ErrorKind::relative_squared},
+                                                        {"error_squared", ErrorKind::squared},
+                                                        {"error_absolute", ErrorKind::absolute},
+                                                        {"error_relative", ErrorKind::relative}};
+    for (const auto& [name, kind] : layers) {
+        ASSERT_NE(find_layer(exr, name), nullptr) << name;
+        EXPECT_EQ((*find_layer(exr, name))(3, 4).r, pixel_error(kind, marked(3, 4), Rgb(1))) << name;
+    }
+    EXPECT_EQ(exr.attributes.at("tessera:errors_to"), "truth.exr");
+    reference->image = RgbImage(8, 6, Rgb(1)); // another size
+    const ExrFile without = saved({snapshot, settings, {}, nullptr, reference});
+    EXPECT_EQ(find_layer(without, "error_relMSE"), nullptr);
+    EXPECT_EQ(without.attributes.count("tessera:errors_to"), 0u);
 }
 
 } // namespace

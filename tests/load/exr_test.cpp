@@ -70,6 +70,24 @@ TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {
     EXPECT_EQ(files_in_folder(), 1u);
 }
 
+TEST_F(ImageOutput, ReadingIsWatchedAndGivenUp) {
+    const RgbImage image = test::random_image(5, 300, 1);
+    write_exr(file("a.exr"), {{{"", image}}, {}});
+    std::vector<float> shares;
+    const auto watch = [&](float share) {
+        shares.push_back(share);
+        return true;
+    };
+    EXPECT_TRUE(same_bits(read_exr(file("a.exr"), watch).layers.front().image, image));
+    EXPECT_GE(shares.size(), 3u);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_LT(shares.back(), 1);
+    const auto stop = [&](float share) { return share == 0; };
+    EXPECT_NE(message_of([&] { read_exr(file("a.exr"), stop); }).find("a.exr: it is wanted no more"),
+              std::string::npos);
+}
+
 TEST_F(ImageOutput, OnePixelIsAnImage) {
     write_exr(file("a.exr"), {{{"", RgbImage(1, 1, Rgb(1, 2, 3))}}, {}});
     EXPECT_EQ(read_exr(file("a.exr")).layers.front().image(0, 0), Rgb(1, 2, 3));

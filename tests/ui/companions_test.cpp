@@ -150,6 +150,38 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
     EXPECT_TRUE(wait_until([&] { return said() == 1; })) << "and is true of this one as well";
 }
 
+TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
+    drop_reference({48, 36}, 0.5f);
+    const auto before = state().companions.reference;
+    const auto expect_given_up = [&] {
+        EXPECT_FALSE(state().reference_read);
+        EXPECT_NE(state().messages.back().text.find("was given up"), std::string::npos);
+        frames(20);
+        EXPECT_EQ(state().companions.reference, before);
+        EXPECT_FALSE(has("reading"));
+        state().messages.clear();
+    };
+    viewer.drop({file_});
+    frame();
+    ASSERT_TRUE(state().reference_read); // whether it is through by now or not, it has not been looked at
+    viewer.keyboard().press(Key::escape, Key::escape, false, false);
+    viewer.keyboard().release(Key::escape);
+    frame();
+    EXPECT_TRUE(has("reading")); // as it was at the frame's beginning
+    save("reading.png");
+    frame();
+    expect_given_up();
+
+    state().show_help = true; // which Esc closes alone
+    viewer.drop({file_});
+    frame();
+    viewer.keyboard().press(Key::escape, Key::escape, false, false);
+    frame();
+    EXPECT_FALSE(state().show_help);
+    EXPECT_TRUE(wait_until([&] { return state().companions.reference != before; }));
+    EXPECT_FALSE(state().reference_read);
+}
+
 TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
     viewer.drop({"/nowhere/reference.exr"});
     wait_until([&] { return !state().messages.empty(); });
@@ -192,6 +224,40 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     const Rgb red = viewer.pane_image(0).pixels()(1, 18);
     EXPECT_NEAR(red.r, 0.63f, 0.02f);
     EXPECT_NEAR(red.g, 0.065f, 0.01f);
+}
+
+TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
+    const auto legend_width = [&] {
+        const ControlRect rect = place("pane0.legend");
+        return rect.max.x - rect.min.x;
+    };
+    type(Key::digit4, false, true); // depth
+    wait_until([&] { return is_other_than(nullptr); });
+    EXPECT_EQ(viewer.next_frame_in(), 0); // in which they are to be seen
+    frames(3);
+    EXPECT_GT(viewer.next_frame_in(), 1);
+    EXPECT_FALSE(state().companions.first_hits_are_earlier);
+    const float unmarked = legend_width();
+    state().camera.dolly(0.5f);
+    frame();
+    EXPECT_TRUE(state().companions.first_hits_are_earlier);
+    frame();
+    EXPECT_GT(legend_width(), unmarked);
+    save("earlier-depth.png");
+    wait_until([&] { return !state().companions.first_hits_are_earlier; });
+    frames(2);
+    EXPECT_EQ(legend_width(), unmarked);
+
+    // Albedo has no legend but for this.
+    type(Key::digit2, false, true);
+    frames(2);
+    EXPECT_FALSE(has("pane0.legend"));
+    state().companions.first_hits_are_earlier = true; // until the next look at them
+    frame();
+    EXPECT_TRUE(has("pane0.legend"));
+    save("earlier-albedo.png");
+    frame();
+    EXPECT_FALSE(has("pane0.legend"));
 }
 
 TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {

@@ -18,10 +18,16 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     snapshot->seconds = 2;
     snapshot->settings.method = Method::gpr;
     snapshot->counters.rays = {1000000, 2000000, 2000000};
-    snapshot->reconstruction = std::make_shared<Reconstruction>();
+    auto reconstruction = std::make_shared<Reconstruction>();
+    reconstruction->iterations = 14;
+    reconstruction->seconds = 0.0214;
+    snapshot->reconstruction = reconstruction;
     snapshot->reconstruction_spp = 11;
     pane.snapshot = snapshot;
-    EXPECT_EQ(status_text(state, 0), "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11");
+    EXPECT_EQ(status_text(state, 0),
+              "G-PR   12 spp   2.00 s   2.5 Mrays/s   reconstruction of pass 11, 14 steps in 0.021 s");
+    reconstruction->iterations = 1;
+    EXPECT_NE(status_text(state, 0).find("pass 11, 1 step in"), std::string::npos);
     const auto says = [&](const char* word) { return status_text(state, 0).find(word) != std::string::npos; };
     state.paused = true;
     EXPECT_TRUE(says("paused"));

@@ -45,16 +45,22 @@ struct SavedAsExr : testing::Test {
 };
 
 TEST_F(SavedAsExr, TheWriterGetsTheActivePane) {
+    std::shared_ptr<const Scene> scene;
+    const auto reference = std::make_shared<Reference>();
     options.write_exr = [&](const fs::path& file, const SavedPicture& picture) {
         EXPECT_EQ(file.extension(), ".exr");
         EXPECT_EQ(picture.snapshot->settings.method, Method::gpr);
         EXPECT_FALSE(picture.reconstruction.joint_colour);
+        EXPECT_EQ(picture.scene, scene);
+        EXPECT_EQ(picture.reference, reference);
         if (++calls == 2)
             throw std::runtime_error("the disk is full");
     };
     ViewerHarness h({900, 600}, 1, options);
     h.state().panes[1].settings.reconstruction.joint_colour = false;
     h.rest(2);
+    scene = h.state().scene;
+    h.state().companions.reference = reference;
     h.type(Key::e, true);
     h.finish_saving();
     EXPECT_EQ(h.state().messages.back().text.find("Saved "), 0u);

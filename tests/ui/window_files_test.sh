@@ -1,0 +1,86 @@
+#!/bin/bash
+# The real viewer under a virtual display, and the files that it is given: scenes that change and break, scripts, names
+# under which nothing can be read or written.
+#   window_files_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
+set -u
+
+if [ -z "${TESSERA_WINDOW_TEST_INSIDE:-}" ]; then
+    TESSERA_WINDOW_TEST_INSIDE=1 exec xvfb-run -a -s "-screen 0 1280x800x24" "$0" "$@"
+fi
+
+assets=$(realpath "$(dirname "$0")/../../assets")
+source "$(dirname "$0")/real_window.sh"
+need xdotool import convert
+
+# --- a scene file: reloaded, broken and mended; the window is named after it, and the camera saved beside it ---
+
+scene=$work/box.xml
+cp "$assets/cornell-box.xml" "$scene"
+start_viewer "$scene"
+wait_for '^scenes shown 1$'
+wait_for '^time picture '
+xdotool search --name "^Tessera - $scene\$" >/dev/null || fail "the window is not named after the scene"
+xdotool mousemove 300 300
+from=$(next_line)
+xdotool keydown w sleep 0.3 keyup w
+wait_for '^camera ' "$from"
+sleep 0.3
+from=$(next_line)
+press F5 '^scenes shown 2$'
+wait_for '^pane 1 generation ' "$from"
+tail -n "+$from" "$log" | grep -q '^camera ' && fail "the camera has moved by itself"
+sed -i 's/<scene/<scone/' "$scene"
+press F5 '^messages 1$'
+look broken
+sed -i 's/<scone/<scene/' "$scene"
+from=$(next_line)
+press F5 '^scenes shown 3$'
+wait_for '^messages 0$' "$from"
+press k '^messages 1$'
+grep -q to_world "$work/box-camera.json" || fail "no camera was saved"
+xdotool key ctrl+q
+expect_end "ctrl+q" 0
+
+# --- the program's own picture, in a window and without any display ---
+
+"$tessera" view --screenshot "$work/own.png" --spp 4 || fail "no screenshot"
+more_than "$(brightness "$work/own.png")" 0.05 || fail "the screenshot is black"
+env -u DISPLAY "$tessera" view --screenshot "$work/none.png" --spp 2 || fail "no screenshot without a display"
+more_than "$(brightness "$work/none.png")" 0.05 || fail "the screenshot without a display is black"
+keep "$work/own.png"
+keep "$work/none.png"
+
+# --- scripts, in a window and without any display ---
+
+cat >"$work/steps.txt" <<EOF
+wait scene
+set panes 4
+wait spp 2
+click pane0.picture
+key V
+drag pane0.picture@0.5,0.5 pane0.picture@0.2,0.5
+frames 5 "four panes"
+screenshot "$work/script.png"
+quit
+EOF
+"$tessera" view --script "$work/steps.txt" --size 64x48 >"$work/out" || fail "the script ends with exit code $?"
+grep -q '^frames four panes: 5, median ' "$work/out" || fail "no frame times"
+more_than "$(brightness "$work/script.png")" 0.05 || fail "the script's picture is black"
+keep "$work/script.png"
+rm "$work/script.png"
+env -u DISPLAY "$tessera" view --script "$work/steps.txt" --size 64x48 >/dev/null || fail "no script without a display"
+[ -e "$work/script.png" ] || fail "no picture by a script without a display"
+printf 'wait scene\nclick nowhere\n' >"$work/steps.txt"
+"$tessera" view --script "$work/steps.txt" 2>"$work/errors"
+[ $? -eq 2 ] || fail "a script that goes wrong does not end with exit code 2"
+grep -q 'steps.txt:2: no control' "$work/errors" || fail "no message names file and line"
+
+# --- bad input: exit code 2, a message, no file ---
+
+"$tessera" view "$work/absent.xml" --screenshot "$work/absent.png" 2>"$work/errors"
+[ $? -eq 2 ] || fail "an absent scene does not end with exit code 2"
+grep -q absent.xml "$work/errors" || fail "no message names the absent scene"
+[ ! -e "$work/absent.png" ] || fail "a picture of nothing"
+"$tessera" view --screenshot "$work/no/such/folder.png" --spp 1 2>"$work/errors"
+[ $? -eq 2 ] || fail "an unwritable picture does not end with exit code 2"
+echo "passed"
