@@ -46,6 +46,8 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
         reuse_ = Image<ReuseCounts>(width, height);
     if (buffers.base_luminance)
         base_luminance_ = Image<float>(width, height);
+    if (buffers.lamp_edges)
+        lamp_edges_ = Image<std::uint8_t>(width, height);
 }
 
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
@@ -67,6 +69,25 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
         dx_(x, y) += sample.dx;
     if (y + 1 < height())
         dy_(x, y) += sample.dy;
+}
+
+void Film::find_lamp_edges(const RgbImage& look) {
+    constexpr float noticeable = 0.01f; // of a squared radiance
+    if (lamp_edges_.empty())
+        return;
+    const auto compare = [&](int x, int y, int to_x, int to_y) {
+        if (to_x < 0 || to_x >= width() || to_y >= height())
+            return;
+        const Rgb a = look(x, y), b = look(to_x, to_y), d = a - b;
+        if (glm::dot(d, d) > noticeable * std::max(glm::dot(a, a), glm::dot(b, b)))
+            lamp_edges_(x, y) = lamp_edges_(to_x, to_y) = 1;
+    };
+    for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) {
+            compare(x, y, x + 1, y);
+            for (int to_x = x - 1; to_x <= x + 1; ++to_x)
+                compare(x, y, to_x, y + 1);
+        }
 }
 
 ReuseMaps Film::reuse_maps(int passes) const {
@@ -111,8 +132,8 @@ GradientImages Film::take_means(int passes) {
 }
 
 Memory Film::memory() {
-    return {memory_of(primal_), memory_of(very_direct_), memory_of(dx_),
-            memory_of(dy_),     memory_of(reuse_),       memory_of(base_luminance_)};
+    return {memory_of(primal_), memory_of(very_direct_),    memory_of(dx_),        memory_of(dy_),
+            memory_of(reuse_),  memory_of(base_luminance_), memory_of(lamp_edges_)};
 }
 
 } // namespace tessera

@@ -39,6 +39,7 @@ struct FilmBuffers {
     bool gradients = false;
     bool reuse = false;          ///< how sharing went
     bool base_luminance = false; ///< of the last pass
+    bool lamp_edges = false;     ///< of the lamps that the camera sees
 };
 
 /// How sharing went, per pixel.
@@ -73,6 +74,11 @@ public:
     /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
+    /// Remembers the edges of lamps, if it keeps them: both sides of every step between pixels side by side of
+    /// `look`, very direct light as large as the film. Not during a pass.
+    void find_lamp_edges(const RgbImage& look);
+    bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }
+
     /// Means over `passes` complete passes; of two or more passes, their variances, too.
     GradientImages means(int passes) const;
     /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
@@ -90,6 +96,7 @@ private:
     Image<glm::dvec3> very_direct_;
     Image<ReuseCounts> reuse_;
     Image<float> base_luminance_;
+    Image<std::uint8_t> lamp_edges_;
 };
 
 } // namespace tessera

@@ -22,7 +22,7 @@ void render_tile(const Pass& pass, PixelRect inner, Worker& worker, Film& film) 
                 sample.dy = here[set.width()] - here[0];
             if (pass.settings.primal == PrimalSource::base)
                 sample.primal = worker.base.at(x, y).radiance();
-            film.add(x, y, pass.index, sample, worker.counters);
+            add_sample(pass, x, y, sample, worker, film);
         }
 }
 

@@ -29,7 +29,7 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
                 sample.dx = gradient(pass, {x, y, x + 2, y + 1}, worker, sample);
             if (y + 1 < pass.size.y)
                 sample.dy = gradient(pass, {x, y, x + 1, y + 2}, worker, sample);
-            film.add(x, y, pass.index, sample, worker.counters);
+            add_sample(pass, x, y, sample, worker, film);
         }
 }
 

@@ -13,12 +13,26 @@ glm::vec2 subpixel_of(std::uint64_t seed, int index) {
     return {in_unit(start.x + index * 0.7548776662466927), in_unit(start.y + index * 0.5698402909980532)};
 }
 
+Rgb light_along(const Ray& ray, const Tracer& tracer) {
+    Vertex scratch;
+    return tracer.light_along(ray, scratch, RayKind::camera).radiance;
+}
+
 } // namespace
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const ReusePlan& plan, int index_)
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       projection_(camera, size_), subpixel_(subpixel_of(settings_.seed, index_)) {}
+
+Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
+    const int n = settings.very_direct_grid;
+    Rgb sum(0);
+    for (int i = 0; i < n * n; ++i)
+        sum +=
+            light_along(camera_ray(x, y, (glm::vec2(i % n, i / n) + subpixel_) / static_cast<float>(n)), tracer);
+    return sum / static_cast<float>(n * n);
+}
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
     rect_ = rect;
@@ -62,6 +76,19 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
         return;
     tracer.counters.refuse({pass.index, y, x});
     path.reset(path.random, path.light_samples());
+}
+
+void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look) {
+    const PixelRect area = block.clipped(pass.size);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            look(x, y) = light_along(pass.camera_ray(x, y, glm::vec2(0.5f)), tracer);
+}
+
+void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
+    if (pass.settings.very_direct_grid > 1 && film.has_lamp_edge(x, y))
+        sample.very_direct = pass.very_direct(worker.tracer, x, y);
+    film.add(x, y, pass.index, sample, worker.counters);
 }
 
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker) {

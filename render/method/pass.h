@@ -27,7 +27,12 @@ public:
     /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that
     /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
     /// low-discrepancy sequence.
-    Ray camera_ray(int x, int y) const { return projection_.ray(glm::vec2(x, y) + subpixel_); }
+    Ray camera_ray(int x, int y) const { return camera_ray(x, y, subpixel_); }
+    /// The same at another position within the pixel, in [0, 1]^2.
+    Ray camera_ray(int x, int y, glm::vec2 subpixel) const { return projection_.ray(glm::vec2(x, y) + subpixel); }
+
+    /// Very direct light of a pixel by a grid of camera rays, each where camera_ray() is in its cell.
+    Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
     Random random(int x, int y) const {
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
@@ -80,6 +85,14 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 /// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
 /// would spoil all pixels that share it.
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
+
+/// Very direct light of the block's pixels, along a ray through the middle of each.
+void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look);
+
+/// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
+/// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the
+/// passes, it would depend on where samples lie, and pixels with light from a mere speck would become too bright.)
+void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film);
 
 /// Whether base path k of worker.set is reused. Counted.
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);

@@ -8,7 +8,7 @@ void share_and_add(const Pass& pass, Worker& worker, Film& film) {
     share_light(pass, pass.settings.roulette, worker);
     for (int i = 0; i < worker.set.size(); ++i) {
         const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
-        film.add(p.x, p.y, pass.index, worker.set.sample(i, worker.reuse), worker.counters);
+        add_sample(pass, p.x, p.y, worker.set.sample(i, worker.reuse), worker, film);
     }
 }
 

@@ -10,7 +10,7 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, worker.path);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
-            film.add(x, y, pass.index, sample, worker.counters);
+            add_sample(pass, x, y, sample, worker, film);
         }
 }
 

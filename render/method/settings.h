@@ -50,6 +50,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
     float q_min = 0.1f;         ///< least probability that a path is reused (0, 1]
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none [0, 1]
+    int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge [1, 8]
     PrimalSource primal = PrimalSource::reuse;
     std::uint64_t seed = 0;
 

@@ -108,6 +108,11 @@ const Setting table[] = {
      Setting::Whole{&RenderSettings::max_depth, 1, most_edges}, always},
     {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
      Setting::Whole{&RenderSettings::light_samples, 1, 16}, always, true},
+    {"very_direct_grid", "Lamp grid",
+     "Where lamps that the camera sees have their edges, a sample looks for them with a grid of this many rays "
+     "along "
+     "each edge of the pixel. 1: with the ray of its path.",
+     Setting::Whole{&RenderSettings::very_direct_grid, 1, 8}, always, true},
     {"roulette_depth", "RR depth",
      "Edges beyond which a path goes on with a probability that follows the reflectance it meets (at most 0.95). "
      "0: it goes on to the max depth.",

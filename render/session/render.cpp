@@ -20,7 +20,8 @@ double thread_cpu_seconds() {
 }
 
 FilmBuffers buffers_of(const RenderSettings& s) {
-    return {has_gradients(s.method), s.method != Method::pt, reuses_paths(s.method) && s.adapt_tile};
+    return {has_gradients(s.method), s.method != Method::pt, reuses_paths(s.method) && s.adapt_tile,
+            s.very_direct_grid > 1};
 }
 
 /// Throws where one edge of an image is outside its limits.
@@ -56,15 +57,27 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     for (int i = 0; i < pool.size(); ++i)
         workers.push_back(std::make_unique<Worker>(*scene_, settings_));
 
-    pool.parallel_for(
-        static_cast<int>(blocks.size()),
-        [&](int i, int w) {
-            Worker& worker = *workers[static_cast<std::size_t>(w)];
-            const double before = thread_cpu_seconds();
-            render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
-            worker.cpu_seconds += thread_cpu_seconds() - before;
-        },
-        stop);
+    const auto for_each = [&](std::size_t count, const auto& work) {
+        pool.parallel_for(
+            static_cast<int>(count),
+            [&](int i, int w) {
+                Worker& worker = *workers[static_cast<std::size_t>(w)];
+                const double before = thread_cpu_seconds();
+                work(i, worker);
+                worker.cpu_seconds += thread_cpu_seconds() - before;
+            },
+            stop);
+    };
+    if (settings_.very_direct_grid > 1 && spp_ == 0) {
+        RgbImage look(size_.x, size_.y);
+        for_each(blocks.size(), [&](int i, Worker& worker) {
+            look_at_lamps(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, look);
+        });
+        film_.find_lamp_edges(look);
+    }
+    for_each(blocks.size(), [&](int i, Worker& worker) {
+        render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
+    });
     if (stop.stop_requested())
         return false;
 

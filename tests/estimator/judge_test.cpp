@@ -72,20 +72,21 @@ std::vector<Variant> all_variants() {
 
 class Judge : public testing::TestWithParam<TestScene> {
 protected:
-    void judge(const Measured& truth, Variant v) {
+    void judge(const NaiveMeasured& truth, Variant v) {
         const TestScene& t = GetParam();
         v.settings.max_depth = t.max_depth;
         v.settings.shift_threshold = t.shift_threshold;
         const MethodMeasured m = measure(t.scene, size, v.settings, runs * t.effort, passes);
-        report("primal", v, z_test(m.primal, truth));
+        report("primal", v, z_test(m.primal, truth.light));
+        report("very direct", v, z_test(m.very_direct, truth.very_direct));
         if (has_gradients(v.settings.method)) {
-            report("dx", v, z_test(m.dx, difference_x(truth)));
-            report("dy", v, z_test(m.dy, difference_y(truth)));
+            report("dx", v, z_test(m.dx, difference_x(truth.light)));
+            report("dy", v, z_test(m.dy, difference_y(truth.light)));
         }
     }
 
     void report(const char* what, const Variant& v, const ZResult& z) {
-        std::printf("  %-26s %-58s tile %2d %-6s %s\n", GetParam().name.c_str(), v.name.c_str(), v.settings.tile,
+        std::printf("  %-26s %-58s tile %2d %-11s %s\n", GetParam().name.c_str(), v.name.c_str(), v.settings.tile,
                     what, z.to_string().c_str());
         EXPECT_TRUE(z.passes()) << GetParam().name << ' ' << v.name << " tile " << v.settings.tile << ' ' << what
                                 << ": " << z.to_string();
@@ -94,7 +95,7 @@ protected:
 
 TEST_P(Judge, AllMethods) {
     const TestScene& t = GetParam();
-    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples * t.effort, 1);
+    const NaiveMeasured truth = render_naive(*t.scene, size, t.max_depth, naive_samples * t.effort, 1);
     for (const Variant& v : all_variants())
         judge(truth, v);
 }

@@ -33,7 +33,7 @@ class SmallImage : public testing::TestWithParam<Case> {};
 TEST_P(SmallImage, AllMethods) {
     const TestScene t = scene_named(GetParam().scene);
     const glm::ivec2 size = GetParam().size;
-    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3);
+    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3).light;
     const int passes = 512 / (size.x * size.y) + 16; // about as many paths for all sizes
     for (const Method method : all_methods)
         for (const int tile : {1, 6, 16})

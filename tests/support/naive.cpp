@@ -2,6 +2,7 @@
 
 #include "render/path/vertex.h"
 
+#include <array>
 #include <random>
 
 #include <glm/exponential.hpp>
@@ -20,21 +21,22 @@ public:
         return {u, uniform()};
     }
 
-    Rgb radiance(Ray ray, int max_depth) {
-        Rgb sum(0), throughput(1);
+    /// Very direct light first, then all other.
+    std::array<Rgb, 2> radiance(Ray ray, int max_depth) {
+        std::array<Rgb, 2> sums{Rgb(0), Rgb(0)};
+        Rgb throughput(1);
         for (int edges = 1; edges <= max_depth; ++edges) {
             Hit hit;
             if (!scene_.intersector().closest(ray, hit)) {
-                if (const Environment* around = scene_.lights().environment(); around && edges > 1)
-                    sum += throughput * around->radiance(ray.direction);
+                if (const Environment* around = scene_.lights().environment())
+                    sums[edges == 1 ? 0 : 1] += throughput * around->radiance(ray.direction);
                 break;
             }
             Vertex v;
             make_vertex(scene_, hit, ray, v);
-            if (edges > 1)
-                sum += throughput * v.light_toward(-ray.direction).radiance;
+            sums[edges == 1 ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
             if (edges < max_depth)
-                sum += throughput * from_lights_without_extent(v);
+                sums[1] += throughput * from_lights_without_extent(v);
             const float lobe = uniform();
             const auto s = v.bsdf.sample(v.to_previous, lobe, uniform_2d());
             if (!s)
@@ -43,7 +45,7 @@ public:
             const glm::vec3 direction = v.to_world(s->to_next);
             ray = {scene_.intersector().off_surface(v.position, v.geometric_normal, direction), direction};
         }
-        return sum;
+        return sums;
     }
 
 private:
@@ -73,25 +75,37 @@ private:
     std::mt19937 engine_;
 };
 
+struct Moments {
+    glm::dvec3 sum{0}, squares{0};
+
+    void add(glm::dvec3 value) {
+        sum += value;
+        squares += value * value;
+    }
+    void measure(double count, int x, int y, Measured& result) const {
+        const glm::dvec3 mean = sum / count;
+        result.mean(x, y) = Rgb(mean);
+        result.standard_error(x, y) = Rgb(glm::sqrt(glm::max(squares / count - mean * mean, 0.0) / count));
+    }
+};
+
 } // namespace
 
-Measured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed) {
+NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed) {
     Walk walk(scene, seed);
-    Measured result{RgbImage(size.x, size.y), RgbImage(size.x, size.y)};
+    const Measured black{RgbImage(size.x, size.y), RgbImage(size.x, size.y)};
+    NaiveMeasured result{black, black};
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
-            glm::dvec3 sum(0), squares(0);
+            std::array<Moments, 2> moments;
             for (int i = 0; i < samples; ++i) {
                 const glm::vec2 inside = walk.uniform_2d();
-                const glm::dvec3 value =
-                    walk.radiance(scene.camera().ray(glm::vec2(x, y) + inside, size), max_depth);
-                sum += value;
-                squares += value * value;
+                const auto values = walk.radiance(scene.camera().ray(glm::vec2(x, y) + inside, size), max_depth);
+                for (std::size_t part = 0; part < 2; ++part)
+                    moments[part].add(values[part]);
             }
-            const glm::dvec3 mean = sum / double(samples);
-            result.mean(x, y) = Rgb(mean);
-            result.standard_error(x, y) =
-                Rgb(glm::sqrt(glm::max(squares / double(samples) - mean * mean, 0.0) / double(samples)));
+            moments[0].measure(samples, x, y, result.very_direct);
+            moments[1].measure(samples, x, y, result.light);
         }
     return result;
 }

@@ -13,9 +13,16 @@ struct Measured {
     RgbImage standard_error;
 };
 
+/// What the judge measured.
+struct NaiveMeasured {
+    Measured light; ///< all but very direct light
+    Measured very_direct;
+};
+
 /// The judge: a path tracer without emitter sampling and without weights, with random numbers of its own; light is
 /// counted only where a path runs into it, but for lights that no ray can meet: of these all are summed at every
-/// vertex. Nothing of the estimators under test is in it but vertices and BSDFs. Very direct light is left out.
-Measured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
+/// vertex. Nothing of the estimators under test is in it but vertices and BSDFs. Very direct
+/// is what the camera sees itself.
+NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
 
 } // namespace tessera::test

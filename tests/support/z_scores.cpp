@@ -54,7 +54,7 @@ double normal_limit(double probability) {
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
                        int runs, int passes) {
     ThreadPool pool(2);
-    Moments primal, dx, dy;
+    Moments primal, very_direct, dx, dy;
     for (int run = 0; run < runs; ++run) {
         RenderSettings s = settings;
         s.seed = settings.seed + static_cast<std::uint64_t>(run);
@@ -63,14 +63,15 @@ MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, cons
             render.pass(pool);
         const GradientImages images = render.images();
         primal.add(images.primal);
+        very_direct.add(images.very_direct);
         if (images.has_gradients()) {
             dx.add(images.dx);
             dy.add(images.dy);
         }
     }
     if (dx.sum.empty())
-        return {primal.result(runs), {}, {}};
-    return {primal.result(runs), dx.result(runs), dy.result(runs)};
+        return {primal.result(runs), very_direct.result(runs), {}, {}};
+    return {primal.result(runs), very_direct.result(runs), dx.result(runs), dy.result(runs)};
 }
 
 ZResult z_test(const Measured& a, const Measured& b) {

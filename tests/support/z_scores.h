@@ -10,7 +10,7 @@ namespace tessera::test {
 
 /// What a method measured, from independent runs with seeds of their own.
 struct MethodMeasured {
-    Measured primal, dx, dy;
+    Measured primal, very_direct, dx, dy;
 };
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
                        int runs, int passes);

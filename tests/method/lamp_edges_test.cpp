@@ -1,0 +1,89 @@
+// The edges of lamps that the camera sees: where the film finds them, and that a grid of rays there makes less
+// noise. (That it is no bias: the judge.)
+#include "render/session/render.h"
+#include "tests/support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+/// A lamp alone, somewhat tilted.
+std::shared_ptr<const Scene> lamp_in_the_dark() {
+    SceneBuilder b;
+    b.quad({-0.5f, -0.4f, 0}, {1, 0.1f, 0}, {-0.1f, 0.9f, 0}, b.diffuse(Rgb(0.5f)),
+           b.light(Texture(Rgb(3, 2, 1))));
+    b.camera({0, 0, 3}, {0, 0, 0}, 40);
+    return b.build();
+}
+
+RgbImage very_direct(int grid, int passes, std::uint64_t seed) {
+    static const auto scene = lamp_in_the_dark();
+    RenderSettings settings;
+    settings.method = Method::pt;
+    settings.max_depth = 1;
+    settings.very_direct_grid = grid;
+    settings.seed = seed;
+    Render render(scene, scene->camera(), {24, 24}, settings);
+    ThreadPool pool(1);
+    for (int pass = 0; pass < passes; ++pass)
+        render.pass(pool);
+    return render.images().very_direct;
+}
+
+double squared_error(int grid, int passes, const RgbImage& truth) {
+    double sum = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const RgbImage image = very_direct(grid, passes, seed);
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            const Rgb d = image.data()[i] - truth.data()[i];
+            sum += glm::dot(d, d);
+        }
+    }
+    return sum;
+}
+
+TEST(LampEdges, HaveLessNoiseFromTheFirstPassOn) {
+    const RgbImage truth = very_direct(8, 1000, 99);
+    for (const int passes : {1, 16})
+        EXPECT_LT(6 * squared_error(4, passes, truth), squared_error(1, passes, truth)) << passes;
+}
+
+TEST(LampEdges, AreBothSidesOfSteps) {
+    Film film(5, 3, {.lamp_edges = true});
+    EXPECT_FALSE(film.has_lamp_edge(2, 1));
+    RgbImage look(5, 3, Rgb(1));
+    look(2, 1) = Rgb(1.01f); // hardly another
+    film.find_lamp_edges(look);
+    EXPECT_FALSE(film.has_lamp_edge(2, 1));
+    look(4, 0) = Rgb(0);
+    film.find_lamp_edges(look);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 5; ++x)
+            EXPECT_EQ(film.has_lamp_edge(x, y), x >= 3 && y <= 1) << x << ',' << y;
+}
+
+/// All of a lamp's middle, and the same colour everywhere: nothing is looked for twice.
+TEST(LampEdges, AreFollowedOnlyWhereTheyAre) {
+    const auto rays = [](int grid) {
+        static const auto scene = lamp_in_the_dark();
+        RenderSettings settings;
+        settings.method = Method::pt;
+        settings.max_depth = 1;
+        settings.very_direct_grid = grid;
+        Render render(scene, scene->camera(), {24, 24}, settings);
+        ThreadPool pool(1);
+        for (int pass = 0; pass < 4; ++pass)
+            render.pass(pool);
+        return render.counters().rays[static_cast<std::size_t>(RayKind::camera)];
+    };
+    const auto plain = rays(1), all = plain * 17;
+    EXPECT_EQ(plain, 4u * 24 * 24);
+    EXPECT_GT(rays(4), plain);
+    EXPECT_LT(rays(4), all / 2);
+}
+
+} // namespace
+
+} // namespace tessera::test
