@@ -1,5 +1,7 @@
 #include "ui/action_steps.h"
 
+#include "ui/words.h"
+
 #include <cmath>
 #include <iterator>
 
@@ -23,7 +25,7 @@ void step_tile(ViewerState& state, int step) {
 }
 
 void step_exposure(ViewerState& state, float stops) {
-    state.tone.exposure = std::clamp(state.tone.exposure + stops, -10.0f, 10.0f);
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
 }
 
 void next_pane(ViewerState& state) {
@@ -48,25 +50,18 @@ void next_tone(ViewerState& state) {
     state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
 }
 
-// Both have the mouse's left button: one gives way.
 void toggle_inspector(ViewerState& state) {
-    state.inspector.active = !state.inspector.active;
-    state.slow_motion.active = false;
+    state.set_inspector(!state.inspector.active);
 }
 
 void toggle_slow_motion(ViewerState& state) {
-    SlowMotion& slow = state.slow_motion;
-    slow.active = !slow.active;
-    state.inspector.active = false;
-    slow.frames = true;
-    slow.held = false;
-    slow.sample.reset();
+    state.set_slow_motion(!state.slow_motion.active);
 }
 
 void next_tile(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (slow.tile)
-        slow.start({slow.pane, slow.next_pixel(state.request_size()), {}});
+        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
 }
 
 void toggle_comparison(ViewerState& state, Comparison::Kind kind) {

@@ -151,7 +151,7 @@ constexpr Action table[] = {
     {"View", "Next tile", "The slow motion goes on with the next tile, of the newest pass.", shift(Key::j),
      no_shortcut, next_tile, nullptr},
     {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
-     [](State& s) { s.view.fit(); }, nullptr},
+     [](State& s) { s.set_view({}); }, nullptr},
     {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,
      [](State& s) { s.theme = s.theme == Theme::dark ? Theme::light : Theme::dark; },
      [](const State& s) { return s.theme == Theme::light; }},

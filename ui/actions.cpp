@@ -45,8 +45,9 @@ bool counts_in_text(const Shortcut& typed) {
     return typed.ctrl || (typed.key >= Key::f1 && typed.key <= Key::f12);
 }
 
-void close_overlays(ViewerState& state) {
-    const bool any = state.show_help || state.large_charts || state.reference_making.show || state.choosing;
+void close_overlays(bool entering_text, ViewerState& state) {
+    const bool any = entering_text || // whose end it is
+                     state.show_help || state.large_charts || state.reference_making.show || state.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
     state.cancel_load = state.cancel_load || (!any && loads);
@@ -72,7 +73,7 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
     }
     // A closing key that every overlay has.
     if (std::find(typed.begin(), typed.end(), Shortcut{Key::escape}) != typed.end())
-        close_overlays(state);
+        close_overlays(entering_text, state);
 }
 
 bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state) {

@@ -43,7 +43,7 @@ public:
     }
 
     void cancel() {
-        std::erase_if(given_up_, [](const auto& job) { return job->finished.load(); });
+        forget_ended();
         if (!job_)
             return;
         job_->thread.request_stop();
@@ -54,7 +54,13 @@ public:
 
     /// The outcome, once; never waits.
     std::optional<Outcome> poll() {
-        if (!job_ || !job_->finished)
+        forget_ended();
+        return job_ && job_->finished ? wait() : std::nullopt;
+    }
+
+    /// The outcome, once it is there; nothing where no job is under way.
+    std::optional<Outcome> wait() {
+        if (!job_)
             return std::nullopt;
         job_->thread.join();
         Outcome outcome = std::move(job_->outcome);
@@ -68,6 +74,10 @@ private:
         std::atomic<bool> finished{false};
         std::jthread thread; // last: ends first
     };
+    void forget_ended() {
+        std::erase_if(given_up_, [](const auto& job) { return job->finished.load(); });
+    }
+
     std::unique_ptr<Job> job_;
     std::vector<std::unique_ptr<Job>> given_up_; // until they have ended by themselves
 };

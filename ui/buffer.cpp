@@ -76,10 +76,6 @@ namespace {
 
 const RgbImage no_picture;
 
-bool same_size(const RgbImage& a, const RgbImage& b) {
-    return a.width() == b.width() && a.height() == b.height();
-}
-
 /// The picture at the end: reconstructed where that is done.
 const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
     return has_reconstruction(snapshot) ? snapshot.reconstruction->image

@@ -1,6 +1,7 @@
 #include "ui/change_log.h"
 
 #include "render/method/settings_table.h"
+#include "ui/words.h"
 
 #include <cstdio>
 
@@ -9,9 +10,6 @@ namespace tessera {
 namespace {
 
 using Values = std::map<std::string, std::string>;
-
-constexpr const char* curves[] = {"srgb", "gamma", "filmic"};        // of Tone::Curve
-constexpr const char* comparisons[] = {"off", "wipe", "difference"}; // of Comparison::Kind
 
 std::string text(double number) {
     char buffer[32];
@@ -32,7 +30,7 @@ void describe(const std::string& prefix, const PaneState& pane, Values& values) 
     values[prefix + "joint_colour"] = text(pane.settings.reconstruction.joint_colour);
     values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
     values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
-    values[prefix + "comparison"] = comparisons[static_cast<std::size_t>(pane.settings.comparison.kind)];
+    values[prefix + "comparison"] = word(words::comparisons, pane.settings.comparison.kind);
     values[prefix + "generation"] = std::to_string(pane.generation);
     values[prefix + "spp"] = std::to_string(pane.snapshot ? pane.snapshot->spp : 0);
 }
@@ -50,21 +48,23 @@ Values describe(const ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     values["size"] = std::to_string(size.x) + "x" + std::to_string(size.y);
     values["exposure"] = text(static_cast<double>(state.tone.exposure));
-    values["tone"] = curves[static_cast<std::size_t>(state.tone.curve)];
+    values["tone"] = word(words::tones, state.tone.curve);
     values["panes"] = std::to_string(state.panes.size());
     values["active"] = std::to_string(state.active_pane);
     values["alone"] = text(state.alone);
     values["wipe"] = text(static_cast<double>(state.wipe));
     values["flicker"] = text(state.flicker);
-    values["theme"] = state.theme == Theme::dark ? "dark" : "light";
+    values["theme"] = word(words::themes, state.theme);
     values["ui scale"] = text(static_cast<double>(state.ui_scale()));
     values["magnifier"] = text(state.magnifier);
     values["charts"] = text(state.show_charts);
     values["tiles"] = text(state.show_tiles);
     values["inspector"] = text(state.inspector.active);
-    if (const auto& sample = state.inspector.sample)
-        values["inspected"] = "pane " + std::to_string(sample->pane) + " pixel " +
+    if (const auto& sample = state.inspector.sample) {
+        const PaneState* pane = state.pane_in(sample->slot);
+        values["inspected"] = "pane " + (pane ? std::to_string(pane - state.panes.data()) : "none") + " pixel " +
                               std::to_string(sample->pixel.x) + " " + std::to_string(sample->pixel.y);
+    }
     values["slow motion"] = text(state.slow_motion.active);
     if (state.slow_motion.active && state.slow_motion.tile)
         values["slow motion at"] = "tile " + std::to_string(state.slow_motion.tile->tile.x0) + " " +
@@ -72,7 +72,7 @@ Values describe(const ViewerState& state) {
                                    std::to_string(state.slow_motion.current);
     values["spp limit"] = std::to_string(state.pace.spp_limit);
     values["seconds limit"] = text(state.pace.seconds_limit);
-    values["equal"] = state.pace.equal == Pace::Equal::time ? "time" : "spp";
+    values["equal"] = word(words::shares, state.pace.equal);
     values["zoom"] = text(static_cast<double>(state.view.zoom()));
     values["linked"] = text(state.linked);
     values["paused"] = text(state.paused);

@@ -9,14 +9,6 @@ namespace tessera {
 
 namespace {
 
-/// The pane that the session's slot renders; null: it is free.
-const PaneState* pane_of(const ViewerState& state, std::size_t slot) {
-    for (const PaneState& pane : state.panes)
-        if (static_cast<std::size_t>(pane.slot) == slot)
-            return &pane;
-    return nullptr;
-}
-
 /// The picture on show at the end, if it is one: not the primal that stands in for a reconstruction under way.
 std::shared_ptr<const void> final_source(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
@@ -29,22 +21,42 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
 } // namespace
 
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (auto outcome = job_.poll(); outcome && outcome->result) {
-        for (Measured& measured : *outcome->result)
-            take(state, measured);
+    if (auto outcome = job_.poll()) {
         state.redraw = true;
+        if (!outcome->result)
+            state.add_message(Message::Kind::error, "What charts show was not measured: " + outcome->error);
+        else
+            for (Measured& measured : *outcome->result)
+                take(state, measured);
     }
     for (std::size_t slot = 0; slot < state.charts.size(); ++slot) {
-        if (pane_of(state, slot))
+        if (state.pane_in(static_cast<int>(slot)))
             continue;
         state.charts[slot] = {}; // the pane is gone
         done_[slot] = {};
     }
     for (const PaneState& pane : state.panes)
         note_shifts(pane, state.chart_of(pane));
-    if (job_.running())
-        return;
     const bool wants_histograms = state.show_charts || state.large_charts || state.save_charts;
+    for (const PaneState& pane : state.panes)
+        if (PaneChart& chart = state.chart_of(pane);
+            !wants_histograms || (chart.histogram && chart.histogram_generation != pane.generation))
+            drop_histogram(pane, chart);
+    if (!job_.running())
+        start(state, wants_histograms, wake);
+    state.histograms_due = wants_histograms && job_.running() &&
+                           std::any_of(state.panes.begin(), state.panes.end(), [&](const PaneState& pane) {
+                               return final_source(pane) && !state.chart_of(pane).histogram;
+                           });
+}
+
+/// It is another picture's, or will be: passes go on while nobody looks.
+void ChartJob::drop_histogram(const PaneState& pane, PaneChart& chart) {
+    chart.histogram = nullptr;
+    done_[static_cast<std::size_t>(pane.slot)].histogram = false;
+}
+
+void ChartJob::start(const ViewerState& state, bool wants_histograms, const std::function<void()>& wake) {
     std::vector<Measured> work;
     for (const PaneState& pane : state.panes) {
         const auto& reference = state.companions.reference;
@@ -55,8 +67,7 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
         if (!source || !(wants_error || wants_histogram))
             continue;
         done = {source, reference, wants_histograms};
-        work.push_back(
-            {static_cast<std::size_t>(pane.slot), pane.snapshot, std::move(source), reference, wants_histograms});
+        work.push_back({pane.slot, pane.snapshot, std::move(source), reference, wants_histograms});
     }
     if (work.empty())
         return;
@@ -122,7 +133,7 @@ void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Snapshot& s, con
 }
 
 void ChartJob::take(ViewerState& state, Measured& measured) {
-    const PaneState* pane = pane_of(state, measured.slot);
+    const PaneState* pane = state.pane_in(measured.slot);
     if (!pane || pane->generation != measured.snapshot->generation)
         return; // it has been taken away, or shows something else
     PaneChart& chart = state.chart_of(*pane);
@@ -132,8 +143,10 @@ void ChartJob::take(ViewerState& state, Measured& measured) {
     chart.reference = measured.reference;
     if (measured.point)
         add_point(chart.curves, *measured.snapshot, *measured.point);
-    if (measured.histogram)
+    if (measured.histogram) {
         chart.histogram = std::make_shared<const Histogram>(*measured.histogram);
+        chart.histogram_generation = pane->generation;
+    }
 }
 
 } // namespace tessera

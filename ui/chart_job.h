@@ -19,7 +19,7 @@ public:
 private:
     /// A picture to measure, and what came of it.
     struct Measured {
-        std::size_t slot;
+        int slot;
         std::shared_ptr<const Snapshot> snapshot;
         std::shared_ptr<const void> source; ///< picture_source()
         std::shared_ptr<const Reference> reference;
@@ -33,6 +33,8 @@ private:
         std::shared_ptr<const Reference> reference;
         bool histogram = false;
     };
+    void start(const ViewerState& state, bool wants_histograms, const std::function<void()>& wake);
+    void drop_histogram(const PaneState& pane, PaneChart& chart);
     static void note_shifts(const PaneState& pane, PaneChart& chart);
     static void measure(Measured& picture);
     static void add_point(std::vector<ErrorCurve>& curves, const Snapshot& snapshot, const ErrorPoint& point);

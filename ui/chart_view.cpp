@@ -1,5 +1,6 @@
 #include "ui/chart_view.h"
 
+#include "ui/scene_lines.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -47,6 +48,27 @@ void draw_axes(const ScreenRect& plot, const ChartAxes& axes) {
     list.AddRect({plot.min.x, plot.min.y}, {plot.max.x, plot.max.y}, colours::line);
 }
 
+float x_of(double x, const ScreenRect& frame, const ChartAxes& axes) {
+    return glm::mix(frame.min.x, frame.max.x, static_cast<float>(axes.x.position(x)));
+}
+
+/// Of what has no place on the scale: the lower end.
+float y_of(double y, const ScreenRect& frame, const ChartAxes& axes) {
+    const float at =
+        axes.y.has(y) ? glm::mix(frame.max.y, frame.min.y, static_cast<float>(axes.y.position(y))) : frame.max.y;
+    return std::min(at, frame.max.y);
+}
+
+/// One standard error to each side.
+void draw_bar(const ChartPoint& p, const ScreenRect& frame, const ChartAxes& axes, ImU32 colour) {
+    if (!std::isfinite(p.error) || p.error <= 0)
+        return;
+    const float x = x_of(p.x, frame, axes);
+    ImGui::GetWindowDrawList()->AddLine({x, y_of(p.y + p.error, frame, axes)},
+                                        {x, y_of(p.y - p.error, frame, axes)}, colour,
+                                        std::max(ImGui::GetFontSize() / 12, 1.0f));
+}
+
 } // namespace
 
 void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const ImU32> colours) {
@@ -65,9 +87,10 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         points.clear();
         for (const ChartPoint& p : plot.series[i].points) {
-            if (axes.has(p))
-                points.push_back({glm::mix(frame.min.x, frame.max.x, static_cast<float>(axes.x.position(p.x))),
-                                  glm::mix(frame.max.y, frame.min.y, static_cast<float>(axes.y.position(p.y)))});
+            if (!axes.has(p))
+                continue;
+            points.push_back({x_of(p.x, frame, axes), y_of(p.y, frame, axes)});
+            draw_bar(p, frame, axes, with_alpha(colours[i], 0.45f));
         }
         list.AddPolyline(points.data(), static_cast<int>(points.size()), colours[i], 0, std::max(font / 8, 1.0f));
         if (!points.empty())

@@ -2,6 +2,7 @@
 #include "ui/panels.h"
 #include "ui/theme.h"
 #include "ui/viewer_charts.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +20,10 @@ namespace {
 constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
 
 const std::array<ChoiceItem, 3> kinds = {{
-    {"error", "Error", "relMSE of each pane's picture to the reference."},
-    {"efficiency", "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
-    {"shifts", "Shifts", "How the shifts of each pane ended: which share came through, and why others did not."},
+    {words::charts[0], "Error", "relMSE of each pane's picture to the reference."},
+    {words::charts[1], "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
+    {words::charts[2], "Shifts",
+     "How the shifts of each pane ended: which share came through, and why others did not."},
 }};
 
 constexpr const char* help_of(ChartKind kind) {
@@ -193,8 +195,8 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
 /// Which chart, and against what.
 void draw_choices(Controls& controls, ViewerState& state) {
     static const std::array<ChoiceItem, 2> axes = {{
-        {"seconds", "against seconds", "Wall time of a pane's own passes."},
-        {"spp", "against samples", "Samples a pixel."},
+        {words::chart_axes[0], "against seconds", "Wall time of a pane's own passes."},
+        {words::chart_axes[1], "against samples", "Samples a pixel."},
     }};
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);

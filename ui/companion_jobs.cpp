@@ -28,6 +28,13 @@ std::shared_ptr<const Reference> load_reference(const std::filesystem::path& fil
     return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
 }
 
+/// Saved settings name it, and may be read from another folder.
+std::string in_full(const std::string& file) {
+    std::error_code gone; // the current folder
+    const std::filesystem::path path = std::filesystem::absolute(file, gone);
+    return file.empty() || gone ? file : path.lexically_normal().string();
+}
+
 constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
 
 bool wants_first_hits(const ViewerState& state) {
@@ -67,7 +74,7 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
         reference_.cancel();
         state.add_message(Message::Kind::note, "Reading " + reference_file_ + " was given up.");
     }
-    if (std::string file = std::exchange(state.reference_file, {}); !file.empty())
+    if (std::string file = in_full(std::exchange(state.reference_file, {})); !file.empty())
         start_reference(std::move(file), wake);
     const auto outcome = reference_.poll();
     state.reference_read = reference_.running() ? std::optional(share_read_->load()) : std::nullopt;

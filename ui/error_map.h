@@ -14,6 +14,10 @@ enum class ErrorKind {
 
 float pixel_error(ErrorKind kind, const Rgb& value, const Rgb& reference);
 
+inline bool same_size(const RgbImage& a, const RgbImage& b) {
+    return a.width() == b.width() && a.height() == b.height();
+}
+
 /// Both of one size.
 RgbImage error_map(ErrorKind kind, const RgbImage& image, const RgbImage& reference);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <imgui.h>
@@ -59,8 +60,6 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     if (!is_open)
         return;
     heading(text_of(*purpose_).title);
-    if (is_new)
-        ImGui::SetKeyboardFocusHere();
     draw_path(controls);
     draw_list(controls, ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing());
     draw_buttons(controls, state);
@@ -90,6 +89,7 @@ void FileDialog::begin(const ViewerState& state) {
 void FileDialog::set_text(const std::string& text) {
     text_.fill(0);
     text.copy(text_.data(), text_.size() - 1);
+    wants_focus_ = wants_cursor_last_ = true;
     read_text();
 }
 
@@ -103,25 +103,37 @@ void FileDialog::read_text() {
     entries_ = list_folder(folder_, text_of(*purpose_).extension, error_);
 }
 
-/// Tab.
-int FileDialog::complete(ImGuiInputTextCallbackData* data) {
+/// Tab completes; and a text that was put there is typed on, not typed over.
+int FileDialog::edit(ImGuiInputTextCallbackData* data) {
     auto& self = *static_cast<FileDialog*>(data->UserData);
-    const TypedPath typed = typed_path(data->Buf);
-    const std::string whole = common_beginning(beginning_with(self.entries_, typed.beginning));
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion)
+        return self.complete(*data);
+    if (std::exchange(self.wants_cursor_last_, false))
+        data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+    return 0;
+}
+
+int FileDialog::complete(ImGuiInputTextCallbackData& data) const {
+    const TypedPath typed = typed_path(data.Buf);
+    const std::string whole = common_beginning(beginning_with(entries_, typed.beginning));
     if (whole.size() < typed.beginning.size())
         return 0;
-    const int begin = data->BufTextLen - static_cast<int>(typed.beginning.size());
-    data->DeleteChars(begin, static_cast<int>(typed.beginning.size()));
-    data->InsertChars(begin, whole.c_str());
+    const int begin = data.BufTextLen - static_cast<int>(typed.beginning.size());
+    data.DeleteChars(begin, static_cast<int>(typed.beginning.size()));
+    data.InsertChars(begin, whole.c_str());
     return 0;
 }
 
 void FileDialog::draw_path(Controls& controls) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     const std::string before = text_.data();
-    const bool entered = ImGui::InputText(
-        "##file.path", text_.data(), text_.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion, complete, this);
+    if (std::exchange(wants_focus_, false))
+        ImGui::SetKeyboardFocusHere();
+    const bool entered =
+        ImGui::InputText("##file.path", text_.data(), text_.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
+                             ImGuiInputTextFlags_CallbackAlways,
+                         edit, this);
     controls.note("file.path", "The file. Tab completes its name, Enter opens it.");
     if (before != text_.data())
         read_text();
@@ -171,8 +183,7 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
 
 /// Opens what the text names, or goes into it.
 void FileDialog::enter() {
-    const TypedPath typed = typed_path(text_.data());
-    const fs::path path = typed.folder / typed.beginning;
+    const fs::path path = typed_file(text_.data());
     std::error_code ignored;
     if (fs::is_directory(path, ignored))
         set_text(with_slash(path));
@@ -183,7 +194,7 @@ void FileDialog::enter() {
 void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     const TypedPath typed = typed_path(text_.data());
     std::error_code ignored;
-    const bool is_file = fs::is_regular_file(typed.folder / typed.beginning, ignored);
+    const bool is_file = fs::is_regular_file(typed_file(text_.data()), ignored);
     const float width = ImGui::GetFontSize() * 6;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_file ? 1.0f : 0.5f);
     if (controls.button("file.open", "Open", text_of(*purpose_).help, width) && is_file)

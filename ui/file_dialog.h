@@ -29,15 +29,17 @@ private:
     void set_text(const std::string& text);
     void read_text();
     void enter();
-    static int complete(ImGuiInputTextCallbackData* data);
+    static int edit(ImGuiInputTextCallbackData* data);
+    int complete(ImGuiInputTextCallbackData& data) const;
 
     std::optional<FilePurpose> purpose_; // of what is on show
     std::array<char, 4096> text_{};
-    std::filesystem::path folder_;   // that is listed, ...
-    std::vector<FileEntry> entries_; // ... and what is in it
-    std::string filter_;             // the beginning that was typed, not clicked
-    std::string error_;              // why there is nothing to choose
-    std::filesystem::path chosen_;   // empty: nothing yet
+    bool wants_focus_ = false, wants_cursor_last_ = false; // the text, which was put there
+    std::filesystem::path folder_;                         // that is listed, ...
+    std::vector<FileEntry> entries_;                       // ... and what is in it
+    std::string filter_;                                   // the beginning that was typed, not clicked
+    std::string error_;                                    // why there is nothing to choose
+    std::filesystem::path chosen_;                         // empty: nothing yet
 };
 
 } // namespace tessera

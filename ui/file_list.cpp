@@ -26,13 +26,17 @@ bool is_same_text(std::string_view a, std::string_view b) {
 
 } // namespace
 
+bool has_extension(const fs::path& file, std::string_view extension) {
+    return is_same_text(file.extension().string(), extension);
+}
+
 std::vector<FileEntry> list_folder(const fs::path& folder, std::string_view extension, std::string& error) {
     std::vector<FileEntry> entries;
     std::error_code code, ignored;
     fs::directory_iterator it(folder, code);
     for (; !code && it != fs::directory_iterator(); it.increment(code)) {
         const bool is_folder = it->is_directory(ignored);
-        if (is_folder || is_same_text(it->path().extension().string(), extension))
+        if (is_folder || has_extension(it->path(), extension))
             entries.push_back({it->path().filename().string(), is_folder});
     }
     error = code ? folder.string() + ": " + code.message() : "";
@@ -52,6 +56,11 @@ TypedPath typed_path(const std::string& text) {
     if (home && text.rfind("~/", 0) == 0)
         folder = fs::path(home) / text.substr(2, slash - 1);
     return {fs::absolute(folder, ignored).lexically_normal(), text.substr(slash + 1)};
+}
+
+fs::path typed_file(const std::string& text) {
+    const TypedPath typed = typed_path(text);
+    return typed.folder / typed.beginning;
 }
 
 std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning) {

@@ -14,6 +14,9 @@ struct FileEntry {
     bool operator==(const FileEntry&) const = default;
 };
 
+/// ".xml", in either case.
+bool has_extension(const std::filesystem::path& file, std::string_view extension);
+
 /// What is in a folder: other folders first, then the files with the extension (".xml", in either case), both by
 /// name. `error` says why it cannot be read; else it is empty.
 std::vector<FileEntry> list_folder(const std::filesystem::path& folder, std::string_view extension,
@@ -25,6 +28,8 @@ struct TypedPath {
     std::string beginning;        ///< of a name in it
 };
 TypedPath typed_path(const std::string& text);
+/// The same in one.
+std::filesystem::path typed_file(const std::string& text);
 
 /// Those whose names begin so, in either case; hidden ones only where the beginning has their dot.
 std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning);

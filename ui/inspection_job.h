@@ -19,12 +19,16 @@ private:
         SampleChoice sample; ///< with its pass
         bool operator==(const Asked&) const = default;
     };
+    struct Found {
+        std::shared_ptr<const Inspection> inspection;
+        float scene_radius = 0;
+    };
     void take(ViewerState& state);
+    void drop_what_is_gone(ViewerState& state);
     std::shared_ptr<const PassOrigin> origin_of(const ViewerState& state, const SampleChoice& sample) const;
 
-    BackgroundJob<std::shared_ptr<const Inspection>> job_;
-    Asked asked_;                              // last, ...
-    std::shared_ptr<const PassOrigin> origin_; // ... and of what
+    BackgroundJob<Found> job_;
+    Asked asked_; // last
 };
 
 } // namespace tessera

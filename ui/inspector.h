@@ -21,7 +21,7 @@ struct PassOrigin {
 
 /// One sample of one pixel that is to be looked at.
 struct SampleChoice {
-    int pane = 0;
+    int slot = 0; ///< of its pane (PaneState::slot), wherever that is shown
     glm::ivec2 pixel{0};
     std::optional<int> pass;                    ///< from 0; empty: the newest
     std::shared_ptr<const PassOrigin> origin{}; ///< of the pass; null: what the pane shows
@@ -44,9 +44,9 @@ struct Inspector {
 
     /// The newest that has been found out; null: nothing yet.
     std::shared_ptr<const Inspection> inspection;
-    std::shared_ptr<const PassOrigin> origin; ///< what it was found out from
-    int pane = 0;                             ///< whose it is, if that still shows the request, ...
-    std::uint64_t generation = 0;             ///< ... and of which request
+    float scene_radius = 0;       ///< of the scene that it was found out from
+    int slot = 0;                 ///< of the pane whose it is, if that still shows the request, ...
+    std::uint64_t generation = 0; ///< ... and of which request
 
     int shown_row() const { return marked >= 0 ? marked : chosen; }
     void choose(const SampleChoice& choice) {

@@ -11,10 +11,6 @@ namespace tessera {
 
 namespace {
 
-constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_NoScrollWithMouse;
-
 std::string set_text(const InspectedSet& set, glm::ivec2 pixel) {
     const std::vector<const InspectedShift*> arriving = set.to(pixel);
     const auto bring = std::count_if(arriving.begin(), arriving.end(), [](const InspectedShift* s) {
@@ -71,11 +67,11 @@ void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerSta
     Inspector& inspector = state.inspector;
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
-    if (ImGui::Begin("Path inspector", nullptr, flags)) {
+    if (ImGui::Begin("Path inspector", nullptr, overlay_flags | ImGuiWindowFlags_NoScrollWithMouse)) {
         draw_top_row(controls, inspector,
                      inspector.sample && inspector.sample->origin &&
                          !is_on_show(*inspector.sample->origin, state));
-        if (inspector.inspection && inspector.origin) {
+        if (inspector.inspection) {
             const ImVec2 room = ImGui::GetContentRegionAvail();
             const float gap = ImGui::GetStyle().ItemSpacing.x;
             const float space = std::min(room.y * 1.5f, room.x * 0.3f), rest = room.x - space - 2 * gap;
@@ -84,7 +80,7 @@ void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerSta
             draw_shift_table(inspector, rest * 0.48f, controls);
             ImGui::SameLine();
             const SpaceSubject subject{inspector.inspection->path, shown_shifts(inspector), inspector.shown_row(),
-                                       inspector.origin->scene->radius()};
+                                       inspector.scene_radius};
             draw_space_view({space, room.y}, subject, state.space, controls);
         }
     }

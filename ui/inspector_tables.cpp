@@ -2,6 +2,7 @@
 
 #include "ui/path_overlay.h"
 #include "ui/theme.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -123,9 +124,7 @@ const InspectedShift* chosen_shift(const Inspector& inspector) {
 }
 
 std::string outcome_text(const InspectedShift& s) {
-    std::string name(to_string(s.outcome));
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return !s.is_tried ? "not tried" : s.from == s.to ? "own" : name;
+    return !s.is_tried ? "not tried" : s.from == s.to ? "own" : in_words(to_string(s.outcome));
 }
 
 void draw_shift_row(const InspectedShift& s, int row, Inspector& inspector, Controls& controls) {

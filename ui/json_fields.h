@@ -1,55 +1,104 @@
 #pragma once
 
 #include "render/load/json_text.h"
+#include "ui/words.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace tessera {
+
+/// What a reader has asked of a file's objects: the rest is misspelt, or of another version.
+class JsonReading {
+public:
+    using Json = nlohmann::ordered_json;
+
+    explicit JsonReading(const JsonText& text) : text_(text) {}
+
+    const JsonText& text() const { return text_; }
+    void opens(const std::string& path, const Json& object) { opened_[path].object = &object; }
+    void asks(const std::string& path, const std::string& key) { opened_[path].keys.insert(key); }
+
+    /// A line for each field of the objects opened that nobody has asked for, with its place.
+    std::vector<std::string> unknown() const {
+        std::vector<std::string> lines;
+        for (const auto& [path, opened] : opened_)
+            for (const auto& [key, value] : opened.object->items())
+                if (!opened.keys.contains(key))
+                    lines.push_back(text_.position_of(path + key).to_string() + ": there is no \"" + key +
+                                    "\": it is ignored");
+        return lines;
+    }
+
+private:
+    struct Opened {
+        const Json* object = nullptr;
+        std::set<std::string> keys;
+    };
+    const JsonText& text_;
+    std::map<std::string, Opened> opened_; // by path
+};
 
 /// An object of the file, and where it stands in it. What is wrong with a field is told with its place.
 class JsonFields {
 public:
     using Json = nlohmann::ordered_json;
 
-    JsonFields(const JsonText& text, const Json& json, std::string path)
-        : text_(text), json_(json), path_(std::move(path)) {
+    /// `path`: of all its fields, before their names.
+    JsonFields(JsonReading& reading, const Json& json, std::string path)
+        : reading_(reading), json_(json), path_(std::move(path)) {
         if (!json.is_object())
             fail("", "this must be an object, {...}");
+        reading_.opens(path_, json);
     }
 
     [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-        text_.fail_at(text_.place_of(path_ + key), what);
+        reading_.text().fail_at(reading_.text().place_of(path_ + key), what);
     }
 
     const Json& json() const { return json_; }
-    bool has(const char* key) const { return json_.contains(key); }
+    bool has(const std::string& key) const {
+        reading_.asks(path_, key);
+        return json_.contains(key);
+    }
     /// Without fields where there is none of that name.
     JsonFields object(const std::string& key) const {
         static const Json none = Json::object();
-        return {text_, json_.contains(key) ? json_.at(key) : none, path_ + key + "/"};
+        return {reading_, has(key) ? json_.at(key) : none, path_ + key + "/"};
     }
     JsonFields element(const Json& array, std::size_t i, const std::string& key) const {
-        return {text_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
+        return {reading_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
     }
 
+    /// A bool, a number, a whole one from 0 on where T is unsigned, or a string.
     template <class T>
     T get(const std::string& key) const {
-        try {
-            return json_.at(key).get<T>();
-        } catch (const Json::exception&) {
-            fail(key, key + " is of the wrong kind: " + json_.at(key).type_name());
-        }
+        const Json& value = json_.at(key);
+        // The library would make a number of true, and of -1 the largest there is.
+        const bool fits = std::is_same_v<T, bool>   ? value.is_boolean()
+                          : std::is_unsigned_v<T>   ? value.is_number_unsigned()
+                          : std::is_arithmetic_v<T> ? value.is_number()
+                                                    : value.is_string();
+        if (!fits && std::is_unsigned_v<T> && !std::is_same_v<T, bool> && value.is_number())
+            fail(key, key + " must be a whole number, 0 or more");
+        if (!fits)
+            fail(key, key + " is of the wrong kind: " + value.type_name());
+        return value.get<T>();
     }
     /// `take` gets the value, and throws std::invalid_argument where it is no good.
     template <class T, class Take>
     void read(const std::string& key, Take take) const {
-        if (!json_.contains(key))
+        if (!has(key))
             return;
         try {
             take(get<T>(key));
@@ -67,9 +116,9 @@ public:
         });
     }
     template <class Number>
-    void read(const std::string& key, double least, double most, Number& value) const {
+    void read(const std::string& key, Range range, Number& value) const {
         read<double>(key, [&](double number) {
-            if (!(number >= least && number <= most))
+            if (!(number >= range.least && number <= range.most))
                 throw std::invalid_argument(key + " is out of range");
             value = static_cast<Number>(number);
         });
@@ -79,9 +128,9 @@ public:
     }
 
 private:
-    const JsonText& text_;
+    JsonReading& reading_;
     const Json& json_;
-    std::string path_; // of all its fields, before their names
+    std::string path_;
 };
 
 } // namespace tessera

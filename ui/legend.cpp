@@ -1,5 +1,6 @@
 #include "ui/legend.h"
 
+#include "render/load/png.h"
 #include "ui/false_colours.h"
 #include "ui/theme.h"
 
@@ -18,10 +19,6 @@ namespace {
 constexpr glm::vec3 zero_colour(0.10f, 0.10f, 0.11f), plus_colour(1.00f, 0.66f, 0.20f),
     minus_colour(0.26f, 0.62f, 1.00f);
 constexpr int signed_steps = 16; // to each side of zero: sRGB's curve is no line
-
-float srgb(float c) {
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-}
 
 ImU32 packed(const glm::vec3& c) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1});
@@ -57,7 +54,7 @@ Legend signed_legend(const std::string& about, const std::string& unit, float sc
     for (int i = -signed_steps; i <= signed_steps; ++i) {
         const float share = static_cast<float>(i) / signed_steps;
         legend.colours.push_back(
-            glm::mix(zero_colour, share < 0 ? minus_colour : plus_colour, srgb(std::abs(share))));
+            glm::mix(zero_colour, share < 0 ? minus_colour : plus_colour, srgb_encoded(std::abs(share))));
     }
     return legend;
 }

@@ -1,12 +1,14 @@
 #include "ui/named_settings.h"
 
 #include "render/method/settings_table.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -15,7 +17,8 @@ namespace tessera {
 
 namespace {
 
-double number(const std::string& name, const std::string& value, double least, double most) {
+double number(const std::string& name, const std::string& value, Range range) {
+    const auto [least, most] = range;
     char* end = nullptr;
     const double result = std::strtod(value.c_str(), &end);
     if (value.empty() || *end != 0 || !(result >= least && result <= most))
@@ -25,7 +28,7 @@ double number(const std::string& name, const std::string& value, double least, d
 }
 
 /// The index of the word.
-int one_of(const std::string& name, const std::string& value, std::initializer_list<const char*> words) {
+int one_of(const std::string& name, const std::string& value, std::span<const char* const> words) {
     const auto found = std::find(words.begin(), words.end(), value);
     if (found != words.end())
         return static_cast<int>(found - words.begin());
@@ -70,7 +73,7 @@ using Text = const std::string&;
 /// Sets the bool that `of` picks.
 template <auto of>
 void flag(S& s, Text name, Text value) {
-    of(s) = one_of(name, value, {"off", "on"}) == 1;
+    of(s) = one_of(name, value, words::off_on) == 1;
 }
 
 constexpr Named table[] = {
@@ -78,85 +81,72 @@ constexpr Named table[] = {
     {"buffer", [](S& s, Text, Text v) { s.active().settings.buffer = buffer_named(v); }},
     {"comparison",
      [](S& s, Text n, Text v) {
-         s.active().settings.comparison.kind =
-             static_cast<Comparison::Kind>(one_of(n, v, {"off", "wipe", "difference"}));
+         s.active().settings.comparison.kind = static_cast<Comparison::Kind>(one_of(n, v, words::comparisons));
      }},
     {"compare_with",
      [](S& s, Text n, Text v) {
          s.active().settings.comparison.with =
-             v == "reference" ? the_reference : static_cast<int>(number(n, v, 1, most_panes)) - 1;
+             v == "reference" ? the_reference : static_cast<int>(number(n, v, {1, most_panes})) - 1;
      }},
     {"active",
      [](S& s, Text n, Text v) {
-         s.active_pane = static_cast<int>(number(n, v, 1, static_cast<double>(s.panes.size()))) - 1;
+         s.active_pane = static_cast<int>(number(n, v, {1, static_cast<double>(s.panes.size())})) - 1;
      }},
-    {"panes", [](S& s, Text n, Text v) { s.set_pane_count(static_cast<int>(number(n, v, 1, most_panes))); }},
+    {"panes",
+     [](S& s, Text n, Text v) {
+         s.set_pane_count(static_cast<int>(number(n, v, {1, most_panes})));
+     }},
     {"alone", flag<[](S& s) -> bool& { return s.alone; }>},
-    {"wipe", [](S& s, Text n, Text v) { s.wipe = static_cast<float>(number(n, v, 0, 1)); }},
+    {"wipe",
+     [](S& s, Text n, Text v) {
+         s.wipe = static_cast<float>(number(n, v, {0, 1}));
+     }},
     {"linked", flag<[](S& s) -> bool& { return s.linked; }>},
     {"paused", flag<[](S& s) -> bool& { return s.paused; }>},
-    {"spp_limit", [](S& s, Text n, Text v) { s.pace.spp_limit = static_cast<int>(number(n, v, 0, 1 << 24)); }},
-    {"seconds_limit", [](S& s, Text n, Text v) { s.pace.seconds_limit = number(n, v, 0, 1e7); }},
-    {"equal",
-     [](S& s, Text n, Text v) {
-         s.pace.equal = static_cast<Pace::Equal>(one_of(n, v, {"time", "spp"}));
-     }},
+    {"spp_limit",
+     [](S& s, Text n, Text v) { s.pace.spp_limit = static_cast<int>(number(n, v, ranges::spp_limit)); }},
+    {"seconds_limit", [](S& s, Text n, Text v) { s.pace.seconds_limit = number(n, v, ranges::seconds_limit); }},
+    {"equal", [](S& s, Text n, Text v) { s.pace.equal = static_cast<Pace::Equal>(one_of(n, v, words::shares)); }},
     {"size",
      [](S& s, Text, Text v) {
          s.size = {SizeChoice::Base::custom, 1, size_of(v)};
      }},
-    {"exposure", [](S& s, Text n, Text v) { s.tone.exposure = static_cast<float>(number(n, v, -10, 10)); }},
-    {"gamma", [](S& s, Text n, Text v) { s.tone.gamma = static_cast<float>(number(n, v, 1, 4)); }},
-    {"tone",
-     [](S& s, Text n, Text v) {
-         s.tone.curve = static_cast<Tone::Curve>(one_of(n, v, {"srgb", "gamma", "filmic"}));
-     }},
+    {"exposure",
+     [](S& s, Text n, Text v) { s.tone.exposure = static_cast<float>(number(n, v, ranges::exposure)); }},
+    {"gamma", [](S& s, Text n, Text v) { s.tone.gamma = static_cast<float>(number(n, v, ranges::gamma)); }},
+    {"tone", [](S& s, Text n, Text v) { s.tone.curve = static_cast<Tone::Curve>(one_of(n, v, words::tones)); }},
     {"magnifier", flag<[](S& s) -> bool& { return s.magnifier; }>},
     {"tiles", flag<[](S& s) -> bool& { return s.show_tiles; }>},
-    {"inspector",
-     [](S& s, Text n, Text v) {
-         s.inspector.active = one_of(n, v, {"off", "on"}) == 1;
-         s.slow_motion.active = s.slow_motion.active && !s.inspector.active;
-     }},
-    {"slow_motion",
-     [](S& s, Text n, Text v) {
-         s.slow_motion.active = one_of(n, v, {"off", "on"}) == 1;
-         s.inspector.active = s.inspector.active && !s.slow_motion.active;
-     }},
+    {"inspector", [](S& s, Text n, Text v) { s.set_inspector(one_of(n, v, words::off_on) == 1); }},
+    {"slow_motion", [](S& s, Text n, Text v) { s.set_slow_motion(one_of(n, v, words::off_on) == 1); }},
     {"slow_motion_held", flag<[](S& s) -> bool& { return s.slow_motion.held; }>},
     {"slow_motion_speed",
      [](S& s, Text n, Text v) {
          s.slow_motion.speed =
-             static_cast<float>(number(n, v, double{SlowMotion::least_speed}, double{SlowMotion::most_speed}));
+             static_cast<float>(number(n, v, {double{SlowMotion::least_speed}, double{SlowMotion::most_speed}}));
      }},
     {"inspector_shows",
      [](S& s, Text n, Text v) {
-         s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, {"to_pixel", "from_pixel"}));
+         s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, words::directions));
      }},
     {"mark_negative", flag<[](S& s) -> bool& { return s.mark_negative; }>},
-    {"theme",
+    {"theme", [](S& s, Text n, Text v) { s.theme = static_cast<Theme>(one_of(n, v, words::themes)); }},
+    {"ui_scale",
      [](S& s, Text n, Text v) {
-         s.theme = static_cast<Theme>(one_of(n, v, {"dark", "light"}));
+         s.set_ui_scale(static_cast<float>(number(n, v, {1, 3})));
      }},
-    {"ui_scale", [](S& s, Text n, Text v) { s.set_ui_scale(static_cast<float>(number(n, v, 1, 3))); }},
     {"panel", flag<[](S& s) -> bool& { return s.show_panel; }>},
     {"statistics", flag<[](S& s) -> bool& { return s.show_statistics; }>},
     {"charts", flag<[](S& s) -> bool& { return s.show_charts; }>},
-    {"chart",
-     [](S& s, Text n, Text v) {
-         s.chart_kind = static_cast<ChartKind>(one_of(n, v, {"error", "efficiency", "shifts"}));
-     }},
+    {"chart", [](S& s, Text n, Text v) { s.chart_kind = static_cast<ChartKind>(one_of(n, v, words::charts)); }},
     {"large_charts", flag<[](S& s) -> bool& { return s.large_charts; }>},
     {"reference_spp",
-     [](S& s, Text n, Text v) { s.reference_making.spp = static_cast<int>(number(n, v, 2, 1 << 24)); }},
+     [](S& s, Text n, Text v) { s.reference_making.spp = static_cast<int>(number(n, v, ranges::reference_spp)); }},
     {"reference_method", [](S& s, Text, Text v) { s.reference_making.method = method_named(v); }},
-    {"charts_axis",
-     [](S& s, Text n, Text v) {
-         s.charts_by_spp = one_of(n, v, {"seconds", "spp"}) == 1;
-     }},
+    {"charts_axis", [](S& s, Text n, Text v) { s.charts_by_spp = one_of(n, v, words::chart_axes) == 1; }},
     {"alpha",
      [](S& s, Text n, Text v) {
-         s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, 0.001, 10));
+         s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, ranges::alpha));
          s.share_settings();
      }},
     {"norm",

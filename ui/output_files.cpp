@@ -2,6 +2,7 @@
 
 #include <ctime>
 #include <set>
+#include <system_error>
 
 namespace tessera {
 
@@ -10,9 +11,10 @@ std::filesystem::path dated_file(const std::string& ending) {
     const std::time_t now = std::time(nullptr);
     char stem[32];
     std::strftime(stem, sizeof stem, "tessera-%Y%m%d-%H%M%S", std::localtime(&now));
-    const std::filesystem::path folder = std::filesystem::current_path();
+    std::error_code ignored; // a current folder that is gone shows when the file is to be written
+    const std::filesystem::path folder = std::filesystem::current_path(ignored);
     std::filesystem::path file = folder / (stem + ending);
-    for (int n = 2; given.count(file) > 0 || std::filesystem::exists(file); ++n)
+    for (int n = 2; given.count(file) > 0 || std::filesystem::exists(file, ignored); ++n)
         file = folder / (stem + ("-" + std::to_string(n)) + ending);
     given.insert(file);
     return file;

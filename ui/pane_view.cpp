@@ -160,7 +160,9 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         mouse.left = mouse.middle = mouse.right = false; // the wheel still works
     }
     if ((state.inspector.active || state.slow_motion.active) && mouse.left && !mouse.ctrl && !mouse.shift) {
-        choose_sample(index, frame, state);
+        // A tile that is found moves the picture under the mouse, which is then over another's pixels.
+        if (!state.slow_motion.active || ImGui::IsItemActivated())
+            choose_sample(index, frame, state);
         mouse.left = false;
     }
     const glm::ivec2 image_size = state.request_size();
@@ -181,12 +183,12 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
         return;
     const float share = (mouse_position().x - frame.rect.min.x) / frame.rect.size().x;
     const int shown = showing_at(state, index, share).pane;
-    const SampleChoice choice{
-        shown == the_reference ? index : shown, glm::ivec2(place * glm::vec2(state.request_size())), {}};
+    const auto slot_of = [&](int pane) { return state.panes[static_cast<std::size_t>(pane)].slot; };
+    const glm::ivec2 pixel(place * glm::vec2(state.request_size()));
     if (state.slow_motion.active)
-        state.slow_motion.start({index, choice.pixel, {}});
+        state.slow_motion.start({slot_of(index), pixel, {}});
     else
-        state.inspector.choose(choice);
+        state.inspector.choose({slot_of(shown == the_reference ? index : shown), pixel, {}});
 }
 
 PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {

@@ -120,8 +120,7 @@ void draw_message(const Message& message, int index, Controls& controls, ViewerS
     if (message.sample) {
         const std::string id = "inspect_message" + std::to_string(index);
         if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector.")) {
-            state.inspector.active = true;
-            state.slow_motion.active = false;
+            state.set_inspector(true);
             state.inspector.choose(*message.sample);
             state.show_messages = false;
         }

@@ -66,9 +66,9 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
         return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({clip.min.x, clip.min.y}, {clip.max.x, clip.max.y}, true);
-    const bool is_shown = inspector.inspection && pane == inspector.pane &&
-                          pane < static_cast<int>(state.panes.size()) &&
-                          inspector.generation == state.panes[static_cast<std::size_t>(pane)].generation;
+    const PaneState& own = state.panes[static_cast<std::size_t>(pane)];
+    const bool is_shown =
+        inspector.inspection && inspector.slot == own.slot && inspector.generation == own.generation;
     if (is_shown) {
         draw_sets(frame, inspector);
         const float radius = state.scene->radius();

@@ -1,6 +1,7 @@
 #include "ui/picture_error.h"
 
 #include "recon/metrics.h"
+#include "ui/error_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,6 @@
 namespace tessera {
 
 namespace {
-
-bool is_like(const RgbImage& a, const RgbImage& b) {
-    return a.width() == b.width() && a.height() == b.height();
-}
 
 bool has_halves(const Reference& reference) {
     return !reference.halves[0].empty();
@@ -49,7 +46,7 @@ std::optional<PictureError> error_to(const Reference& reference, const RgbImage&
     const bool halves = has_halves(reference);
     const RgbImage& a = halves ? reference.halves[0] : reference.image;
     const RgbImage& b = halves ? reference.halves[1] : reference.image;
-    if (picture.empty() || !is_like(picture, a))
+    if (picture.empty() || !same_size(picture, a))
         return std::nullopt;
     const std::vector<std::size_t> left_out = not_finite({&picture, &a, &b});
     if (left_out.size() == picture.size())
@@ -81,7 +78,7 @@ std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image
     reference->name = std::move(name);
     reference->image = std::move(image);
     reference->scene = scene;
-    if (!halves[0].empty() && is_like(halves[0], reference->image) && is_like(halves[1], reference->image))
+    if (!halves[0].empty() && same_size(halves[0], reference->image) && same_size(halves[1], reference->image))
         reference->halves = std::move(halves);
     const Reference& r = *reference;
     reference->not_finite =

@@ -47,7 +47,8 @@ void save_charts(Viewer& viewer, glm::ivec2 pixels) {
 
 bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
     ViewerState& state = viewer.state();
-    age_ = state.save_picture || state.save_charts ? age_ + 1 : 0;
+    const bool is_wished = state.save_picture || state.save_charts;
+    age_ = is_wished && !(state.save_charts && state.histograms_due) ? age_ + 1 : 0; // their end brings a frame
     if (age_ == 0)
         return false;
     if (age_ < frames_until_still)

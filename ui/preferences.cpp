@@ -45,7 +45,7 @@ Preferences parse(const std::string& text) {
 } // namespace
 
 void Preferences::add_recent(const std::filesystem::path& scene) {
-    const std::string name = std::filesystem::absolute(scene).lexically_normal().string();
+    const std::string name = scene.lexically_normal().string();
     std::erase(recent_scenes, name);
     recent_scenes.insert(recent_scenes.begin(), name);
     recent_scenes.resize(std::min(recent_scenes.size(), most_recent));

@@ -24,7 +24,7 @@ struct Preferences {
     bool operator==(const Preferences&) const = default;
 
     static constexpr std::size_t most_recent = 8;
-    void add_recent(const std::filesystem::path& scene);
+    void add_recent(const std::filesystem::path& scene); ///< in full
 };
 
 /// Where they are kept: $XDG_CONFIG_HOME/tessera/viewer.json, or below ~/.config. Empty: there is no such place.

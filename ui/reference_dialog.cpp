@@ -2,6 +2,7 @@
 #include "ui/buffer.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +67,7 @@ void draw_notes(Controls& controls, ViewerState& state) {
 void draw_form(Controls& controls, ViewerState& state) {
     ReferenceMaking& making = state.reference_making;
     draw_method(controls, making);
-    controls.number("reference.spp", "Samples a pixel", making.spp, 2, 1 << 24,
+    controls.number("reference.spp", "Samples a pixel", making.spp, 2, ranges::most_spp,
                     "Of two independent halves together: their difference tells how far the reference is from the "
                     "truth.");
     draw_file(controls, state);

@@ -95,7 +95,7 @@ void ReferenceJob::update(ViewerState& state, int threads, const std::function<v
 }
 
 void ReferenceJob::start(ViewerState& state, int threads, const std::function<void()>& wake) {
-    const ReferenceMaking& making = state.reference_making;
+    ReferenceMaking& making = state.reference_making;
     const std::filesystem::path file = wanted_reference_file(state);
     ReferenceRecipe recipe;
     recipe.settings.method = making.method;
@@ -103,15 +103,15 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     recipe.size = state.request_size();
     recipe.spp = making.spp;
     recipe.checkpoint_seconds = 30;
-    scene_ = state.scene;
+    subject_ = {state.scene, state.camera.camera(), recipe.size};
     ReferenceProgress progress;
     progress.file = file;
     progress.spp_wanted = recipe.spp;
     progress.seconds_left = std::numeric_limits<double>::infinity();
     watch_ = std::make_shared<Watch>(progress, wake);
-    const PictureSubject subject{{state.scene_file, {}, {}}, state.scene, state.camera.camera()};
+    const PictureSubject subject{{state.scene_file, {}, {}}, state.scene, subject_.camera};
     job_.start(
-        [=, watch = watch_, anew = making.anew](std::stop_token stop) -> Made {
+        [=, watch = watch_, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {
             work_behind_others(); // and so do the pool's threads, which begin as their maker is
             check_writable(file);
             if (anew)
@@ -130,7 +130,7 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
 void ReferenceJob::take(ViewerState& state, BackgroundJob<Made>::Outcome outcome) {
     const std::string file = watch_->progress().file.string();
     watch_.reset();
-    const std::shared_ptr<const Scene> scene = std::exchange(scene_, nullptr);
+    const Subject subject = std::exchange(subject_, {});
     if (!outcome.result)
         return state.add_message(Message::Kind::error, "The reference was not made: " + outcome.error);
     const Made& made = *outcome.result;
@@ -140,11 +140,13 @@ void ReferenceJob::take(ViewerState& state, BackgroundJob<Made>::Outcome outcome
         return state.add_message(Message::Kind::note,
                                  fmt::format("The reference has {} spp; made again, it goes on from {}", made.spp,
                                              reference_checkpoint(file).string()));
+    const bool is_on_show = subject == Subject{state.scene, state.camera.camera(), state.request_size()};
     state.add_message(Message::Kind::note,
-                      fmt::format("Saved the reference, {} spp, to {}; its own relMSE is {:.3g} +- {:.2g}",
-                                  made.spp, file, made.error->relative_mse, made.error->standard_error));
+                      fmt::format("Saved the reference, {} spp, to {}; its own relMSE is {:.3g} +- {:.2g}{}",
+                                  made.spp, file, made.error->relative_mse, made.error->standard_error,
+                                  is_on_show ? "" : ". It is not opened: the panes show another view by now"));
     state.reference_making.show = false;
-    if (scene == state.scene)
+    if (is_on_show)
         state.reference_file = file;
 }
 

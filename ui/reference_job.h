@@ -15,8 +15,8 @@ namespace tessera {
 class ReferenceJob {
 public:
     /// To be called every frame: fulfils the wishes of state.reference_making, and tells how far it is. What is
-    /// complete becomes the reference of the state if its scene is still on show. `threads` as in ThreadPool;
-    /// `wake` is called from another thread when there is something new.
+    /// complete becomes the reference of the state if its scene, camera and size are still what the panes show.
+    /// `threads` as in ThreadPool; `wake` is called from another thread when there is something new.
     void update(ViewerState& state, int threads, const std::function<void()>& wake);
 
 private:
@@ -26,12 +26,19 @@ private:
         int spp = 0;
         std::vector<std::string> warnings;
     };
+    /// What it is made of.
+    struct Subject {
+        std::shared_ptr<const Scene> scene;
+        Camera camera;
+        glm::ivec2 size{0};
+        bool operator==(const Subject&) const = default;
+    };
     class Watch;
     void start(ViewerState& state, int threads, const std::function<void()>& wake);
     void take(ViewerState& state, BackgroundJob<Made>::Outcome outcome);
 
     std::shared_ptr<Watch> watch_; // of the job under way
-    std::shared_ptr<const Scene> scene_;
+    Subject subject_;
     BackgroundJob<Made> job_;
 };
 

@@ -4,6 +4,7 @@
 #include "render/load/camera_file.h"
 #include "render/load/scene_source.h"
 #include "render/session/reference_render.h"
+#include "ui/file_list.h"
 #include "ui/viewer_state.h"
 
 #include <cmath>
@@ -25,13 +26,12 @@ std::filesystem::path default_reference_file(const ViewerState& state) {
 }
 
 std::filesystem::path wanted_reference_file(const ViewerState& state) {
-    std::error_code ignored;
     std::string typed = state.reference_making.file.data();
     if (typed.empty())
         return default_reference_file(state);
-    if (std::filesystem::path(typed).extension() != ".exr")
+    if (!has_extension(typed, ".exr"))
         typed += ".exr";
-    return std::filesystem::absolute(typed, ignored);
+    return typed_file(typed);
 }
 
 std::optional<double> estimated_seconds(const ViewerState& state) {

@@ -5,13 +5,7 @@
 namespace tessera {
 
 SaveQueue::~SaveQueue() {
-    job_ = {}; // waits
-    for (const Waiting& next : waiting_) {
-        try {
-            next.work();
-        } catch (const std::exception&) { // nobody is left to be told
-        }
-    }
+    finish();
 }
 
 void SaveQueue::add(Work work, std::function<void()> on_done) {
@@ -30,6 +24,13 @@ void SaveQueue::start_next() {
             return work();
         },
         std::move(next.on_done));
+}
+
+std::vector<SaveQueue::Outcome> SaveQueue::finish() {
+    std::vector<Outcome> outcomes;
+    for (; job_.running(); start_next())
+        outcomes.push_back(*job_.wait());
+    return outcomes;
 }
 
 std::optional<SaveQueue::Outcome> SaveQueue::poll() {

@@ -10,7 +10,7 @@ namespace tessera {
 /// are written.
 class SaveQueue {
 public:
-    /// Writes; returns what was saved where. Throws std::exception.
+    /// Writes; returns what was saved where, empty: what nobody need be told of. Throws std::exception.
     using Work = std::function<std::string()>;
     using Outcome = BackgroundJob<std::string>::Outcome;
 
@@ -26,6 +26,9 @@ public:
 
     /// What came of the oldest, once; begins the next. Never waits.
     std::optional<Outcome> poll();
+
+    /// Writes all that is left, and waits; what came of each that had not been polled.
+    std::vector<Outcome> finish();
 
 private:
     struct Waiting {

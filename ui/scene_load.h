@@ -2,14 +2,14 @@
 
 #include "render/load/load_progress.h"
 #include "render/scene/scene.h"
+#include "ui/background_job.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace tessera {
@@ -38,14 +38,12 @@ struct SceneLoadResult {
     SceneOrigin origin;
     std::vector<std::string> notes;
     std::string error;
-    double seconds = 0; ///< wall time
 };
 
 /// One scene on its way, loaded in the background. Its end gives the scene up and waits for the loader.
 class SceneLoad {
 public:
-    SceneLoad();
-    ~SceneLoad();
+    ~SceneLoad() { cancel(); }
 
     /// A load under way is given up: nothing more is heard of it. `on_done` is called from the loading thread,
     /// once poll() has a result.
@@ -54,18 +52,21 @@ public:
     /// Gives up what is under way: nothing more is heard of it.
     void cancel();
 
-    bool running() const { return job_ != nullptr; }
-    const SceneOrigin& origin() const; ///< only while running, as the next two
-    LoadProgress::State progress() const;
+    bool running() const { return job_.running(); }
+    const SceneOrigin& origin() const { return origin_; } ///< only while running, as the next two
+    LoadProgress::State progress() const { return progress_->state(); }
     double seconds() const; ///< since its start
 
     /// The result, once; never waits.
     std::optional<SceneLoadResult> poll();
 
 private:
-    struct Job;
-    std::unique_ptr<Job> job_;
-    std::vector<std::unique_ptr<Job>> given_up_; // until they have ended by themselves
+    using Clock = std::chrono::steady_clock;
+
+    SceneOrigin origin_;
+    Clock::time_point start_;
+    std::shared_ptr<LoadProgress> progress_; // of the job, which may outlast it; null before the first
+    BackgroundJob<SceneLoadResult> job_;
 };
 
 } // namespace tessera

@@ -39,7 +39,7 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const auto origin =
         std::make_shared<const PassOrigin>(PassOrigin{sent.scene, snapshot->camera, sent.size, snapshot->settings,
                                                       snapshot->refused_plan, snapshot->generation});
-    state.messages.back().sample = SampleChoice{static_cast<int>(pane), {first.x, first.y}, first.pass, origin};
+    state.messages.back().sample = SampleChoice{state.panes[pane].slot, {first.x, first.y}, first.pass, origin};
 }
 
 void SessionLink::send(ViewerState& state) {

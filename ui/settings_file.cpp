@@ -18,25 +18,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* bases[] = {"pane", "scene", "custom"};
-constexpr const char* curves[] = {"srgb", "gamma", "filmic"};
-constexpr const char* comparisons[] = {"off", "wipe", "difference"};
-constexpr const char* shares[] = {"time", "spp"};
-constexpr const char* charts[] = {"error", "efficiency", "shifts"};
-constexpr const char* axes[] = {"seconds", "spp"};
-
-template <class Enum, std::size_t count>
-const char* word(const char* const (&words)[count], Enum value) {
-    return words[static_cast<std::size_t>(value)];
-}
-
 ordered_json pane_json(const PaneSettings& pane) {
     ordered_json json{{"method", short_name(pane.render.method)},
                       {"buffer", short_name(pane.buffer)},
                       {"norm", to_string(pane.reconstruction.norm)},
                       {"alpha", pane.reconstruction.alpha},
                       {"joint_colour", pane.reconstruction.joint_colour},
-                      {"comparison", word(comparisons, pane.comparison.kind)},
+                      {"comparison", word(words::comparisons, pane.comparison.kind)},
                       {"compare_with", pane.comparison.with + 1},
                       {"seed", pane.render.seed}};
     for (const Setting& setting : all_settings())
@@ -58,10 +46,10 @@ PaneSettings read_pane(const JsonFields& fields, PaneSettings pane) {
             throw std::invalid_argument("there is no such norm");
         pane.reconstruction.norm = *norm;
     });
-    fields.read("alpha", 0.001, 10, pane.reconstruction.alpha);
+    fields.read("alpha", ranges::alpha, pane.reconstruction.alpha);
     fields.read("joint_colour", pane.reconstruction.joint_colour);
-    fields.read("comparison", comparisons, pane.comparison.kind);
-    fields.read("compare_with", 0, the_reference + 1, pane.comparison.with);
+    fields.read("comparison", words::comparisons, pane.comparison.kind);
+    fields.read("compare_with", {0, the_reference + 1}, pane.comparison.with);
     if (fields.has("compare_with"))
         --pane.comparison.with;
     fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });
@@ -91,8 +79,8 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
         }
         const JsonFields ends = fields.object(name);
         ValueRange& range = ranges[buffer];
-        ends.read("low", 0, 1e12, range.low);
-        ends.read("high", 0, 1e12, range.high);
+        ends.read("low", {0, 1e12}, range.low);
+        ends.read("high", {0, 1e12}, range.high);
         ends.read("logarithmic", range.logarithmic);
         if (!(range.low < range.high) || (range.logarithmic && range.low <= 0))
             fields.fail(name, "the range of " + name + " is in disorder");
@@ -103,16 +91,16 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
 /// What is common to all panes, but for the camera.
 void read_display(const JsonFields& fields, ViewerState& state) {
     const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
-    size.read("base", bases, state.size.base);
-    size.read("scale", 0.05, 2, state.size.scale);
-    size.read("width", 1, most_render_pixels_an_edge, state.size.custom.x);
-    size.read("height", 1, most_render_pixels_an_edge, state.size.custom.y);
-    tone.read("curve", curves, state.tone.curve);
-    tone.read("exposure", -10, 10, state.tone.exposure);
-    tone.read("gamma", 1, 4, state.tone.gamma);
-    pace.read("equal", shares, state.pace.equal);
-    pace.read("spp_limit", 0, 1 << 24, state.pace.spp_limit);
-    pace.read("seconds_limit", 0, 1e7, state.pace.seconds_limit);
+    size.read("base", words::sizes, state.size.base);
+    size.read("scale", {0.05, 2}, state.size.scale);
+    size.read("width", {1, most_render_pixels_an_edge}, state.size.custom.x);
+    size.read("height", {1, most_render_pixels_an_edge}, state.size.custom.y);
+    tone.read("curve", words::tones, state.tone.curve);
+    tone.read("exposure", ranges::exposure, state.tone.exposure);
+    tone.read("gamma", ranges::gamma, state.tone.gamma);
+    pace.read("equal", words::shares, state.pace.equal);
+    pace.read("spp_limit", ranges::spp_limit, state.pace.spp_limit);
+    pace.read("seconds_limit", ranges::seconds_limit, state.pace.seconds_limit);
     fields.read("mark_negative", state.mark_negative);
     if (fields.has("ranges"))
         state.ranges = read_ranges(fields.object("ranges"));
@@ -123,17 +111,18 @@ void read_view(const JsonFields& fields, ViewerState& state) {
     const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
     float zoom = state.view.zoom();
     glm::vec2 center = state.view.center();
-    picture.read("zoom", double{ImageView::least_zoom}, double{ImageView::most_zoom}, zoom);
-    picture.read("x", 0, 1, center.x);
-    picture.read("y", 0, 1, center.y);
-    state.view = ImageView(zoom, center);
-    fields.read("wipe", 0, 1, state.wipe);
+    picture.read("zoom", {double{ImageView::least_zoom}, double{ImageView::most_zoom}}, zoom);
+    picture.read("x", {0, 1}, center.x);
+    picture.read("y", {0, 1}, center.y);
+    if (fields.has("picture"))
+        state.set_view(ImageView(zoom, center));
+    fields.read("wipe", {0, 1}, state.wipe);
     fields.read("alone", state.alone);
     fields.read("tiles", state.show_tiles);
     fields.read("magnifier", state.magnifier);
     int axis = state.charts_by_spp ? 1 : 0;
-    chart.read("show", charts, state.chart_kind);
-    chart.read("against", axes, axis);
+    chart.read("show", words::charts, state.chart_kind);
+    chart.read("against", words::chart_axes, axis);
     state.charts_by_spp = axis == 1;
 }
 
@@ -150,14 +139,14 @@ void read_panes(const JsonFields& fields, ViewerState& state) {
     state.set_pane_count(static_cast<int>(panes.size()));
     for (std::size_t i = 0; i < panes.size(); ++i)
         state.panes[i].settings = panes[i];
-    fields.read("active", 1, static_cast<double>(panes.size()), state.active_pane);
+    fields.read("active", {1, static_cast<double>(panes.size())}, state.active_pane);
     if (fields.has("active"))
         --state.active_pane;
 }
 
 void read_camera(const JsonFields& fields, const Camera& camera, ViewerState& state) {
     float distance = 0;
-    fields.read("target_distance", 0, 1e12, distance);
+    fields.read("target_distance", {0, 1e12}, distance);
     state.camera.put(camera, distance);
 }
 
@@ -165,7 +154,8 @@ void read_camera(const JsonFields& fields, const Camera& camera, ViewerState& st
 void read_all(const std::string& file, const std::string& name, ViewerState& state) {
     const JsonText text(file, name);
     const ordered_json json = text.parse();
-    const JsonFields fields(text, json, "");
+    JsonReading reading(text);
+    const JsonFields fields(reading, json, "");
     if (fields.has("to_world"))
         return read_camera(fields, parse_camera(file, name), state);
     bool linked = state.linked;
@@ -180,6 +170,9 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         if (!state.companions.reference || state.companions.reference->name != reference)
             state.reference_file = reference;
     });
+    fields.has("scene"); // for who reads it
+    for (std::string& line : reading.unknown())
+        state.add_message(Message::Kind::note, std::move(line));
 }
 
 } // namespace
@@ -194,25 +187,27 @@ std::string settings_json(const ViewerState& state) {
         {"alone", state.alone},
         {"linked", state.linked},
         {"size",
-         {{"base", word(bases, state.size.base)},
+         {{"base", word(words::sizes, state.size.base)},
           {"scale", state.size.scale},
           {"width", state.size.custom.x},
           {"height", state.size.custom.y}}},
         {"tone",
-         {{"curve", word(curves, state.tone.curve)},
+         {{"curve", word(words::tones, state.tone.curve)},
           {"exposure", state.tone.exposure},
           {"gamma", state.tone.gamma}}},
         {"ranges", ranges_json(state.ranges)},
         {"mark_negative", state.mark_negative},
         {"pace",
-         {{"equal", word(shares, state.pace.equal)},
+         {{"equal", word(words::shares, state.pace.equal)},
           {"spp_limit", state.pace.spp_limit},
           {"seconds_limit", state.pace.seconds_limit}}},
         {"picture", {{"zoom", state.view.zoom()}, {"x", state.view.center().x}, {"y", state.view.center().y}}},
         {"wipe", state.wipe},
         {"tiles", state.show_tiles},
         {"magnifier", state.magnifier},
-        {"charts", {{"show", word(charts, state.chart_kind)}, {"against", axes[state.charts_by_spp ? 1 : 0]}}},
+        {"charts",
+         {{"show", word(words::charts, state.chart_kind)},
+          {"against", words::chart_axes[state.charts_by_spp ? 1 : 0]}}},
         {"scene", state.scene_name}, // for who reads it: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},

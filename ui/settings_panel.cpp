@@ -1,6 +1,7 @@
 #include "render/method/settings_table.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +77,7 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
                                    "How the picture is made from primal and gradients (screened Poisson).");
     settings.norm = static_cast<Norm>(index);
     ImGui::BeginDisabled(settings.norm == Norm::none || settings.norm == Norm::uniform);
-    changed |= controls.log_slider("alpha", "Alpha", settings.alpha, 0.001f, 10,
+    changed |= controls.log_slider("alpha", "Alpha", settings.alpha, ranges::alpha.low(), ranges::alpha.high(),
                                    "Weight of the primal against the gradients (no unit). Small: gradients alone "
                                    "decide on all but the mean, as far as they are trusted.");
     ImGui::EndDisabled();
@@ -141,9 +142,9 @@ void draw_pace(Controls& controls, Pace& pace) {
     int share = static_cast<int>(pace.equal);
     if (controls.choice("equal", "Panes have", shares, share, "How the panes share the cores."))
         pace.equal = static_cast<Pace::Equal>(share);
-    controls.number("spp_limit", "Stop at spp", pace.spp_limit, 0, 1 << 24,
+    controls.number("spp_limit", "Stop at spp", pace.spp_limit, 0, ranges::most_spp,
                     "Samples a pixel after which the panes rest. 0: they never do.");
-    controls.number("seconds_limit", "Stop at seconds", pace.seconds_limit, 0, 1e7,
+    controls.number("seconds_limit", "Stop at seconds", pace.seconds_limit, 0, ranges::most_seconds,
                     "Seconds (wall time) of a pane's own passes after which it rests. 0: it never does.");
 }
 
@@ -204,7 +205,8 @@ void draw_reference_settings(Controls& controls, ViewerState& state) {
 }
 
 void draw_display_settings(Controls& controls, ViewerState& state) {
-    controls.slider("exposure", "Exposure", state.tone.exposure, -10, 10, "%+.1f stops",
+    controls.slider("exposure", "Exposure", state.tone.exposure, ranges::exposure.low(), ranges::exposure.high(),
+                    "%+.1f stops",
                     "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.");
     static const std::array<ChoiceItem, 3> curves = {{
         {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},

@@ -23,10 +23,10 @@ void SlowMotion::rewind() {
     arrived = rested = 0;
 }
 
-void SlowMotion::take(std::shared_ptr<const TileInspection> found, int of_pane, std::uint64_t of_generation) {
-    frames = frames || !tile || !(tile->tile == found->tile) || pane != of_pane;
+void SlowMotion::take(std::shared_ptr<const TileInspection> found, int of_slot, std::uint64_t of_generation) {
+    frames = frames || !tile || !(tile->tile == found->tile) || slot != of_slot;
     tile = std::move(found);
-    pane = of_pane;
+    slot = of_slot;
     generation = of_generation;
     rewind();
 }

@@ -21,7 +21,7 @@ struct SlowMotion {
 
     /// The newest that has been found out; null: nothing yet.
     std::shared_ptr<const TileInspection> tile;
-    int pane = 0;                 ///< whose it is, ...
+    int slot = 0;                 ///< of the pane whose it is, ...
     std::uint64_t generation = 0; ///< ... and of which request
 
     int current = 0;    ///< base path of the tile, over all its sets; base_count(): all have arrived
@@ -33,13 +33,13 @@ struct SlowMotion {
     void start(const SampleChoice& choice);
     void rewind();
     /// A tile that was asked for is there.
-    void take(std::shared_ptr<const TileInspection> found, int of_pane, std::uint64_t of_generation);
+    void take(std::shared_ptr<const TileInspection> found, int of_slot, std::uint64_t of_generation);
     /// Time goes by. True: it is over, and the next tile is due.
     bool advance(float seconds);
     /// One base path on, or back, and waits there.
     void step(int by);
     bool shows_choice() const {
-        return tile && sample && sample->pane == pane && tile->tile.contains(sample->pixel);
+        return tile && sample && sample->slot == slot && tile->tile.contains(sample->pixel);
     }
     bool is_playing() const { return active && shows_choice() && !held; }
 

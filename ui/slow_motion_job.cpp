@@ -10,7 +10,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     SlowMotion& slow = state.slow_motion;
     if (const auto outcome = job_.poll()) {
         if (outcome->result) {
-            slow.take(*outcome->result, asked_.sample.pane, asked_.generation);
+            slow.take(*outcome->result, asked_.sample.slot, asked_.generation);
             state.space.fits = state.redraw = true;
         } else {
             state.add_message(Message::Kind::error, outcome->error);
@@ -27,15 +27,16 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         return;
     choose(state);
     if (slow.advance(seconds))
-        slow.start({slow.pane, slow.next_pixel(state.request_size()), {}});
+        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
     if (!job_.running())
         ask(state, wake);
 }
 
-/// A tile of the active pane: under the mouse, else the inspector's, else in the middle.
+/// A tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in the
+/// middle.
 void SlowMotionJob::choose(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
-    if (slow.sample && slow.sample->pane == state.active_pane)
+    if (slow.sample && slow.sample->slot == state.active().slot)
         return;
     const glm::vec2 size(state.request_size());
     glm::ivec2 pixel(size * 0.5f);
@@ -46,23 +47,23 @@ void SlowMotionJob::choose(ViewerState& state) {
         pixel = inspector.sample->pixel;
     else if (state.cursor && state.cursor->pane == state.active_pane)
         pixel = glm::ivec2(state.cursor->place * size);
-    slow.start({state.active_pane, pixel, {}});
+    slow.start({state.active().slot, pixel, {}});
 }
 
-void SlowMotionJob::ask(const ViewerState& state, const std::function<void()>& wake) {
-    const SlowMotion& slow = state.slow_motion;
-    const PaneState& pane = state.panes[static_cast<std::size_t>(slow.sample->pane)];
+void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
+    SlowMotion& slow = state.slow_motion;
+    const PaneState& pane = state.active(); // see choose
     const auto snapshot = pane.snapshot;
     if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse || snapshot->spp < 1)
         return;
+    const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
+    slow.sample->pixel = glm::clamp(slow.sample->pixel, glm::ivec2(0), size - 1); // the picture may have shrunk
     const Asked wanted{snapshot->generation, *slow.sample};
     if (wanted == asked_)
         return;
     asked_ = wanted;
-    const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
-    const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), size - 1);
     job_.start(
-        [scene = state.scene, snapshot, size, pixel](std::stop_token) {
+        [scene = state.scene, snapshot, size, pixel = slow.sample->pixel](std::stop_token) {
             return std::make_shared<const TileInspection>(inspect_tile(
                 *scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, snapshot->spp - 1, pixel));
         },

@@ -21,7 +21,7 @@ private:
         bool operator==(const Asked&) const = default;
     };
     static void choose(ViewerState& state);
-    void ask(const ViewerState& state, const std::function<void()>& wake);
+    void ask(ViewerState& state, const std::function<void()>& wake);
 
     BackgroundJob<std::shared_ptr<const TileInspection>> job_;
     Asked asked_; // last

@@ -149,11 +149,14 @@ private:
 
 } // namespace
 
-bool shows_slow_motion(int pane, const ViewerState& state) {
+bool has_slow_motion(const ViewerState& state) {
     const SlowMotion& slow = state.slow_motion;
-    return slow.active && slow.tile && !slow.tile->sets.empty() && slow.pane == pane &&
-           pane < static_cast<int>(state.panes.size()) &&
-           slow.generation == state.panes[static_cast<std::size_t>(pane)].generation;
+    const PaneState* pane = state.pane_in(slow.slot);
+    return slow.active && slow.tile && !slow.tile->sets.empty() && pane && slow.generation == pane->generation;
+}
+
+bool shows_slow_motion(int pane, const ViewerState& state) {
+    return has_slow_motion(state) && state.panes[static_cast<std::size_t>(pane)].slot == state.slow_motion.slot;
 }
 
 void draw_slow_motion(const PictureFrame& frame, const ScreenRect& clip, int pane, const ViewerState& state) {

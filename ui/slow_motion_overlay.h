@@ -5,7 +5,9 @@
 
 namespace tessera {
 
-/// Whether the slow motion has a tile of this pane to show.
+/// Whether the slow motion has a tile to show.
+bool has_slow_motion(const ViewerState& state);
+/// Whether it is this pane's.
 bool shows_slow_motion(int pane, const ViewerState& state);
 
 /// Draws the tile over the picture of its pane: its parts, the sampling set at hand with its border, what every

@@ -3,6 +3,7 @@
 #include "ui/path_drawing.h"
 #include "ui/slow_motion_overlay.h"
 #include "ui/theme.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +13,6 @@
 namespace tessera {
 
 namespace {
-
-constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_NoScrollWithMouse;
 
 void draw_controls(Controls& controls, ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
@@ -31,7 +28,7 @@ void draw_controls(Controls& controls, ViewerState& state) {
         slow.step(1);
     ImGui::SameLine();
     if (controls.button("slow.tile", "Next tile", "The next tile to the right, of the newest pass (Shift+J)."))
-        slow.start({slow.pane, slow.tile ? slow.next_pixel(state.request_size()) : glm::ivec2(0), {}});
+        slow.start({slow.slot, slow.tile ? slow.next_pixel(state.request_size()) : glm::ivec2(0), {}});
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::SliderFloat("##slow.speed", &slow.speed, SlowMotion::least_speed, SlowMotion::most_speed,
@@ -108,9 +105,7 @@ void draw_outcomes(const InspectedSet& set, int k) {
         ImGui::GetWindowDrawList()->AddCircleFilled({at.x + font * 0.3f, at.y + font * 0.55f}, font * 0.28f,
                                                     outcome_colour(static_cast<ShiftOutcome>(i)), 12);
         ImGui::SetCursorScreenPos({at.x + font * 0.8f, at.y});
-        std::string name(to_string(static_cast<ShiftOutcome>(i)));
-        std::replace(name.begin(), name.end(), '_', ' ');
-        ImGui::Text("%s %d", name.c_str(), counts[i]);
+        ImGui::Text("%s %d", in_words(to_string(static_cast<ShiftOutcome>(i))).c_str(), counts[i]);
     }
 }
 
@@ -181,9 +176,9 @@ void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerS
     const SlowMotion& slow = state.slow_motion;
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
-    if (ImGui::Begin("Slow motion", nullptr, flags)) {
+    if (ImGui::Begin("Slow motion", nullptr, overlay_flags | ImGuiWindowFlags_NoScrollWithMouse)) {
         draw_controls(controls, state);
-        if (!shows_slow_motion(slow.pane, state)) {
+        if (!has_slow_motion(state)) {
             ImGui::TextDisabled("waiting for the first whole pass");
         } else {
             const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -156,15 +156,16 @@ void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& vie
     controls.note("space", "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
                            "(yellow) and what the camera sees. A drag turns, with Shift it moves, the wheel comes "
                            "nearer, a double click shows all.");
-    const std::vector<glm::vec3> extent = extent_of(subject, view);
-    if (view.fits && !extent.empty())
-        fit(extent, frame.rect.size(), subject, view);
+    if (view.fits)
+        if (const std::vector<glm::vec3> extent = extent_of(subject, view); !extent.empty())
+            fit(extent, frame.rect.size(), subject, view);
+    const bool has_fitted = !view.fits;
     use_mouse(frame.rect, view);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 max(frame.rect.max.x, frame.rect.max.y);
     list.AddRectFilled(at, max, background);
     list.PushClipRect(at, max, true);
-    if (!extent.empty())
+    if (has_fitted)
         draw_scene(frame, subject, view);
     list.PopClipRect();
     list.AddRect(at, max, border);

@@ -1,6 +1,7 @@
 #include "ui/statistics.h"
 
 #include "ui/buffer.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -37,13 +38,6 @@ std::string decimal(double number) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f", number);
     return text;
-}
-
-/// "shift_edge" as it is written in prose.
-std::string in_words(std::string_view name) {
-    std::string words(name);
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return words;
 }
 
 FigureGroup paths(const Snapshot& snapshot) {

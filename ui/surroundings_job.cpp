@@ -36,13 +36,14 @@ std::vector<glm::vec3> lamps_of(const SceneDescription& scene) {
 
 } // namespace
 
-std::shared_ptr<const Surroundings> SurroundingsJob::find(const View& view, std::stop_token stop) {
+std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, const View& view,
+                                                          std::stop_token stop) {
     work_in_background();
     auto around = std::make_shared<Surroundings>();
     around->camera = view.camera;
     around->size = view.size;
-    around->lamps = lamps_of(view.scene->description());
-    const FirstHits hits = trace_first_hits(*view.scene, view.camera, view.size, stop);
+    around->lamps = lamps_of(scene.description());
+    const FirstHits hits = trace_first_hits(scene, view.camera, view.size, stop);
     const Projection projection(view.camera, view.size);
     for (int y = 0; y < hits.depth.height(); ++y)
         for (int x = 0; x < hits.depth.width(); ++x) {
@@ -56,7 +57,9 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const View& view, std:
 }
 
 void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (const auto outcome = job_.poll(); outcome && outcome->result) {
+    if (const auto outcome = job_.poll(); outcome && !outcome->result) {
+        state.add_message(Message::Kind::error, "What lies around the paths: " + outcome->error);
+    } else if (outcome) {
         const bool first = state.space.surroundings == nullptr;
         state.space.surroundings = *outcome->result;
         state.space.fits = state.space.fits || first;
@@ -69,15 +72,16 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
     const PassOrigin* origin =
         state.inspector.active && !state.slow_motion.active && sample ? sample->origin.get() : nullptr;
     const glm::vec2 whole(origin ? origin->size : state.request_size());
-    const View view{origin ? origin->scene : state.scene,
+    const std::shared_ptr<const Scene> scene = origin ? origin->scene : state.scene;
+    const View view{scene,
                     origin ? origin->camera : state.camera.camera(),
                     {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
     if (view == asked_)
         return;
-    if (view.scene != asked_.scene)
+    if (scene != asked_.scene.lock())
         state.space = {};
     asked_ = view;
-    job_.start([view](std::stop_token stop) { return find(view, stop); }, wake);
+    job_.start([scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
 }
 
 } // namespace tessera

@@ -15,12 +15,14 @@ public:
 
 private:
     struct View {
-        std::shared_ptr<const Scene> scene;
+        std::weak_ptr<const Scene> scene; // not kept alive by what was found in it
         Camera camera;
         glm::ivec2 size{0};
-        bool operator==(const View&) const = default;
+        bool operator==(const View& other) const {
+            return scene.lock() == other.scene.lock() && camera == other.camera && size == other.size;
+        }
     };
-    static std::shared_ptr<const Surroundings> find(const View& view, std::stop_token stop);
+    static std::shared_ptr<const Surroundings> find(const Scene& scene, const View& view, std::stop_token stop);
 
     BackgroundJob<std::shared_ptr<const Surroundings>> job_;
     View asked_; // last

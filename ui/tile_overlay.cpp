@@ -1,6 +1,7 @@
 #include "ui/tile_overlay.h"
 
 #include "render/method/tile_grid.h"
+#include "ui/set_drawing.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -26,11 +27,9 @@ constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90);
 class TileDrawing {
 public:
     TileDrawing(const PictureFrame& frame, const Snapshot& snapshot)
-        : frame_(frame), settings_(snapshot.settings),
-          size_(snapshot.images->primal.width(), snapshot.images->primal.height()),
-          grid_(size_, settings_, *snapshot.plan, snapshot.spp - 1),
-          unit_(frame.placement.extent.x / frame.pixels_a_unit / static_cast<float>(size_.x)),
-          list_(*ImGui::GetWindowDrawList()) {
+        : settings_(snapshot.settings), size_(snapshot.images->primal.width(), snapshot.images->primal.height()),
+          grid_(size_, settings_, *snapshot.plan, snapshot.spp - 1), drawing_(frame, size_),
+          unit_(drawing_.unit()) {
         const glm::vec2 from = frame.to_image(frame.rect.min) * glm::vec2(size_);
         const glm::vec2 to = frame.to_image(frame.rect.max) * glm::vec2(size_);
         visible_ = PixelRect{static_cast<int>(std::floor(from.x)), static_cast<int>(std::floor(from.y)),
@@ -68,21 +67,14 @@ public:
 
 private:
     bool uses_rooks() const { return settings_.method == Method::pr && settings_.pattern == Pattern::rooks; }
-    ImVec2 at(int x, int y) const {
-        const glm::vec2 p = frame_.to_screen(glm::vec2(x, y) / glm::vec2(size_));
-        return {std::floor(p.x), std::floor(p.y)};
-    }
     void line(glm::ivec2 a, glm::ivec2 b, ImU32 colour) const {
-        const ImVec2 from = at(a.x, a.y), to = at(b.x, b.y);
-        list_.AddLine({from.x + 1, from.y + 1}, {to.x + 1, to.y + 1}, shadow_colour);
-        list_.AddLine(from, to, colour);
-    }
-    void fill(PixelRect r, ImU32 colour) const {
-        if (!r.empty())
-            list_.AddRectFilled(at(r.x0, r.y0), at(r.x1, r.y1), colour);
+        const ImVec2 from = drawing_.corner(a), to = drawing_.corner(b);
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddLine({from.x + 1, from.y + 1}, {to.x + 1, to.y + 1}, shadow_colour);
+        list.AddLine(from, to, colour);
     }
     void outline(PixelRect r, ImU32 colour) const {
-        list_.AddRect(at(r.x0, r.y0), at(r.x1, r.y1), colour, 0, 0, std::max(ImGui::GetFontSize() / 10, 1.0f));
+        drawing_.outline(r, colour, std::max(ImGui::GetFontSize() / 10, 1.0f));
     }
 
     /// The grid of whole tiles.
@@ -127,9 +119,8 @@ private:
             ImGui::ColorConvertHSVtoRGB(static_cast<float>(pattern) / static_cast<float>(settings_.tile), 0.9f, 1,
                                         c.x, c.y, c.z);
             const ImU32 colour = ImGui::ColorConvertFloat4ToU32(c);
-            grid_.for_each_rook(tile, columns_, pattern, [&](int x, int y) {
-                fill({x, y, x + 1, y + 1}, colour);
-            });
+            grid_.for_each_rook(tile, columns_, pattern,
+                                [&](int x, int y) { drawing_.fill(glm::ivec2(x, y), colour); });
         }
     }
 
@@ -137,34 +128,33 @@ private:
     void draw_set(glm::ivec2 p) {
         const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
         if (settings_.method == Method::gpt) {
-            fill(PixelRect{p.x + 1, p.y, p.x + 2, p.y + 1}.clipped(size_), halo_colour);
-            fill(PixelRect{p.x, p.y + 1, p.x + 1, p.y + 2}.clipped(size_), halo_colour);
+            drawing_.fill(PixelRect{p.x + 1, p.y, p.x + 2, p.y + 1}.clipped(size_), halo_colour);
+            drawing_.fill(PixelRect{p.x, p.y + 1, p.x + 1, p.y + 2}.clipped(size_), halo_colour);
         } else if (uses_rooks()) {
             const PixelRect tile = grid_.tile_at(p);
             grid_.shuffle_columns(tile, columns_);
             grid_.for_each_rook(tile, columns_, grid_.pattern_at(p, tile, columns_), [&](int x, int y) {
-                fill({x, y, x + 1, y + 1}, set_colour);
+                drawing_.fill(glm::ivec2(x, y), set_colour);
                 outline({x, y, x + 1, y + 1}, set_edge_colour);
             });
         } else if (reuses_paths(settings_.method)) {
             const PixelRect part = grid_.part_at(p);
-            fill(part, set_colour);
+            drawing_.fill(part, set_colour);
             outline(part, set_edge_colour);
             if (settings_.method == Method::gpr) {
                 const PixelRect all = part.with_halo(size_);
-                fill({part.x1, all.y0, all.x1, all.y1}, halo_colour);
-                fill({all.x0, part.y1, part.x1, all.y1}, halo_colour);
+                drawing_.fill(PixelRect{part.x1, all.y0, all.x1, all.y1}, halo_colour);
+                drawing_.fill(PixelRect{all.x0, part.y1, part.x1, all.y1}, halo_colour);
             }
         }
         outline(pixel, IM_COL32(255, 255, 255, 220));
     }
 
-    const PictureFrame& frame_;
     const RenderSettings& settings_;
     glm::ivec2 size_;
     TileGrid grid_;
+    SetDrawing drawing_;
     float unit_; // edge of a pixel, screen units
-    ImDrawList& list_;
     PixelRect visible_{0, 0, 0, 0};
     std::vector<int> columns_;
 };

@@ -1,15 +1,13 @@
 #include "ui/tone.h"
 
+#include "render/load/png.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace tessera {
 
 namespace {
-
-float srgb(float c) {
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-}
 
 /// ACES' reference transform, fitted by a fraction [Narkowicz 2015].
 float filmic(float c) {
@@ -23,9 +21,9 @@ Rgb displayed(const Rgb& radiance, const Tone& tone) {
     for (int i = 0; i < 3; ++i) {
         const float c = std::clamp(radiance[i] * std::exp2(tone.exposure), 0.0f, 1e4f);
         const float unit = std::min(c, 1.0f);
-        result[i] = tone.curve == Tone::Curve::filmic  ? srgb(filmic(c))
+        result[i] = tone.curve == Tone::Curve::filmic  ? srgb_encoded(filmic(c))
                     : tone.curve == Tone::Curve::gamma ? std::pow(unit, 1 / tone.gamma)
-                                                       : srgb(unit);
+                                                       : srgb_encoded(unit);
     }
     return result;
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include <imgui.h>
@@ -51,7 +53,10 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
 }
 
 Viewer::~Viewer() {
-    remember();
+    for (const SaveQueue::Outcome& outcome : save_queue_.finish())
+        if (!outcome.result) // there is no list of messages any more
+            std::fprintf(stderr, "%s\n", outcome.error.c_str());
+    remember(); // after what the queue had to write of it
 }
 
 // --- a new scene ---
@@ -81,12 +86,14 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     state_.scene_name = origin.name;
     state_.scene_file = origin.file.string();
     ++state_.scenes_shown;
-    if (!origin.file.empty())
-        opened_scenes_.push_back(origin.file);
-    remember();
+    std::error_code gone; // the current folder: then nobody knows where the file was
+    const std::filesystem::path file = std::filesystem::absolute(origin.file, gone);
+    if (!origin.file.empty() && !gone)
+        opened_scenes_.push_back(file);
+    remember_later();
     if (!again || !(before->camera() == state_.scene->camera())) {
         state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
-        state_.view.fit();
+        state_.set_view({});
     }
     const auto depth_of = [&](const Scene& s) {
         return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, 64);
@@ -102,9 +109,13 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
 
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
-    run_shortcuts(keyboard_.take(), io.WantTextInput, state_);
-    state_.flicker = !io.WantTextInput && keyboard_.is_down(Key::b);
-    flying_ = !io.WantTextInput && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
+    std::vector<Shortcut> typed = keyboard_.take();
+    if (state_.choosing) // a dialog that nothing behind it may be done from; Esc closes it
+        std::erase_if(typed, [](const Shortcut& s) { return s != Shortcut{Key::escape}; });
+    run_shortcuts(typed, io.WantTextInput, state_);
+    const bool held_back = io.WantTextInput || state_.choosing;
+    state_.flicker = !held_back && keyboard_.is_down(Key::b);
+    flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
 // --- drawing ---

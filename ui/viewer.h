@@ -60,7 +60,7 @@ struct ViewerOptions {
 class Viewer {
 public:
     Viewer(Session& session, ViewerOptions options);
-    ~Viewer(); ///< remember()
+    ~Viewer(); ///< waits for what is being saved, and remember()s
 
     /// Loads a scene in the background; the old one stays until it is there. One that is still being loaded is
     /// given up. `file` is where it comes from, empty: from no file.
@@ -79,7 +79,7 @@ public:
     void save(SaveQueue::Work write) { save_queue_.add(std::move(write), options_.wake); }
     bool saving() const { return save_queue_.running(); }
 
-    /// Stores what the next viewer begins with: the layout, the recent scenes.
+    /// Stores what the next viewer begins with: the layout, the recent scenes. At once.
     void remember();
 
     /// Draws one frame, between Gui's begin and end. Takes in what is new, then sends what changed to the session.
@@ -109,6 +109,8 @@ private:
     void save_exr();
     void save_view();
     void take_preferences();
+    void update_preferences();
+    void remember_later();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);

@@ -3,6 +3,7 @@
 #include "recon/slope.h"
 #include "ui/path_overlay.h"
 #include "ui/picture_error.h"
+#include "ui/words.h"
 
 #include <algorithm>
 
@@ -83,19 +84,12 @@ ChartPlot error_plot(const ViewerState& state) {
     return plot;
 }
 
-/// In words: "kind mismatch".
-std::string label_of(ShiftOutcome outcome) {
-    std::string words(to_string(outcome));
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return words;
-}
-
 ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
     const std::vector<ShiftPoint>& points = shifts_of(state, pane).points();
     const std::string name = method_name(pane, points.back().method);
     ChartPlot plot = empty_plot(state, name + "  % of shifts", Scale::log);
     for (ShiftOutcome outcome : seen_outcomes(state)) {
-        ChartSeries series{label_of(outcome), {}, false, true};
+        ChartSeries series{in_words(to_string(outcome)), {}, false, true};
         for (const ShiftPoint& p : points)
             series.points.push_back({x_of(state, p), 100 * p.shares[static_cast<std::size_t>(outcome)], 0});
         plot.series.push_back(std::move(series));

@@ -3,13 +3,13 @@
 #include "render/load/png.h"
 #include "render/load/temporary_file.h"
 #include "ui/camera_store.h"
+#include "ui/file_list.h"
 #include "ui/output_files.h"
 #include "ui/settings_file.h"
 #include "ui/view_picture.h"
 #include "ui/viewer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <utility>
 
@@ -23,13 +23,9 @@ constexpr const char* no_picture_yet = "There is no picture to save yet: only a 
 
 /// The first file with the extension, in either case; null: there is none.
 const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
-    const auto has_it = [&](const std::filesystem::path& file) {
-        std::string own = file.extension().string();
-        std::transform(own.begin(), own.end(), own.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        return own == extension;
-    };
-    const auto found = std::find_if(files.begin(), files.end(), has_it);
+    const auto found = std::find_if(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+        return has_extension(file, extension);
+    });
     return found == files.end() ? nullptr : &*found;
 }
 
@@ -112,7 +108,7 @@ void Viewer::fulfil_saves() {
         save_exr();
     if (std::exchange(state_.save_view, false))
         save_view();
-    if (const auto outcome = save_queue_.poll())
+    if (const auto outcome = save_queue_.poll(); outcome && outcome->result != "")
         state_.add_message(outcome->result ? Message::Kind::note : Message::Kind::error,
                            outcome->result ? "Saved " + *outcome->result : outcome->error);
 }
@@ -154,8 +150,12 @@ void Viewer::take_preferences() {
         return;
     std::string note;
     preferences_ = read_preferences(options_.preferences, note);
-    if (!note.empty())
-        state_.add_message(Message::Kind::note, note);
+    if (!note.empty()) { // it will be written anew: what the user wrote there is kept aside
+        const std::filesystem::path aside = options_.preferences.string() + ".broken";
+        std::error_code failed;
+        std::filesystem::rename(options_.preferences, aside, failed);
+        state_.add_message(Message::Kind::note, failed ? note : note + "; it is now " + aside.string());
+    }
     state_.recent_scenes = preferences_.recent_scenes;
     state_.window_place = preferences_.window; // until the window tells
     state_.theme = preferences_.theme;
@@ -168,10 +168,7 @@ void Viewer::take_preferences() {
     state_.show_charts = preferences_.show_charts;
 }
 
-/// A layout that cannot be remembered is no reason to fail.
-void Viewer::remember() {
-    if (options_.preferences.empty())
-        return;
+void Viewer::update_preferences() {
     // Another viewer may have opened scenes meanwhile.
     std::string ignored;
     preferences_.recent_scenes = read_preferences(options_.preferences, ignored).recent_scenes;
@@ -187,10 +184,30 @@ void Viewer::remember() {
     preferences_.show_panel = state_.show_panel;
     preferences_.show_statistics = state_.show_statistics;
     preferences_.show_charts = state_.show_charts;
+}
+
+void Viewer::remember() {
+    if (options_.preferences.empty())
+        return;
+    update_preferences();
     try {
         write_preferences(options_.preferences, preferences_);
-    } catch (const std::exception&) {
+    } catch (const std::exception&) { // a layout that cannot be remembered is no reason to fail
     }
+}
+
+/// The disk may take its time.
+void Viewer::remember_later() {
+    if (options_.preferences.empty())
+        return;
+    update_preferences();
+    save([file = options_.preferences, preferences = preferences_]() -> std::string {
+        try {
+            write_preferences(file, preferences);
+        } catch (const std::exception&) { // likewise
+        }
+        return {};
+    });
 }
 
 } // namespace tessera

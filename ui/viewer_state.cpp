@@ -74,6 +74,27 @@ void ViewerState::set_pane_count(int count) {
     share_settings();
 }
 
+const PaneState* ViewerState::pane_in(int slot) const {
+    const auto found =
+        std::find_if(panes.begin(), panes.end(), [&](const PaneState& p) { return p.slot == slot; });
+    return found == panes.end() ? nullptr : &*found;
+}
+
+void ViewerState::set_inspector(bool on) {
+    inspector.active = on;
+    slow_motion.active = slow_motion.active && !on;
+}
+
+void ViewerState::set_slow_motion(bool on) {
+    if (on && !slow_motion.active) {
+        slow_motion.frames = true;
+        slow_motion.held = false;
+        slow_motion.sample.reset();
+    }
+    slow_motion.active = on;
+    inspector.active = inspector.active && !on;
+}
+
 int ViewerState::compared_with(int pane) const {
     const int count = static_cast<int>(panes.size()),
               with = panes[static_cast<std::size_t>(pane)].settings.comparison.with;

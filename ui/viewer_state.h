@@ -72,6 +72,7 @@ struct PaneChart {
     std::vector<ErrorCurve> curves;
     std::uint64_t shift_generation = 0;         ///< of the request whose shifts these are
     PassHistory<ShiftPoint> shifts;             ///< without points where the method makes none
+    std::uint64_t histogram_generation = 0;     ///< of the request whose histogram it is
     std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none yet
 };
 
@@ -158,6 +159,7 @@ struct ViewerState {
     ChartKind chart_kind = ChartKind::error;
     bool charts_by_spp = false;               ///< against samples; otherwise against seconds
     std::array<PaneChart, most_panes> charts; ///< by slot: see chart_of
+    bool histograms_due = false;              ///< those of some pictures are still being measured
     bool show_help = false;
     bool show_messages = false;
     std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
@@ -199,9 +201,23 @@ struct ViewerState {
     /// the active one stays. `count` of 1 to most_panes.
     void set_pane_count(int count);
 
+    /// The pane that the session's slot renders; null: none is.
+    const PaneState* pane_in(int slot) const;
+
     /// What charts show of a pane. It is the slot's that renders it, and so stays when the layout changes.
     PaneChart& chart_of(const PaneState& pane) { return charts[static_cast<std::size_t>(pane.slot)]; }
     const PaneChart& chart_of(const PaneState& pane) const { return charts[static_cast<std::size_t>(pane.slot)]; }
+
+    /// The picture lies so from now on, also after the slow motion, which would put it back.
+    void set_view(const ImageView& now) {
+        view = now;
+        slow_motion.view_before.reset();
+    }
+
+    /// The path inspector, and the slow motion, which begins with the tile that SlowMotionJob chooses. Both have
+    /// the mouse's left button: the other gives way.
+    void set_inspector(bool on);
+    void set_slow_motion(bool on);
 
     bool is_on_show(int pane) const { return !alone || pane == active_pane; }
 

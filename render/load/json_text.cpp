@@ -1,7 +1,5 @@
 #include "render/load/json_text.h"
 
-#include "render/load/messages.h"
-
 #include <algorithm>
 
 #include <fmt/core.h>
@@ -78,6 +76,11 @@ private:
     std::string_view text_;
 };
 
+std::size_t line_begin(const std::string& text, std::size_t offset) {
+    const std::size_t before = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
+    return before == std::string::npos ? 0 : before + 1;
+}
+
 } // namespace
 
 std::string to_text(const nlohmann::json& value, int indent) {
@@ -118,6 +121,16 @@ std::size_t JsonText::place_of(std::string_view path) const {
     return at;
 }
 
+FilePosition JsonText::position_of(std::string_view path) const {
+    return position_at(place_of(path));
+}
+
+FilePosition JsonText::position_at(std::size_t offset) const {
+    const auto at = text_.begin() + static_cast<std::ptrdiff_t>(offset);
+    const int line = 1 + static_cast<int>(std::count(text_.begin(), at, '\n'));
+    return {name_, line, 1 + static_cast<int>(offset - line_begin(text_, offset))};
+}
+
 std::string JsonText::only(std::string_view path) const {
     const std::size_t begin = place_of(path), end = Scanner(text_).skip_value(begin);
     std::string text = text_;
@@ -131,12 +144,8 @@ void JsonText::fail_at(std::size_t offset, const std::string& what) const {
     if (offset == std::string::npos)
         throw LoadError({name_, 0, 0}, what);
     offset = std::min(offset, text_.size());
-    const auto at = text_.begin() + static_cast<std::ptrdiff_t>(offset);
-    const std::size_t before = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
-    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-    const int line = 1 + static_cast<int>(std::count(text_.begin(), at, '\n'));
-    throw LoadError({name_, line, 1 + static_cast<int>(offset - begin)}, what, text_.substr(begin, end - begin));
+    const std::size_t begin = line_begin(text_, offset), end = std::min(text_.find('\n', begin), text_.size());
+    throw LoadError(position_at(offset), what, text_.substr(begin, end - begin));
 }
 
 } // namespace tessera

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/load/messages.h"
+
 #include <string>
 #include <string_view>
 
@@ -30,10 +32,15 @@ public:
     /// The value at a path alone, all else made blank: places in it are those in the whole.
     std::string only(std::string_view path) const;
 
+    /// Its line and column.
+    FilePosition position_of(std::string_view path) const;
+
     /// Throws LoadError there. npos: at no place.
     [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
 
 private:
+    FilePosition position_at(std::size_t offset) const;
+
     const std::string& text_;
     const std::string& name_;
 };

@@ -37,13 +37,14 @@ std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb)
 
 } // namespace
 
+float srgb_encoded(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
 std::uint8_t srgb_byte(float linear) {
-    // IEC 61966-2-1. Comparisons with NaN are false.
-    if (!(linear > 0))
+    if (!(linear > 0)) // comparisons with NaN are false
         return 0;
-    const float v = std::min(linear, 1.0f);
-    const float encoded = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
-    return static_cast<std::uint8_t>(std::lround(255 * encoded));
+    return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(std::min(linear, 1.0f))));
 }
 
 namespace {

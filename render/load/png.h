@@ -11,6 +11,9 @@
 
 namespace tessera {
 
+/// What a linear value of [0, 1] becomes in sRGB, likewise (IEC 61966-2-1).
+float srgb_encoded(float linear);
+
 /// The 8-bit sRGB code of a linear value: 0 to 1 becomes 0 to 255, the rest is cut, what is not a number becomes
 /// 0.
 std::uint8_t srgb_byte(float linear);

@@ -56,6 +56,15 @@ TEST(Actions, NoShortcutIsAFlyingKey) {
     }
 }
 
+TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
+    ViewerState state = two_panes();
+    state.loading = "a scene";
+    type(state, key(Key::escape), true);
+    EXPECT_FALSE(state.cancel_load);
+    type(state, key(Key::escape));
+    EXPECT_TRUE(state.cancel_load);
+}
+
 TEST(Actions, MenusLieTogether) {
     std::set<std::string> seen;
     std::string previous;

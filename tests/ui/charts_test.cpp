@@ -3,6 +3,7 @@
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/chart_file.h"
+#include "ui/chart_view.h"
 #include "ui/picture_error.h"
 #include "ui/viewer_charts.h"
 
@@ -171,6 +172,39 @@ TEST_F(Charts, AReferenceOfTwoHalvesAddsNoErrorOfItsOwn) {
     EXPECT_TRUE(make_reference("other size", mean, {RgbImage(4, 4), RgbImage(4, 4)})->halves[0].empty());
 }
 
+TEST_F(Charts, StandardErrorsAreDrawnAsBars) {
+    const auto drawn = [&](double error) {
+        const ChartPlot plot{"x",
+                             "y",
+                             ChartAxis::Scale::log,
+                             ChartAxis::Scale::log,
+                             {},
+                             {{"ends", {{1, 1}, {10, 100}}}, {"line", {{2, 5}, {3, 10, error}, {5, 10}}}}};
+        const ImU32 colours[] = {IM_COL32(200, 200, 200, 255), IM_COL32(255, 160, 0, 255)};
+        gui.begin_frame(glm::vec2(context.size()), 1, 0.01f);
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({600, 400});
+        ImGui::Begin("plot", nullptr, ImGuiWindowFlags_NoDecoration);
+        draw_plot({{0, 0}, {600, 400}}, plot, colours);
+        ImGui::End();
+        gui.end_frame();
+        return screen();
+    };
+    drawn(0);
+    const ScreenPixels without = drawn(0), with = drawn(5); // whose ends move no axis
+    save("chart-bars.png");
+    int column = -1, rows = 0;
+    for (int y = 0; y < 400; ++y)
+        for (int x = 0; x < 600; ++x)
+            if (std::abs(with.at(x, y)[0] - without.at(x, y)[0]) > 20) {
+                EXPECT_TRUE(column < 0 || std::abs(x - column) <= 1) << x;
+                column = column < 0 ? x : column;
+                ++rows;
+            }
+    EXPECT_GT(rows, 30);
+    EXPECT_EQ(drawn(NAN).rgb, without.rgb);
+}
+
 TEST_F(Charts, PixelsThatAreNotFiniteAreLeftOutAndCounted) {
     for (const bool halves : {false, true}) {
         RgbImage image(48, 36, Rgb(0.5f));
@@ -241,6 +275,24 @@ TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
     for (std::size_t count : h.bins)
         sum += count;
     EXPECT_EQ(sum, 48u * 36u);
+}
+
+TEST_F(Charts, AHistogramIsOfWhatIsOnShow) {
+    type(Key::h);
+    wait_until([&] { return state().charts[1].histogram != nullptr; });
+    state().tone.exposure = 1; // the same picture
+    frames(3);
+    EXPECT_NE(state().charts[1].histogram, nullptr);
+    const std::uint64_t before = pane(1).generation;
+    state().panes[1].settings.render.max_depth = 2;
+    wait_until([&] { return pane(1).generation != before; });
+    frame();
+    EXPECT_TRUE(!state().charts[1].histogram || state().charts[1].histogram_generation == pane(1).generation);
+    wait_until([&] { return state().charts[1].histogram != nullptr; });
+    type(Key::h); // passes go on while nobody looks
+    EXPECT_EQ(state().charts[1].histogram, nullptr);
+    type(Key::h);
+    EXPECT_TRUE(wait_until([&] { return state().charts[1].histogram != nullptr; }));
 }
 
 TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
@@ -335,7 +387,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
     const auto files = files_here();
     ASSERT_EQ(files.size(), 3u);
-    for (const char* header : {"efficiency,not_finite\n", "seconds,ok,occluded"})
+    for (const char* header : {"efficiency,not_finite\n", "seconds,ok,occluded", "luminance,pixels\n"})
         EXPECT_NE(files.at(".csv").find(header), std::string::npos) << header;
     pugi::xml_document svg;
     ASSERT_TRUE(svg.load_string(files.at(".svg").c_str()));
@@ -354,6 +406,19 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     EXPECT_EQ(state().show_charts, false);
     frames(2);
     EXPECT_FALSE(has("charts.picture"));
+}
+
+TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
+    const CurrentFolder folder;
+    viewer.keyboard().press(Key::z, Key::z, false, false);
+    frame();
+    ASSERT_TRUE(state().save_charts);
+    EXPECT_TRUE(state().histograms_due); // the wish alone asks for them
+    for (int i = 0; i < 9; ++i)
+        EXPECT_FALSE(saver.after_frame(viewer, context.size())); // their end brings a frame
+    EXPECT_TRUE(state().save_charts);
+    finish_saving();
+    EXPECT_EQ(files_here().size(), 3u);
 }
 
 TEST_F(Charts, AreDrawnLarge) {

@@ -92,7 +92,7 @@ TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
     state().show_tiles = state().magnifier = state().inspector.active = true; // which ask for a pane
     const ControlRect rect = place("pane0.picture");
     click(rect.min + (rect.max - rect.min) * glm::vec2(0.7f, 0.5f));
-    EXPECT_EQ(state().inspector.sample->pane, 0);
+    EXPECT_EQ(state().inspector.sample->slot, 0);
     save("wipe-reference.png");
     state().show_tiles = state().magnifier = state().inspector.active = false;
     choose("compare", "difference");

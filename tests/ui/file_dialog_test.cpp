@@ -131,6 +131,46 @@ TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
     EXPECT_EQ(h.pane(0).settings.render.tile, 3);
 }
 
+TEST_F(Dialog, HasTheKeyboardAlone) {
+    std::ofstream("scenes/other.xml") << "";
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    const Camera camera = h.state().camera.camera();
+    h.type(Key::o, true);
+    h.frames(2);
+    h.click_at("file/scenes", 0.1f); // takes the focus
+    h.viewer.keyboard().press(Key::w, Key::w, false, false);
+    h.viewer.keyboard().press(Key::b, Key::b, false, false);
+    h.frames(3);
+    EXPECT_FALSE(h.state().flicker);
+    h.viewer.keyboard().release(Key::w);
+    h.viewer.keyboard().release(Key::b);
+    h.type(Key::digit4, true);
+    h.type(Key::space);
+    h.type(Key::f9);
+    EXPECT_TRUE(h.state().camera.camera() == camera);
+    EXPECT_EQ(h.state().panes.size(), 2u);
+    EXPECT_FALSE(h.state().paused);
+    EXPECT_EQ(h.state().theme, Theme::dark);
+    ASSERT_TRUE(h.has("file/other.xml"));
+    ImGui::GetIO().AddInputCharacter('r'); // what is typed goes on after the folder
+    h.frames(3);
+    EXPECT_TRUE(h.has("file/room.xml"));
+    EXPECT_FALSE(h.has("file/other.xml"));
+    h.type(Key::escape);
+    h.frames(2);
+    EXPECT_FALSE(h.state().choosing.has_value());
+}
+
+TEST_F(Dialog, AReferenceIsNamedInFull) {
+    write_exr("r.exr", {{{"", RgbImage(48, 36, Rgb(1))}}, {}});
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    h.state().reference_file = "./r.exr";
+    h.wait_until([&] { return h.state().companions.reference != nullptr; });
+    EXPECT_EQ(h.state().companions.reference->name, (folder.path / "r.exr").string());
+}
+
 TEST_F(Dialog, OpensAReferenceAndCanBeCancelled) {
     write_exr("r.exr", {{{"", RgbImage(48, 36, Rgb(1))}}, {}});
     ViewerHarness h({1280, 720}, 1, options);

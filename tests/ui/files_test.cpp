@@ -56,6 +56,7 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     other.camera.set_home(state().scene->camera(), state().scene->center(), state().scene->radius());
     apply_settings_json(other, text, "settings.json");
     ASSERT_EQ(other.panes.size(), 4u);
+    EXPECT_TRUE(other.messages.empty()) << other.messages.front().text; // no field is unknown
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_TRUE(other.panes[i].settings == settings[i]) << i;
     EXPECT_FALSE(other.linked);
@@ -96,15 +97,27 @@ TEST_F(SettingsFile, TheReferenceIsLoadedAgain) {
 
 TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
     const std::string before = settings_json(state());
-    for (const char* text :
-         {"", "{", "[]", "{\"panes\": []}", "{\"panes\": [{\"method\": \"xyz\"}]}",
-          "{\"panes\": [{\"settings\": {\"tile\": \"99\"}}]}", "{\"panes\": [{\"settings\": {\"tile\": 4}}]}",
-          "{\"panes\": [{}], \"tone\": {\"exposure\": 1e9}}", "{\"panes\": [{}], \"camera\": {\"fov\": 1}}",
-          "{\"panes\": [{}], \"size\": {\"base\": \"moon\"}}", "{\"panes\": [{}], \"active\": 2}",
-          "{\"panes\": [{}], \"ranges\": {\"moon\": {}}}",
-          "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 3, \"high\": 2}}}",
-          "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 0, \"logarithmic\": true}}}",
-          "{\"panes\": [{\"alpha\": \"much\"}]}"}) {
+    for (const char* text : {"",
+                             "{",
+                             "[]",
+                             "{\"panes\": []}",
+                             "{\"panes\": [{\"method\": \"xyz\"}]}",
+                             "{\"panes\": [{\"settings\": {\"tile\": \"99\"}}]}",
+                             "{\"panes\": [{\"settings\": {\"tile\": 4}}]}",
+                             "{\"panes\": [{}], \"tone\": {\"exposure\": 1e9}}",
+                             "{\"panes\": [{}], \"camera\": {\"fov\": 1}}",
+                             "{\"panes\": [{}], \"size\": {\"base\": \"moon\"}}",
+                             "{\"panes\": [{}], \"active\": 2}",
+                             "{\"panes\": [{}], \"ranges\": {\"moon\": {}}}",
+                             "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 3, \"high\": 2}}}",
+                             "{\"panes\": [{}], \"ranges\": {\"depth\": {\"low\": 0, \"logarithmic\": true}}}",
+                             "{\"panes\": [{\"alpha\": \"much\"}]}",
+                             "{\"panes\": [{\"alpha\": true}]}",
+                             "{\"panes\": [{\"seed\": -1}]}",
+                             "{\"panes\": [{\"seed\": 1e300}]}",
+                             "{\"panes\": [{\"seed\": 1.5}]}",
+                             "{\"panes\": [{\"seed\": true}]}",
+                             "{\"panes\": [{\"seed\": 99999999999999999999}]}"}) {
         try {
             apply_settings_json(state(), text, "bad.json");
             ADD_FAILURE() << text;
@@ -113,6 +126,17 @@ TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
         }
         EXPECT_EQ(settings_json(state()), before) << text;
     }
+}
+
+TEST_F(SettingsFile, FieldsThatNobodyKnowsAreTold) {
+    apply_settings_json(
+        state(), "{\"panes\": [{},\n {\"tile\": 8, \"settings\": {\"tile\": \"4\"}}],\n \"tome\": {\"x\": 1}}",
+        "odd.json");
+    EXPECT_EQ(state().panes[1].settings.render.tile, 4);
+    ASSERT_EQ(state().messages.size(), 2u);
+    EXPECT_EQ(state().messages[0].text, "odd.json:3:10: there is no \"tome\": it is ignored");
+    EXPECT_EQ(state().messages[1].text, "odd.json:2:11: there is no \"tile\": it is ignored");
+    EXPECT_EQ(state().messages[0].kind, Message::Kind::note);
 }
 
 TEST_F(SettingsFile, MessagesHaveLineAndColumn) {

@@ -22,6 +22,13 @@ struct PathInspector : testing::Test, ViewerHarness {
         return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
                share * placement.extent;
     }
+    void double_click() {
+        for (int i = 0; i < 2; ++i) {
+            press();
+            release();
+        }
+        frames(2);
+    }
     void inspect_pixel(int index, glm::ivec2 pixel) {
         click(middle(index, pixel));
         wait_until([&] { return inspector().inspection && inspector().inspection->pixel == pixel; });
@@ -36,7 +43,7 @@ TEST_F(PathInspector, AClickChoosesAPixelAndMovesNoCamera) {
     const ScreenPixels before = screen();
     inspect_pixel(1, {16, 14});
     EXPECT_TRUE(state().camera.camera() == camera);
-    EXPECT_EQ(inspector().pane, 1);
+    EXPECT_EQ(inspector().slot, 1);
     EXPECT_EQ(inspector().inspection->pass, 2);
     EXPECT_EQ(inspector().inspection->method, Method::gpr);
     ASSERT_EQ(inspector().inspection->sets.size(), 1u);
@@ -132,6 +139,14 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
                     p.y / p.z < static_cast<float>(size.y));
     }
     save("space.png");
+    move_to(rect.center());
+    wheel(3);
+    EXPECT_FALSE(state().space.camera.camera() == fitted);
+    double_click();
+    EXPECT_FALSE(state().space.fits); // all is shown again, from where it looks
+    for (int i = 0; i < 4; ++i)
+        EXPECT_LT(glm::distance(state().space.camera.camera().to_world[i], fitted.to_world[i]), 1e-3f) << i;
+
     drag(rect.center(), {40, 15});
     EXPECT_FALSE(state().space.camera.camera() == fitted);
     EXPECT_NE(pictured(), at_first);
@@ -144,13 +159,6 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
     modifiers(false, false);
     EXPECT_LT(glm::distance(state().space.camera.forward(), forward), 1e-4f);
     EXPECT_TRUE(state().camera.camera() == scene); // the scene's own stays
-    press();
-    release();
-    press(); // a double click
-    release();
-    frames(2);
-    EXPECT_FALSE(state().space.fits);
-    EXPECT_NEAR(state().space.camera.distance(), distance, distance); // all is shown again
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
@@ -173,12 +181,58 @@ TEST_F(PathInspector, AnotherRequestIsLookedAtAnew) {
     state().panes[1].settings.render.method = Method::pr;
     EXPECT_TRUE(wait_until([&] { return inspector().generation > generation; }));
     EXPECT_EQ(inspector().inspection->method, Method::pr);
-    type(Key::digit1, true); // the pane is no more
+    const auto inspection = inspector().inspection;
+    type(Key::digit1, true); // the second pane is now the first
     frames(5);
+    EXPECT_EQ(inspector().slot, pane(0).slot);
+    EXPECT_EQ(inspector().inspection, inspection);
+    state().panes[0].settings.render.method = Method::gpr;
+    EXPECT_TRUE(wait_until([&] { return inspector().inspection->method == Method::gpr; }));
+    EXPECT_EQ(inspector().generation, pane(0).generation);
     click("inspector.close");
     EXPECT_FALSE(inspector().active);
     frames(3);
     EXPECT_FALSE(has("inspector.direction"));
+}
+
+TEST_F(PathInspector, ThePixelOfAPaneThatIsGoneIsLookedAtInTheActiveOne) {
+    type(Key::i);
+    inspect_pixel(1, {16, 14});
+    type(Key::tab);
+    ASSERT_EQ(state().active_pane, 0);
+    type(Key::digit1, true);
+    EXPECT_TRUE(wait_until([&] { return inspector().generation == pane(0).generation; }));
+    EXPECT_EQ(inspector().inspection->method, Method::pt);
+    EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(16, 14));
+}
+
+TEST_F(PathInspector, NoReplacedSceneIsKept) {
+    type(Key::i);
+    inspect_pixel(1, {16, 14});
+    ASSERT_TRUE(wait_until([&] { return state().space.surroundings != nullptr; }));
+    type(Key::i);
+    const std::weak_ptr<const Scene> before = state().scene;
+    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
+    EXPECT_TRUE(wait_until([&] { return before.expired(); }));
+}
+
+TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
+    type(Key::i);
+    {
+        const Snapshot& s = *pane(1).snapshot;
+        state().inspector.choose({pane(1).slot,
+                                  {3, 4},
+                                  1,
+                                  std::make_shared<const PassOrigin>(PassOrigin{
+                                      state().scene, s.camera, {48, 36}, s.settings, s.plan, s.generation})});
+    }
+    ASSERT_TRUE(wait_until([&] { return inspector().inspection != nullptr; }));
+    type(Key::i);
+    const std::weak_ptr<const Scene> before = state().scene;
+    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
+    EXPECT_TRUE(wait_until([&] { return before.expired(); }));
 }
 
 TEST_F(PathInspector, OpensTheSampleOfAMessage) {

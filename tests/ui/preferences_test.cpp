@@ -122,8 +122,52 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     h.wait_until([&] { return h.state().scenes_shown == 1; });
     const std::vector<std::string> both{"/scenes/ours.xml", "/scenes/theirs.xml"};
     EXPECT_EQ(h.state().recent_scenes, both);
+    h.finish_saving();
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
+}
+
+TEST(Remembered, ABrokenFileIsKeptAside) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    std::ofstream(options.preferences) << "{\"theme\": light}";
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.load_scene();
+        EXPECT_NE(h.state().messages.front().text.find("it is now "), std::string::npos);
+    }
+    std::string text;
+    std::getline(std::ifstream(folder.path / "viewer.json.broken"), text);
+    EXPECT_EQ(text, "{\"theme\": light}");
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
+    EXPECT_EQ(note, "");
+}
+
+TEST(Remembered, WithoutACurrentFolderNothingEnds) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    options.open = [](const fs::path&) -> SceneLoader {
+        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+    };
+    fs::create_directory("gone");
+    fs::current_path("gone");
+    fs::remove(folder.path / "gone");
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.viewer.drop({"room.xml"});
+        h.wait_until([&] { return h.state().scenes_shown == 1; });
+        h.type(Key::p, true); // settings
+        h.finish_saving();
+        EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
+        h.type(Key::o, true);
+        h.type(Key::escape);
+    }
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
+    EXPECT_TRUE(read_preferences(options.preferences, note).recent_scenes.empty());
 }
 
 TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {

@@ -35,7 +35,8 @@ public:
         fs::current_path(folder_);
         write("scene.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>");
         write("broken.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"");
-        write("settings.json", "{\"panes\": [{\"method\": \"gpr\", \"tile\": 99}]}");
+        write("settings.json", "{\"panes\": [{\"method\": \"gpr\", \"settings\": {\"tile\": \"9\"}}]}");
+        write("broken.json", "{\"panes\": [{\"method\": \"gpr\", \"settings\": {\"tile\": \"99\"}}]}");
         write("picture.exr", "no picture");
         write("empty", "");
     }
@@ -45,7 +46,7 @@ public:
     }
 
     fs::path any(std::mt19937& random) const {
-        const char* names[] = {"scene.xml",   "broken.xml", "settings.json",
+        const char* names[] = {"scene.xml",   "broken.xml", "settings.json", "broken.json",
                                "picture.exr", "empty",      "not there.xml"};
         std::vector<fs::path> all(std::begin(names), std::end(names));
         for (const auto& entry : fs::directory_iterator(folder_)) // what the viewer has saved itself

@@ -4,6 +4,7 @@
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 
+#include <cstdlib>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -101,6 +102,7 @@ TEST_F(MakeReference, AnewForgetsTheCheckpoint) {
     EXPECT_TRUE(h.state().reference_making.anew);
     h.state().reference_making.spp = 2;
     h.click("reference.make");
+    EXPECT_FALSE(h.state().reference_making.anew); // this once
     wait_for_end(h);
     EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, 2));
 }
@@ -116,6 +118,20 @@ TEST_F(MakeReference, OfAnotherCameraHasAnotherName) {
     EXPECT_EQ(checksum_of(read_reference(after)), expected(h, 4));
     h.state().camera.go_home();
     EXPECT_EQ(file(h), before);
+}
+
+TEST_F(MakeReference, OfAViewThatIsGoneIsNotTaken) {
+    begin(h, 32);
+    ASSERT_TRUE(h.state().reference_making.is_making());
+    const fs::path made = file(h);
+    h.state().camera.orbit({30, 10}, 300);
+    wait_for_end(h);
+    h.frames(3);
+    EXPECT_TRUE(fs::exists(made));
+    EXPECT_EQ(h.state().companions.reference, nullptr);
+    EXPECT_EQ(h.state().reference_file, "");
+    EXPECT_NE(h.state().messages.back().text.find(made.string()), std::string::npos);
+    EXPECT_NE(h.state().messages.back().text.find("not opened"), std::string::npos);
 }
 
 TEST_F(MakeReference, WhatCannotBeWrittenIsAMessage) {
@@ -137,6 +153,10 @@ TEST_F(MakeReference, TheDialogSaysHowLong) {
     EXPECT_EQ(duration_text(3 * 3600 + 5 * 60), "3 h 5 min");
     std::strcpy(h.state().reference_making.file.data(), "mine");
     EXPECT_EQ(wanted_reference_file(h.state()), folder.path / "mine.exr");
+    std::strcpy(h.state().reference_making.file.data(), "MINE.EXR");
+    EXPECT_EQ(wanted_reference_file(h.state()), folder.path / "MINE.EXR");
+    std::strcpy(h.state().reference_making.file.data(), "~/mine");
+    EXPECT_EQ(wanted_reference_file(h.state()), fs::path(std::getenv("HOME")) / "mine.exr");
     h.type(Key::m, true);
     h.type(Key::escape);
     EXPECT_FALSE(h.state().reference_making.show);

@@ -107,6 +107,25 @@ TEST_F(SavedAsExr, WhatIsWishedBeforeTheEndIsWritten) {
     EXPECT_EQ(calls, 3);
 }
 
+TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
+    options.write_exr = [&](const fs::path&, const SavedPicture&) {
+        throw std::runtime_error("the disk is full " + std::to_string(++calls));
+    };
+    std::string told;
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.rest(2);
+        h.state().save_exr = true;
+        testing::internal::CaptureStderr();
+        h.frame();
+        h.state().save_exr = true;
+        h.frame();
+    }
+    told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(calls, 2);
+    EXPECT_NE(told.find("the disk is full 2\n"), std::string::npos) << told;
+}
+
 TEST_F(SavedAsExr, ItSaysWhyNothingCanBeSaved) {
     options.write_exr = [&](const fs::path&, const SavedPicture&) { ++calls; };
     ViewerHarness h({900, 600}, 1, options);

@@ -4,6 +4,9 @@
 #include "ui/path_drawing.h"
 #include "ui/slow_motion_overlay.h"
 
+#include <chrono>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -24,8 +27,8 @@ struct SlowMotionView : testing::Test, ViewerHarness {
         frames(2);
     }
     glm::vec2 middle(glm::ivec2 pixel) {
-        const Placement placement = state().view.place({48, 36}, pane(slow().pane).canvas_size);
-        const ControlRect rect = place("pane" + std::to_string(slow().pane) + ".picture");
+        const Placement placement = state().view.place({48, 36}, pane(slow().slot).canvas_size);
+        const ControlRect rect = place("pane" + std::to_string(slow().slot) + ".picture");
         return rect.min + placement.origin + (glm::vec2(pixel) + 0.5f) / glm::vec2(48, 36) * placement.extent;
     }
     glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
@@ -39,7 +42,7 @@ TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
     const ScreenPixels untouched = screen();
     open();
     EXPECT_TRUE(has("slow.step"));
-    EXPECT_EQ(slow().pane, state().active_pane);
+    EXPECT_EQ(slow().slot, state().active().slot);
     EXPECT_EQ(slow().tile->pass, 2);
     EXPECT_TRUE(slow().tile->tile.contains({24, 18}));
     EXPECT_GT(state().view.zoom(), 2);
@@ -147,7 +150,7 @@ TEST_F(SlowMotionView, AClickChoosesTheTileAndTheActivePaneDecides) {
     ASSERT_TRUE(wait_until([&] { return slow().tile->tile.contains(other); }));
     EXPECT_TRUE(state().camera.camera() == camera);
     type(Key::tab);
-    ASSERT_TRUE(wait_until([&] { return slow().pane == 0 && slow().shows_choice(); }));
+    ASSERT_TRUE(wait_until([&] { return slow().slot == 0 && slow().shows_choice(); }));
     EXPECT_EQ(slow().tile->settings.method, Method::pt);
     EXPECT_EQ(slow().tile->base_count(), 1);
     frames(3);
@@ -156,6 +159,63 @@ TEST_F(SlowMotionView, AClickChoosesTheTileAndTheActivePaneDecides) {
     EXPECT_FALSE(slow().active);
     EXPECT_TRUE(has("inspector.direction"));
     EXPECT_FALSE(has("slow.step"));
+}
+
+// The picture moves to the tile that was found, and so lies elsewhere under the mouse.
+TEST_F(SlowMotionView, AHeldButtonChoosesNoOther) {
+    open();
+    type(Key::f); // the whole picture
+    const glm::ivec2 chosen(40, 6);
+    move_to(middle(chosen));
+    press();
+    ASSERT_TRUE(wait_until([&] { return slow().tile->tile.contains(chosen); }));
+    for (int i = 0; i < 40; ++i) {
+        frame(0.1f);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_GT(state().view.zoom(), 2);
+    EXPECT_EQ(slow().sample->pixel, chosen);
+    EXPECT_TRUE(slow().tile->tile.contains(chosen));
+    release();
+    EXPECT_EQ(slow().sample->pixel, chosen);
+}
+
+TEST_F(SlowMotionView, GoesOnInASmallerPicture) {
+    open(false);
+    slow().start({1, {47, 35}, {}});
+    ASSERT_TRUE(wait_until([&] { return slow().shows_choice(); }));
+    state().size.custom = {24, 18};
+    ASSERT_TRUE(wait_until([&] {
+        return state().request_size() == glm::ivec2(24, 18) && slow().generation == pane(1).generation &&
+               slow().shows_choice();
+    }));
+    EXPECT_EQ(slow().sample->pixel, glm::ivec2(23, 17));
+    EXPECT_TRUE(slow().is_playing());
+}
+
+TEST_F(SlowMotionView, LeavesAPictureWhereItWasPutMeanwhile) {
+    state().view = ImageView(2, {0.3f, 0.3f});
+    open();
+    type(Key::f);
+    EXPECT_TRUE(state().view == ImageView());
+    type(Key::j);
+    EXPECT_TRUE(state().view == ImageView());
+
+    state().view = ImageView(2, {0.3f, 0.3f});
+    open();
+    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    ASSERT_TRUE(wait_until([&] { return state().scenes_shown == 2; }));
+    type(Key::j);
+    EXPECT_TRUE(state().view == ImageView());
+}
+
+TEST_F(SlowMotionView, KeepsToItsPaneWhereverThatIsShown) {
+    open();
+    const auto tile = slow().tile;
+    type(Key::digit1, true); // the second pane is now the first
+    frames(10);
+    EXPECT_EQ(slow().tile, tile);
+    EXPECT_TRUE(shows_slow_motion(0, state()));
 }
 
 TEST_F(SlowMotionView, StandsChangesOfAllKinds) {
