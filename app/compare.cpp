@@ -6,6 +6,7 @@
 #include "render/load/json_text.h"
 #include "render/session/reference_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -22,6 +23,7 @@ struct Comparison {
     std::optional<FloorFreeError> floor_free;
     std::optional<std::array<double, 4>> energy_change;
     std::optional<TileSpectrum> tiles;
+    double share_without_light = 0; ///< of the pixels, those whose luminance is 0 or less
 };
 
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
@@ -50,6 +52,11 @@ References read_references(const CompareOptions& options) {
     return {read_plain(options.reference, options.layer), {}};
 }
 
+double share_without_light(const RgbImage& image) {
+    const auto dark = std::count_if(image.begin(), image.end(), [](Rgb c) { return luminance(c) <= 0; });
+    return static_cast<double>(dark) / static_cast<double>(image.size());
+}
+
 void check_size(const CompareOptions& options, const RgbImage& image, const std::filesystem::path& path,
                 const RgbImage& reference) {
     if (image.width() == reference.width() && image.height() == reference.height())
@@ -75,6 +82,7 @@ Comparison compare(const CompareOptions& options) {
     result.metrics = measure_error(image, references.first);
     if (options.tile > 0)
         result.tiles = measure_tile_spectrum(image, references.first, options.tile);
+    result.share_without_light = share_without_light(image);
     return result;
 }
 
@@ -103,6 +111,8 @@ void print_text(const Comparison& c) {
         std::printf("tiles, edge ratio    %.4g   squared steps where tiles meet, over those elsewhere\n",
                     c.tiles->edge_ratio);
     }
+    std::printf("without light        %.3g %%   of the pixels: luminance 0 or less\n",
+                100 * c.share_without_light);
     if (c.metrics.bad_pixels > 0)
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
@@ -121,6 +131,7 @@ void print_json(const CompareOptions& options, const Comparison& c) {
     out["mape"] = c.metrics.mape;
     out["mean_ratio"] = c.metrics.mean_ratio;
     out["bad_pixels"] = c.metrics.bad_pixels;
+    out["share_without_light"] = c.share_without_light;
     if (c.floor_free) {
         out["relmse_floor_free"] = c.floor_free->relative_mse;
         out["relmse_floor_free_standard_error"] = c.floor_free->standard_error;

@@ -10,7 +10,6 @@
 #include "render/method/settings_table.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -37,14 +36,6 @@ std::vector<std::vector<std::size_t>> by_render(const std::vector<Point>& points
             groups.push_back({i});
     }
     return groups;
-}
-
-std::string word(const std::string& text) {
-    std::string word = text;
-    for (char& c : word)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-')
-            c = '_';
-    return word;
 }
 
 } // namespace
@@ -163,15 +154,18 @@ void Experiment::finish(const MeasuredScene& scene, const SharedRun& shared, std
     ++finished_;
 }
 
-/// From the journal. False: it is not there, or its picture is not.
+/// From the journal. False: it is not there, or its picture is not, or artefacts were not looked for.
 bool Experiment::recall(const MeasuredScene& scene, std::size_t point, std::uint64_t seed) {
     const nlohmann::json known = journal_->find(key_of(scene, points_[point], seed));
     if (known.is_null() || (known.at("program") != program_identity() && !options_.takes_any_build) ||
         (keeps_image(seed) && !std::filesystem::exists(image_file(scene.name(), points_[point]))))
         return false;
     std::vector<Measurement> measurements;
-    for (const nlohmann::json& m : known.at("measurements"))
+    for (const nlohmann::json& m : known.at("measurements")) {
         measurements.push_back(measurement_from_json(m));
+        if (options_.looks_for_artefacts && !measurements.back().artefacts)
+            return false;
+    }
     add(scene, point, measurements);
     return true;
 }
@@ -200,7 +194,7 @@ std::filesystem::path Experiment::image_file(const std::string& scene, const Poi
     std::string name = fmt::format("{}-{}", scene, name_of(point));
     for (const std::string& value : point.values)
         name += "-" + value;
-    return options_.output / "images" / (word(name) + ".exr");
+    return options_.output / "images" / (name + ".exr");
 }
 
 /// All that the figures depend on, but for the program.

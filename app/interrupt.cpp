@@ -9,20 +9,24 @@ namespace {
 
 std::atomic<bool> seen = false;
 
+void reset() {
+    for (int signal : {SIGINT, SIGTERM})
+        std::signal(signal, SIG_DFL);
+}
+
 } // namespace
 
 InterruptGuard::InterruptGuard() {
     seen = false;
     for (int signal : {SIGINT, SIGTERM})
-        std::signal(signal, [](int again) {
+        std::signal(signal, [](int) {
             seen = true;
-            std::signal(again, SIG_DFL);
+            reset(); // of either kind, the second one ends the process
         });
 }
 
 InterruptGuard::~InterruptGuard() {
-    for (int signal : {SIGINT, SIGTERM})
-        std::signal(signal, SIG_DFL);
+    reset();
 }
 
 bool interrupted() {

@@ -2,7 +2,8 @@
 
 namespace tessera {
 
-/// While one lives, Ctrl-C (SIGINT) or SIGTERM ask for an end in good order; a second one ends the process.
+/// While one lives, Ctrl-C (SIGINT) or SIGTERM ask for an end in good order; a second one, of either
+/// kind, ends the process.
 class InterruptGuard {
 public:
     InterruptGuard();

@@ -1,6 +1,7 @@
 #include "app/measured_scene.h"
 
 #include "app/exit_codes.h"
+#include "app/scene_source.h"
 
 #include <fmt/core.h>
 
@@ -9,8 +10,7 @@ namespace tessera {
 MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Point>& points,
                              const std::filesystem::path& folder, const ReferenceRecipe& recipe)
     : source_(std::move(source)), name_(scene_name(source_)) {
-    if (!std::filesystem::is_regular_file(source_.file))
-        throw BadInput(fmt::format("{}: there is no such scene file", source_.file.string()));
+    check_scene_file(source_.file);
     for (const Point& point : points) {
         const Key key = key_of(point.settings);
         if (references_.count(key))

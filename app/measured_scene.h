@@ -21,7 +21,7 @@ public:
     const std::string& name() const { return name_; }
     const SceneSource& source() const { return source_; }
 
-    /// Throws BadInput where a missing reference cannot be written.
+    /// Throws std::runtime_error where a missing reference cannot be written.
     void check_writable() const;
     /// Throws BadInput where one of the seeds first, ..., first + count - 1 is a reference's.
     void check_seeds(std::uint64_t first, int count) const;

@@ -13,6 +13,13 @@ double number(const nlohmann::json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
+std::vector<double> numbers(const nlohmann::json& json) {
+    std::vector<double> numbers;
+    for (const nlohmann::json& element : json)
+        numbers.push_back(number(element));
+    return numbers;
+}
+
 nlohmann::ordered_json to_json(const std::optional<TileSpectrum>& tiles) {
     if (!tiles)
         return nullptr;
@@ -44,10 +51,10 @@ std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     Artefacts a;
     a.error = {number(json.at("relmse")), number(json.at("relmse_standard_error"))};
     a.mean = number(json.at("mean"));
-    json.at("worst").get_to(a.worst);
+    a.worst = numbers(json.at("worst"));
     a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
     json.at("bad_pixels").get_to(a.bad_pixels);
-    json.at("pieces").get_to(a.pieces);
+    a.pieces = numbers(json.at("pieces"));
     return a;
 }
 

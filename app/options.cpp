@@ -134,12 +134,13 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
 int view(const CLI::App& command, const Words& words, ViewOptions options) {
     const SceneSource source = words.source();
     const int threads = words.threads;
-    options.scene = {to_string(source), source.file, loader_of(source, threads)};
+    options.scene = origin_of(source, threads);
     options.open = [source, threads](const std::filesystem::path& file) {
         // Camera and variables were given for one scene, however it is named.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
-        return loader_of(same ? source : SceneSource{file, {}, {}}, threads);
+        return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
+                         threads);
     };
     options.panes = default_panes(words.panes);
     options.panes_as_remembered = command.count("--panes") == 0;

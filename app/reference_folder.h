@@ -14,7 +14,7 @@ public:
     FolderReference(const std::filesystem::path& folder, const std::string& scene_name, ReferenceRecipe recipe);
 
     bool is_complete() const { return image_.has_value(); }
-    /// Makes the folder. Throws BadInput where the reference cannot be written.
+    /// Makes the folder. Throws std::runtime_error where the reference cannot be written.
     void check_writable() const;
     /// Renders it if it is missing. Throws BadInput for one of another scene; one that does not say which it is of
     /// is taken, with a note. False: Ctrl-C ended it.

@@ -1,5 +1,7 @@
 #include "app/result.h"
 
+#include "app/significance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -15,21 +17,9 @@ double count(const Result& result) {
     return static_cast<double>(result.runs.size());
 }
 
-template <typename Value>
+template <class Value>
 double mean(const Result& result, Value value) {
-    double sum = 0;
-    for (const Measurement& run : result.runs)
-        sum += value(run);
-    return sum / count(result);
-}
-
-template <typename Value>
-double deviation(const Result& result, Value value) {
-    if (result.runs.size() < 2)
-        return none;
-    const double middle = mean(result, value);
-    const double square = mean(result, [&](const Measurement& run) { return std::pow(value(run) - middle, 2); });
-    return std::sqrt(square * count(result) / (count(result) - 1));
+    return mean_of(of_runs(result, value));
 }
 
 double error(const Measurement& run) {
@@ -106,7 +96,7 @@ double error_of(const Result& r) {
     return mean(r, error);
 }
 double error_deviation(const Result& r) {
-    return deviation(r, error);
+    return deviation_of(of_runs(r, error));
 }
 double error_uncertainty(const Result& r) {
     const double of_blocks = mean(r, [](const Measurement& run) { return run.floor_free.standard_error; });
@@ -130,7 +120,7 @@ double cpu_seconds_of(const Result& r) {
     return mean(r, cpu_seconds);
 }
 double cpu_seconds_deviation(const Result& r) {
-    return deviation(r, cpu_seconds);
+    return deviation_of(of_runs(r, cpu_seconds));
 }
 
 double efficiency_of(const Result& r) {

@@ -21,6 +21,15 @@ struct Result {
     std::vector<Measurement> runs; ///< one a seed
 };
 
+/// What is found of each run, in their order.
+template <class Value>
+std::vector<double> of_runs(const Result& result, Value value) {
+    std::vector<double> values;
+    for (const Measurement& run : result.runs)
+        values.push_back(value(run));
+    return values;
+}
+
 /// A figure of a result with at least one run; not a number where there is none.
 struct Figure {
     std::string_view id; ///< column of a CSV file, field of a JSON file

@@ -20,8 +20,8 @@ namespace {
 nlohmann::json settings_of(const SavedPicture& picture, Norm norm) {
     const Snapshot& snapshot = *picture.snapshot;
     const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
-    nlohmann::json json = settings_json({picture.scene_file, {}, {}}, snapshot.settings, size, snapshot.spp,
-                                        picture.reconstruction.alpha);
+    nlohmann::json json =
+        settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction.alpha);
     json["norm"] = to_string(norm);
     json["joint_colour"] = picture.reconstruction.joint_colour;
     return json;

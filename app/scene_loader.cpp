@@ -16,4 +16,8 @@ SceneLoader loader_of(const SceneSource& source, int threads) {
     };
 }
 
+SceneOrigin origin_of(const SceneSource& source, int threads) {
+    return {to_string(source), {source.file, source.variables, {}}, loader_of(source, threads)};
+}
+
 } // namespace tessera

@@ -1,5 +1,6 @@
 #include "app/scene_source.h"
 
+#include "app/exit_codes.h"
 #include "app/process_usage.h"
 #include "app/progress.h"
 #include "embedded/cornell_box_xml.h"
@@ -10,11 +11,18 @@
 #include <optional>
 #include <string_view>
 
+#include <fmt/core.h>
+
 namespace tessera {
 
 namespace {
 constexpr int per_cent = 100; // steps of the BVH's progress
 } // namespace
+
+void check_scene_file(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file))
+        throw BadInput(fmt::format("{}: there is no such scene file", file.string()));
+}
 
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
     const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {

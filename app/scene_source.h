@@ -19,6 +19,9 @@ struct OpenedScene {
     double bvh_cpu_seconds = 0;
 };
 
+/// Throws BadInput that names the file where there is none.
+void check_scene_file(const std::filesystem::path& file);
+
 /// Throws LoadError or another std::exception whose what() is fit for the user. `progress` may be null.
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress);
 /// The same, telling on a terminal how far it is.

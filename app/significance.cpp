@@ -1,6 +1,7 @@
 #include "app/significance.h"
 
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 
@@ -49,7 +50,36 @@ double inverse(Function function, double value, double high) {
     return (low + high) / 2;
 }
 
+double count_of(const std::vector<double>& values) {
+    return static_cast<double>(values.size());
+}
+
 } // namespace
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (double v : values)
+        sum += v;
+    return sum / count_of(values);
+}
+
+double deviation_of(const std::vector<double>& values) {
+    if (values.size() < 2)
+        return std::numeric_limits<double>::quiet_NaN();
+    const double mean = mean_of(values);
+    double squares = 0;
+    for (double v : values)
+        squares += (v - mean) * (v - mean);
+    return std::sqrt(squares / (count_of(values) - 1));
+}
+
+double standard_error_of(const std::vector<double>& values) {
+    return deviation_of(values) / std::sqrt(count_of(values));
+}
+
+double jackknife_error(const std::vector<double>& found) {
+    return standard_error_of(found) * (count_of(found) - 1);
+}
 
 double student_tail(double t, double freedom) {
     return incomplete_beta(freedom / (freedom + t * t), freedom / 2, 0.5); // [Abramowitz and Stegun 1964, 26.7.1]

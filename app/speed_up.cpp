@@ -118,12 +118,7 @@ SpeedUp speed_up(const Curve& slower, const Curve& faster) {
             logs.push_back(std::log(one.factor));
     if (logs.size() < 2 || logs.size() < seeds.size())
         return result;
-    double mean = 0, squares = 0;
-    for (double log : logs)
-        mean += log / n;
-    for (double log : logs)
-        squares += (log - mean) * (log - mean);
-    const double reach = student_t(0.05, n - 1) * std::sqrt(squares * (n - 1) / n);
+    const double reach = student_t(0.05, n - 1) * jackknife_error(logs);
     result.low = result.factor * std::exp(-reach);
     result.high = result.factor * std::exp(reach);
     return result;

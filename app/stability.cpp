@@ -45,10 +45,9 @@ void check_references(const MeasuredScene& scene) {
 }
 
 std::vector<StabilityCase> cases_of(const ExperimentOptions& suite) {
-    ThreadPool pool(suite.settings.threads);
     std::vector<StabilityCase> cases;
     const auto& files = suite.scenes.empty() ? built_in_stability_scenes() : suite.scenes;
-    for (const StabilityScene& scene : stability_scenes(files, pool)) {
+    for (const StabilityScene& scene : stability_scenes(files)) {
         const auto is_same = [&](const StabilityCase& c) {
             return scene_name(c.scene.source) == scene_name(scene.source);
         };

@@ -5,6 +5,7 @@
 #include "app/output_file.h"
 #include "app/picture_sheet.h"
 #include "app/significance.h"
+#include "app/stability_overview.h"
 #include "render/load/exr.h"
 #include "render/load/png.h"
 
@@ -73,8 +74,8 @@ RgbImage shown(const RgbImage& image, float factor) {
     return large;
 }
 
-std::string cell(double value, const char* unknown = "-") {
-    return std::isfinite(value) ? fmt::format("{:.3g}", value) : unknown;
+std::string cell(double value) {
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
 }
 
 std::string percent(const Deviation& d) {
@@ -130,32 +131,11 @@ std::string csv(const std::vector<Row>& rows) {
     return text;
 }
 
-/// A line a scene, a column a point: the ratio of errors, or what is wrong.
-std::string overview(const std::vector<Row>& rows) {
-    std::vector<std::string> columns;
+std::vector<OverviewCell> cells_of(const std::vector<Row>& rows) {
+    std::vector<OverviewCell> cells;
     for (const Row& row : rows)
-        if (const std::string name = name_of(row.result.point);
-            std::find(columns.begin(), columns.end(), name) == columns.end())
-            columns.push_back(name);
-    std::string head = "| scene |", rule = "| --- |", text;
-    for (const std::string& column : columns) {
-        head += fmt::format(" {} |", column);
-        rule += " --- |";
-    }
-    const StabilityCase* last = nullptr;
-    for (const Row& row : rows) {
-        if (row.of != last)
-            text += fmt::format("\n| [{0}](#{0}) |", row.of->name());
-        last = row.of;
-        const std::string ratio = cell(row.findings.factor, "");
-        if (row.verdict.kind == Verdict::Kind::ok)
-            text += fmt::format(" ok {} |", ratio);
-        else if (row.verdict.kind == Verdict::Kind::worse)
-            text += fmt::format(" **worse {}** |", ratio);
-        else
-            text += fmt::format(" **{}** {} |", to_string(row.verdict.kind), ratio);
-    }
-    return head + "\n" + rule + text + "\n";
+        cells.push_back({row.of->name(), name_of(row.result.point), row.verdict.kind, row.findings.factor});
+    return cells;
 }
 
 std::string table(const std::vector<Row>& rows) {
@@ -180,9 +160,9 @@ std::string section(const StabilityCase& c, const std::vector<Row>& rows) {
     const ExperimentOptions& options = *c.options;
     const glm::ivec2 size = options.settings.size;
     return fmt::format(
-        "\n## {}\n\n{}\n\n{}x{} pixels, {}, {} seeds. Reference: relMSE of its own {:.2g} ± {:.1g}. "
+        "\n{}\n\n## {}\n\n{}\n\n{}x{} pixels, {}, {} seeds. Reference: relMSE of its own {:.2g} ± {:.1g}. "
         "![{}]({}.png)\n\n{}",
-        c.name(), c.scene.fails.empty() ? "" : "Known to fail: " + c.scene.fails, size.x, size.y,
+        anchor(c.name()), c.name(), c.scene.fails.empty() ? "" : "Known to fail: " + c.scene.fails, size.x, size.y,
         to_string(options.effort), options.seeds, error.relative_mse, error.standard_error, c.name(), c.name(),
         table(rows));
 }
@@ -214,7 +194,7 @@ std::string introduction(const ExperimentOptions& suite, double level) {
 void write_stability(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases) {
     const double level = level_of(suite, cases);
     const std::vector<Row> rows = rows_of(cases, level);
-    std::string text = introduction(suite, level) + overview(rows);
+    std::string text = introduction(suite, level) + overview(cells_of(rows));
     for (const StabilityCase& c : cases) {
         std::vector<Row> of_case;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(of_case),

@@ -23,7 +23,7 @@ struct StabilityCase {
 /// the suite's options.
 void write_stability(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases);
 
-/// Writes SCENE.png: the reference, and the pictures of the first seed with their verdicts' errors.
+/// Writes SCENE.png: the reference, and the pictures of the first seed with the names of their points.
 void write_sheet(const ExperimentOptions& suite, const StabilityCase& of);
 
 } // namespace tessera

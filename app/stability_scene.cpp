@@ -95,17 +95,18 @@ std::optional<fs::path> stability_folder(const fs::path& from) {
 
 } // namespace
 
-std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files, ThreadPool& pool) {
+std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files) {
     std::vector<StabilityScene> scenes;
     for (const fs::path& file : files) {
-        if (!fs::is_regular_file(file))
-            throw BadInput(fmt::format("{}: there is no such scene file", file.string()));
+        check_scene_file(file);
         std::ifstream in(file, std::ios::binary);
         const std::string xml{std::istreambuf_iterator<char>(in), {}};
         for (const SceneVariables& variables : variants_of(comment_of(xml, "vary"), file)) {
-            const SceneSource source{file, variables, {}};
-            const int depth = std::min(open_scene(source, pool, nullptr).scene->max_depth(), most_edges);
-            scenes.push_back({source, depth, comment_of(xml, "fails"), needs_of(comment_of(xml, "needs"), file)});
+            const int depth = std::min(load_mitsuba_xml(file, variables).description.max_depth, most_edges);
+            scenes.push_back({{file, variables, {}},
+                              depth,
+                              comment_of(xml, "fails"),
+                              needs_of(comment_of(xml, "needs"), file)});
         }
     }
     return scenes;

@@ -26,11 +26,10 @@ struct StabilityScene {
 };
 
 /// Of each file the scene, or one for each value where it has <!-- vary: NAME = VALUE, VALUE, ... -->. What is
-/// known to fail is in <!-- fails: ... -->, what it needs for that in <!-- needs: 100000 spp, 3 seeds, 16x16
-/// pixels
-/// -->, any of these. Throws BadInput that names a file that is not there or where a
-/// variable has no values, or a need is none of these, and as open_scene does: all are loaded once.
-std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files, ThreadPool& pool);
+/// known to fail is in <!-- fails: ... -->, what it needs for that in <!-- needs: ... -->: "100000 spp, 3 seeds,
+/// 16x16 pixels", any of these. Throws BadInput that names a file that is not there, where a variable has no
+/// values, or where a need is none of these; and as load_mitsuba_xml does: all are read once.
+std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
 /// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at
 /// hand, of the program's, or of one that either lies in. Throws BadInput where there are none.

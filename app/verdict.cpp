@@ -20,34 +20,11 @@ double count_of(const Numbers& values) {
     return static_cast<double>(values.size());
 }
 
-double mean_of(const Numbers& values) {
-    double sum = 0;
-    for (double v : values)
-        sum += v;
-    return sum / count_of(values);
-}
-
-/// Of the mean; takes two values.
-double standard_error_of(const Numbers& values) {
-    const double mean = mean_of(values);
-    double squares = 0;
-    for (double v : values)
-        squares += (v - mean) * (v - mean);
-    return std::sqrt(squares / (count_of(values) - 1) / count_of(values));
-}
-
-template <class Value>
-Numbers of_runs(const Result& result, Value value) {
-    Numbers values;
-    for (const Measurement& run : result.runs)
-        values.push_back(value(run));
-    return values;
-}
-
 /// In standard deviations of a normal variable, what `excess` is over its standard error, with so many degrees of
-/// freedom. What should not vary at all, and does not, deviates by any excess.
+/// freedom. What should not vary at all, and does not, deviates by any excess; where it is not known how far it
+/// varies (one piece), none is significant.
 double significance(double excess, double error, double freedom) {
-    if (!(excess > 0))
+    if (!(excess > 0) || std::isnan(error))
         return 0;
     return error > 0 ? sigmas(student_tail(excess / error, freedom)) : sigmas(0);
 }
@@ -118,6 +95,10 @@ void find_spikes(const Result& result, Findings& f) {
     f.worst_share = f.error > 0 ? share / (f.error * pixels) : 0;
 }
 
+double cost_of_sample(const Result& result) {
+    return cpu_seconds_of(result) / spp_of(result);
+}
+
 double cost_of(const Numbers& errors, const Numbers& seconds) {
     return mean_of(errors) * mean_of(seconds);
 }
@@ -127,8 +108,8 @@ Numbers without(Numbers values, std::size_t i) {
     return values;
 }
 
-/// Of the ratio of costs, in its logarithm: from how it changes when one seed after the other is left out of both
-/// (jackknife [Efron and Stein 1981]), and from the references' noise, which all errors share.
+/// The error is that of the ratio's logarithm: from how it changes when one seed after the other is left out of
+/// both, and from the references' noise, which all errors share.
 void find_factor(const Result& result, const Result& pt, double reference_error, double level, Findings& f) {
     const auto error = [](const Measurement& m) { return m.artefacts->error.relative_mse; };
     const auto seconds = [](const Measurement& m) { return m.cpu_seconds; };
@@ -141,9 +122,9 @@ void find_factor(const Result& result, const Result& pt, double reference_error,
     for (std::size_t i = 0; i < e.size(); ++i)
         logs.push_back(
             std::log(cost_of(without(e, i), without(t, i)) / cost_of(without(e_pt, i), without(t_pt, i))));
-    const double n = count_of(logs), of_seeds = standard_error_of(logs) * (n - 1);
+    const double of_seeds = jackknife_error(logs);
     const double of_reference = reference_error * (1 / mean_of(e) - 1 / mean_of(e_pt));
-    const double reach = student_t(level, n - 1) * std::hypot(of_seeds, of_reference);
+    const double reach = student_t(level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
     if (!std::isfinite(reach))
         return;
     f.factor = cost_of(e, t) / cost_of(e_pt, t_pt);
@@ -176,12 +157,12 @@ std::string shift_text(const Counters& counters) {
                        to_string(static_cast<ShiftOutcome>(most - shifts.begin())));
 }
 
-/// The error at equal time is that of a sample times its cost.
+/// The error at equal time is that at equal samples times what a sample costs.
 std::string cause_of_worse(const Findings& f) {
     std::string text =
         fmt::format("{:.3g} times the error: a sample has {:.2g} times that of PT's, and costs {:.2g} "
                     "times as much",
-                    f.factor, f.factor * f.samples, 1 / f.samples);
+                    f.factor, f.factor / f.cost, f.cost);
     text += shift_text(f.counters);
     if (f.worst_share > 0.5)
         text += fmt::format("; {:.0f} % of it is in the worst pixels", 100 * f.worst_share);
@@ -207,7 +188,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
             edges.push_back(run.tiles->edges);
     }
     const double tolerance = tolerance_of(result.point);
-    f.samples = spp_of(result) / spp_of(path_tracing);
+    f.cost = cost_of_sample(result) / cost_of_sample(path_tracing);
     f.error = mean_of(errors);
     f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);
     f.energy = energy_of(result, reference, tolerance);

@@ -28,7 +28,7 @@ struct Findings {
     double tile_edges_error = 0;
     double error = 0;       ///< relMSE, of pictures in units of the reference's mean
     double error_error = 0; ///< its standard error, references' noise included
-    double samples = 0;     ///< a pixel, over those of PT
+    double cost = 0;        ///< of a sample: CPU seconds, over those of PT
     Counters counters;      ///< of all runs together
     /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its confidence interval; none
     /// of them a number where either error is not certain.

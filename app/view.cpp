@@ -200,7 +200,7 @@ int run_view(const ViewOptions& options) {
         return view_needs_display;
     Session session(most_panes, options.threads, [&] { surface->wake(); });
     Viewer viewer(session, viewer_options(options, *surface));
-    viewer.load(options.scene.name, options.scene.loader, options.scene.file);
+    viewer.load(options.scene.name, options.scene.loader, options.scene.source);
     FrameWatch watch(options, *surface, viewer, start);
     const InterruptGuard guard;
     if (!steps.empty())

@@ -16,7 +16,7 @@ struct Artefacts {
     double mean = 0;            ///< luminance; 1 is the reference's, but for a black one's 0
     std::vector<double> worst;  ///< largest relative squared errors of pixels, from the worst on (worst_count)
     glm::ivec2 worst_pixel{0};  ///< where the first of them is
-    std::size_t bad_pixels = 0; ///< not finite: they count as black in all that is above
+    std::size_t bad_pixels = 0; ///< not finite in these units: they count as black in all that is above
     std::vector<double> pieces; ///< pieces_of the image, by those pixels
 };
 
@@ -34,7 +34,7 @@ Artefacts measure_artefacts(const RgbImage& image, const RgbImage& reference1, c
 struct ReferenceNoise {
     bool is_black = false;
     double mean_error = 0;          ///< standard error of the mean luminance of both references together
-    double squared_error_error = 0; ///< standard error that the references give to Artefacts::error
+    double squared_error_error = 0; ///< that the references give to Artefacts::error, its small bias included
     std::vector<double> pieces[2];  ///< of each reference, as Artefacts::pieces
 };
 

@@ -37,43 +37,6 @@ double trimmed_mean(std::vector<double> values, double share) {
     return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - drop);
 }
 
-/// The sum of values over pieces of an image, and how many pixels it has.
-struct Piece {
-    double sum = 0;
-    double pixels = 0;
-};
-
-std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
-    const int columns = (values.width() + edge - 1) / edge;
-    const int rows = (values.height() + edge - 1) / edge;
-    std::vector<Piece> pieces(static_cast<std::size_t>(columns) * rows);
-    for (int y = 0; y < values.height(); ++y) {
-        for (int x = 0; x < values.width(); ++x) {
-            Piece& piece = pieces[static_cast<std::size_t>(y / edge) * columns + x / edge];
-            piece.sum += values(x, y);
-            piece.pixels += 1;
-        }
-    }
-    return pieces;
-}
-
-/// The mean of a map of errors, and its standard error. Pixels near each other err alike, blocks hardly: the
-/// variance of a mean over pieces of unequal size [Cochran 1977, 6.4].
-FloorFreeError mean_of_blocks(const Image<double>& errors) {
-    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
-    const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : block_edge);
-    const auto count = static_cast<double>(errors.size());
-    const auto piece_count = static_cast<double>(pieces.size());
-    FloorFreeError mean;
-    for (const Piece& piece : pieces)
-        mean.relative_mse += piece.sum / count;
-    double variance = 0;
-    for (const Piece& piece : pieces)
-        variance += std::pow((piece.sum - piece.pixels * mean.relative_mse) / count, 2);
-    mean.standard_error = piece_count > 1 ? std::sqrt(variance * piece_count / (piece_count - 1)) : 0;
-    return mean;
-}
-
 } // namespace
 
 ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference) {
@@ -99,8 +62,38 @@ ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference) {
     return metrics;
 }
 
-FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
-                                        const RgbImage& reference2) {
+std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
+    const int columns = (values.width() + edge - 1) / edge;
+    const int rows = (values.height() + edge - 1) / edge;
+    std::vector<Piece> pieces(static_cast<std::size_t>(columns) * rows);
+    for (int y = 0; y < values.height(); ++y) {
+        for (int x = 0; x < values.width(); ++x) {
+            Piece& piece = pieces[static_cast<std::size_t>(y / edge) * columns + x / edge];
+            piece.sum += values(x, y);
+            piece.pixels += 1;
+        }
+    }
+    return pieces;
+}
+
+/// Pixels near each other err alike, blocks hardly: the variance of a mean over pieces of unequal size [Cochran
+/// 1977, 6.4].
+FloorFreeError mean_of_blocks(const Image<double>& errors) {
+    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
+    const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : block_edge);
+    const auto count = static_cast<double>(errors.size());
+    const auto piece_count = static_cast<double>(pieces.size());
+    FloorFreeError mean;
+    for (const Piece& piece : pieces)
+        mean.relative_mse += piece.sum / count;
+    double variance = 0;
+    for (const Piece& piece : pieces)
+        variance += std::pow((piece.sum - piece.pixels * mean.relative_mse) / count, 2);
+    mean.standard_error = piece_count > 1 ? std::sqrt(variance * piece_count / (piece_count - 1)) : 0;
+    return mean;
+}
+
+Image<double> floor_free_errors(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2) {
     check_sizes(image, reference1);
     check_sizes(image, reference2);
     Image<double> products(image.width(), image.height());
@@ -109,10 +102,10 @@ FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& r
         const glm::dvec3 r = (r1 + r2) / 2.0;
         products.data()[i] = mean_channel((value - r1) * (value - r2) / (r * r + relative_mse_epsilon));
     }
-    return mean_of_blocks(products);
+    return products;
 }
 
-FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2) {
+Image<double> reference_errors(const RgbImage& reference1, const RgbImage& reference2) {
     check_sizes(reference1, reference2);
     Image<double> squares(reference1.width(), reference1.height());
     for (std::size_t i = 0; i < reference1.size(); ++i) {
@@ -120,7 +113,16 @@ FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImag
         const glm::dvec3 r = (r1 + r2) / 2.0, half = (r1 - r2) / 2.0;
         squares.data()[i] = mean_channel(half * half / (r * r + relative_mse_epsilon));
     }
-    return mean_of_blocks(squares);
+    return squares;
+}
+
+FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
+                                        const RgbImage& reference2) {
+    return mean_of_blocks(floor_free_errors(image, reference1, reference2));
+}
+
+FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2) {
+    return mean_of_blocks(reference_errors(reference1, reference2));
 }
 
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace tessera {
 
@@ -25,6 +26,15 @@ struct ErrorMetrics {
 
 /// Throws std::invalid_argument if the sizes differ or the images are empty.
 ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference);
+
+/// The sum of the values of a square piece of an image, and how many pixels that has.
+struct Piece {
+    double sum = 0;
+    double pixels = 0;
+};
+
+/// Row by row; `edge`: in pixels. Those at the right and at the bottom are what is left.
+std::vector<Piece> pieces_of(const Image<double>& values, int edge);
 
 /// An estimate of relative_mse to a noiseless reference, from two noisy ones.
 struct FloorFreeError {
@@ -50,5 +60,11 @@ std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImag
 ///   mean of ((r1 - r2) / 2)^2 / (r^2 + epsilon).
 /// What both err alike, as a biased reconstruction does, is not in it. Throws as measure_error does.
 FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2);
+
+// The maps of which these are means: a value a pixel, the mean of its channels.
+Image<double> floor_free_errors(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
+Image<double> reference_errors(const RgbImage& reference1, const RgbImage& reference2);
+/// The mean of one of them, and its standard error.
+FloorFreeError mean_of_blocks(const Image<double>& errors);
 
 } // namespace tessera

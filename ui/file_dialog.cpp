@@ -80,7 +80,7 @@ void FileDialog::begin(const ViewerState& state) {
     purpose_ = state.choosing;
     chosen_.clear();
     folder_.clear();
-    const fs::path scene = state.scene_file;
+    const fs::path& scene = state.scene_source.file;
     const bool beside_scene = purpose_ == FilePurpose::scene && !scene.empty();
     std::error_code ignored;
     set_text(with_slash(beside_scene ? fs::absolute(scene, ignored).parent_path() : fs::current_path(ignored)));

@@ -109,7 +109,7 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     progress.spp_wanted = recipe.spp;
     progress.seconds_left = std::numeric_limits<double>::infinity();
     watch_ = std::make_shared<Watch>(progress, wake);
-    const PictureSubject subject{{state.scene_file, {}, {}}, state.scene, subject_.camera};
+    const PictureSubject subject{state.scene_source, state.scene, subject_.camera};
     job_.start(
         [=, watch = watch_, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {
             work_behind_others(); // and so do the pool's threads, which begin as their maker is

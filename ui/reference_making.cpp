@@ -14,7 +14,7 @@
 namespace tessera {
 
 std::filesystem::path default_reference_file(const ViewerState& state) {
-    std::string name = scene_name({state.scene_file, {}, {}});
+    std::string name = scene_name(state.scene_source);
     const Camera camera = state.camera.camera();
     if (state.scene && !(camera == state.scene->camera())) {
         const std::string text = camera_json(camera);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/load/load_progress.h"
+#include "render/load/scene_source.h"
 #include "render/scene/scene.h"
 #include "ui/background_job.h"
 
@@ -20,17 +21,19 @@ namespace tessera {
 using SceneLoader =
     std::function<std::shared_ptr<const Scene>(std::vector<std::string>& notes, LoadProgress& progress)>;
 
-/// The loader for a scene file.
-using SceneOpener = std::function<SceneLoader(const std::filesystem::path&)>;
-
 /// A scene to load, and to load again.
 struct SceneOrigin {
-    std::string name;           ///< to show
-    std::filesystem::path file; ///< empty: it is in no file
+    std::string name;   ///< to show
+    SceneSource source; ///< without a camera: that is the viewer's
     SceneLoader loader;
 
-    bool operator==(const SceneOrigin& other) const { return name == other.name && file == other.file; }
+    bool operator==(const SceneOrigin& other) const {
+        return name == other.name && source.file == other.source.file;
+    }
 };
+
+/// Of a scene file.
+using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
 
 /// How a load ended.
 struct SceneLoadResult {

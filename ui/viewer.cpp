@@ -33,7 +33,8 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
 /// Whatever way it is named.
 bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
     std::error_code ignored;
-    return a == b || (!a.file.empty() && !b.file.empty() && std::filesystem::equivalent(a.file, b.file, ignored));
+    const std::filesystem::path &one = a.source.file, &other = b.source.file;
+    return a == b || (!one.empty() && !other.empty() && std::filesystem::equivalent(one, other, ignored));
 }
 
 } // namespace
@@ -84,11 +85,11 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     const bool again = before && is_same_scene(shown_, origin);
     shown_ = origin;
     state_.scene_name = origin.name;
-    state_.scene_file = origin.file.string();
+    state_.scene_source = origin.source;
     ++state_.scenes_shown;
     std::error_code gone; // the current folder: then nobody knows where the file was
-    const std::filesystem::path file = std::filesystem::absolute(origin.file, gone);
-    if (!origin.file.empty() && !gone)
+    const std::filesystem::path file = std::filesystem::absolute(origin.source.file, gone);
+    if (!origin.source.file.empty() && !gone)
         opened_scenes_.push_back(file);
     remember_later();
     if (!again || !(before->camera() == state_.scene->camera())) {

@@ -29,7 +29,7 @@ namespace tessera {
 struct SavedPicture {
     std::shared_ptr<const Snapshot> snapshot;
     ReconstructionSettings reconstruction;
-    std::filesystem::path scene_file;           ///< empty: it is in none
+    SceneSource source;                         ///< without a file: it is in none
     std::shared_ptr<const Scene> scene;         ///< for first hits; null: it is no more
     std::shared_ptr<const Reference> reference; ///< for errors; null: there is none
 };
@@ -63,8 +63,8 @@ public:
     ~Viewer(); ///< waits for what is being saved, and remember()s
 
     /// Loads a scene in the background; the old one stays until it is there. One that is still being loaded is
-    /// given up. `file` is where it comes from, empty: from no file.
-    void load(std::string name, SceneLoader loader, std::filesystem::path file = {});
+    /// given up. `source` is where it comes from, without a file: from none.
+    void load(std::string name, SceneLoader loader, SceneSource source = {});
 
     /// Loads the scene on show again: the camera stays unless the file's has changed, and so do all settings.
     /// Where there is none yet, the one that was to be loaded last.
@@ -103,6 +103,7 @@ public:
 private:
     void take_scene();
     void show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin);
+    void open(const std::filesystem::path& file);
     void fulfil_wishes();
     void load_settings(const std::filesystem::path& file);
     void fulfil_saves();

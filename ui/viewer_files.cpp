@@ -33,15 +33,20 @@ const std::filesystem::path* find_file(const std::vector<std::filesystem::path>&
 
 // --- reading ---
 
-void Viewer::load(std::string name, SceneLoader loader, std::filesystem::path file) {
-    asked_ = {std::move(name), std::move(file), std::move(loader)};
+void Viewer::load(std::string name, SceneLoader loader, SceneSource source) {
+    asked_ = {std::move(name), std::move(source), std::move(loader)};
     load_.start(asked_, options_.wake);
 }
 
 void Viewer::reload() {
     const SceneOrigin origin = load_.running() || !state_.scene ? asked_ : shown_;
     if (origin.loader)
-        load(origin.name, origin.loader, origin.file);
+        load(origin.name, origin.loader, origin.source);
+}
+
+void Viewer::open(const std::filesystem::path& file) {
+    const SceneOrigin origin = options_.open(file);
+    load(origin.name, origin.loader, origin.source);
 }
 
 void Viewer::drop(const std::vector<std::filesystem::path>& files) {
@@ -49,7 +54,7 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* reference = find_file(files, ".exr");
     const std::filesystem::path* settings = find_file(files, ".json");
     if (scene)
-        load(scene->string(), options_.open(*scene), *scene);
+        open(*scene);
     if (reference)
         state_.reference_file = reference->string();
     if (settings)
@@ -82,7 +87,7 @@ void Viewer::fulfil_wishes() {
     if (std::exchange(state_.reload, false))
         reload();
     if (const std::string file = std::exchange(state_.open_scene, {}); !file.empty() && options_.open)
-        load(file, options_.open(file), file);
+        open(file);
     // Settings wait for a scene under way, which would put its own camera and depth in their place.
     if (!state_.settings_file.empty() && !load_.running())
         load_settings(std::exchange(state_.settings_file, {}));
@@ -96,7 +101,7 @@ void Viewer::fulfil_wishes() {
 
 void Viewer::fulfil_saves() {
     if (std::exchange(state_.save_camera, false) && state_.scene)
-        save([file = shown_.file, camera = state_.camera.camera()] {
+        save([file = shown_.source.file, camera = state_.camera.camera()] {
             return "the camera to " + store_camera(file, camera).string();
         });
     if (std::exchange(state_.save_settings, false))
@@ -121,7 +126,7 @@ void Viewer::save_exr() {
         return state_.add_message(Message::Kind::error, no_picture_yet);
     save([write = options_.write_exr,
           file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
-          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.file,
+          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.source,
                                  pane.snapshot->scene.lock(), state_.companions.reference}] {
         write(file, picture);
         return file.string();

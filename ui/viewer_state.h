@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/load/scene_source.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "ui/buffer.h"
@@ -111,9 +112,9 @@ struct Cursor {
 struct ViewerState {
     std::shared_ptr<const Scene> scene; ///< null while the first is loading
     std::string scene_name;
-    std::string scene_file; ///< empty: it is in none
-    int scenes_shown = 0;   ///< so far, reloaded ones counted again
-    std::string loading;    ///< what of the next scene is being loaded; empty: none is
+    SceneSource scene_source; ///< without a file: it is in none
+    int scenes_shown = 0;     ///< so far, reloaded ones counted again
+    std::string loading;      ///< what of the next scene is being loaded; empty: none is
 
     Companions companions;                  ///< what some buffers need
     std::vector<std::string> recent_scenes; ///< files, the newest first

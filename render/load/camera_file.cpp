@@ -27,9 +27,9 @@ using json = nlohmann::ordered_json;
 
 constexpr std::array known_fields = {"to_world", "fov", "fov_axis", "origin", "target", "up"};
 
-/// Points at the field's name.
+/// Points at the field's value.
 [[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& what) {
-    text.fail_at(text.text().find("\"" + field + "\""), what);
+    text.fail_at(text.place_of(field), what);
 }
 
 float number(const JsonText& text, const std::string& field, const json& value) {

@@ -22,7 +22,7 @@ public:
     void step(); ///< one of the stage's steps is done
     State state() const;
 
-    /// Asks the loader to end with an exception at the next file.
+    /// Asks the loader to end with an exception, at the next file or within the BVH.
     void give_up() { given_up_ = true; }
     bool given_up() const { return given_up_; }
     /// Throws std::runtime_error if the scene is wanted no more.
@@ -34,7 +34,7 @@ private:
     std::atomic<bool> given_up_ = false;
 };
 
-/// "scene file", "meshes and textures, 3 of 80", "BVH".
+/// "scene file", "meshes and textures, 3 of 80", "BVH, 40 %".
 std::string to_string(const LoadProgress::State& state);
 
 } // namespace tessera

@@ -18,7 +18,8 @@ struct SceneSource {
 std::string to_string(const SceneSource& source);
 
 /// A name for files that are made of it: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the
-/// file's; with the values of its variables, if it was given any: "glossy-0.01".
+/// file's; with the values of its variables, if it was given any: "glossy-0.01". All but letters, digits, "." and
+/// "-" is "_" in these.
 std::string scene_name(const SceneSource& source);
 
 } // namespace tessera

@@ -37,7 +37,7 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
                const RenderSettings& settings)
     : scene_(std::move(scene)), camera_(camera), size_(size), settings_(settings),
       film_(checked("image width", size.x), checked("image height", size.y), buffers_of(settings)),
-      plan_(size, settings_), newest_plan_(plan_) {
+      plan_(size, settings_), newest_plan_(std::make_shared<const ReusePlan>(plan_)) {
     check(settings);
 }
 
@@ -85,9 +85,9 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
     }
-    newest_plan_ = plan_;
+    newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     if (counters_.first_refused && counters_.first_refused->pass == spp_)
-        refused_plan_ = std::make_shared<const ReusePlan>(plan_);
+        refused_plan_ = newest_plan_;
     plan_.learn(film_.base_luminance());
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++spp_;

@@ -33,7 +33,7 @@ public:
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
     /// What the newest pass knew of where tiles are to be cut.
-    const ReusePlan& newest_plan() const { return newest_plan_; }
+    std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
     /// The same of the pass of counters().first_refused; null: none was refused in the passes of this render.
     std::shared_ptr<const ReusePlan> refused_plan() const { return refused_plan_; }
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
@@ -49,7 +49,7 @@ private:
     RenderSettings settings_;
     Film film_;
     ReusePlan plan_;
-    ReusePlan newest_plan_; // plan_ before it learnt from the newest pass
+    std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
     std::shared_ptr<const ReusePlan> refused_plan_;
     Counters counters_;
     int spp_ = 0;

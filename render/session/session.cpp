@@ -29,8 +29,11 @@ Session::Session(int panes, int threads, std::function<void()> on_publish)
 Session::~Session() {
     {
         const std::lock_guard lock(mutex_);
-        for (const auto& pane : panes_)
-            pane->end_work();
+        // And no new sources, as of a request: a thread that takes a token only now is to find it stopped.
+        for (const auto& pane : panes_) {
+            pane->stop.request_stop();
+            pane->solve_stop.request_stop();
+        }
     }
     render_thread_.request_stop();
     reconstruct_thread_.request_stop();

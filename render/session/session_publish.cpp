@@ -19,7 +19,7 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->settings = render.settings();
     snapshot->scene = render.scene();
     snapshot->camera = render.camera();
-    snapshot->plan = std::make_shared<ReusePlan>(render.newest_plan());
+    snapshot->plan = render.newest_plan();
     snapshot->counters = render.counters();
     snapshot->refused_plan = render.refused_plan();
     snapshot->images = std::make_shared<GradientImages>(render.images());

@@ -50,6 +50,16 @@ TEST_F(Compare, PrintsJson) {
     EXPECT_FALSE(json.contains("relmse_floor_free"));
 }
 
+TEST_F(Compare, CountsPixelsWithoutLight) {
+    RgbImage image(8, 6, Rgb(3));
+    image(1, 2) = Rgb(0);
+    image(5, 4) = Rgb(0.1f, -1, 0.1f);
+    image(6, 4) = Rgb(0, 0, 1);
+    const fs::path file = write("i.exr", image), reference = write("r.exr", RgbImage(8, 6, Rgb(2)));
+    ASSERT_EQ(run({file, reference, {}, {}, true}), 0) << err_;
+    EXPECT_DOUBLE_EQ(nlohmann::json::parse(out_)["share_without_light"].get<double>(), 2.0 / 48);
+}
+
 TEST_F(Compare, AReferenceWithTwoHalvesIsEnough) {
     const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2))), reference = folder_ / "r.exr";
     const RgbImage low(8, 6, Rgb(1)), high(8, 6, Rgb(3));

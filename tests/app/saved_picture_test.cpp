@@ -52,10 +52,13 @@ TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     snapshot->counters.camera_paths = 1344;
     settings.norm = Norm::l1;
     settings.joint_colour = false;
-    const ExrFile exr = saved({snapshot, settings, "room.xml", nullptr, nullptr});
+    const SceneSource source{"room.xml", {{"roughness", "0.1"}}, {}};
+    const ExrFile exr = saved({snapshot, settings, source, nullptr, nullptr});
 
     const auto about = json::parse(exr.attributes.at("tessera:settings"));
     EXPECT_EQ(about.at("norm"), "l1");
+    EXPECT_EQ(about.at("scene"), "room.xml");
+    EXPECT_EQ(about.at("variables").at("roughness"), "0.1");
     EXPECT_EQ(about.at("joint_colour"), false);
     const auto stats = json::parse(exr.attributes.at("tessera:stats"));
     EXPECT_EQ(stats.at("seconds").at("render").at("wall"), 3.5);

@@ -28,11 +28,11 @@ Rgb truth(int x, int y) {
 using Mean = std::function<Rgb(int x, int y)>;
 
 /// With relative noise of that standard deviation, from pixel to pixel.
-RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random) {
+RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random, glm::ivec2 size = {width, height}) {
     std::normal_distribution<double> normal;
-    RgbImage image(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
+    RgbImage image(size.x, size.y);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
             image(x, y) = mean(x, y) + truth(x, y) * float(deviation * normal(random));
     return image;
 }
@@ -40,15 +40,15 @@ RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random) {
 /// A suite of one scene: its references, and the runs of methods.
 class Suite {
 public:
-    explicit Suite(double reference_noise = 0.02) {
+    explicit Suite(double reference_noise = 0.02, glm::ivec2 size = {width, height}) : size_(size) {
         for (RgbImage& half : halves_)
-            half = noisy(truth, reference_noise, random_);
+            half = noisy(truth, reference_noise, random_, size_);
         pt_ = result(truth, 0.3, Method::pt);
     }
 
     Result result(const Mean& mean, double deviation, Method method = Method::pr, Norm norm = Norm::none) {
         Result result;
-        result.point.settings.size = {width, height};
+        result.point.settings.size = size_;
         result.point.settings.render.method = method;
         result.point.settings.reconstruction.norm = norm;
         for (int seed = 0; seed < seeds; ++seed) {
@@ -56,7 +56,7 @@ public:
             m.seed = static_cast<std::uint64_t>(seed);
             m.spp = 16;
             m.cpu_seconds = 2;
-            m.artefacts = measure_artefacts(noisy(mean, deviation, random_), halves_[0], halves_[1]);
+            m.artefacts = measure_artefacts(noisy(mean, deviation, random_, size_), halves_[0], halves_[1]);
             result.runs.push_back(m);
         }
         return result;
@@ -70,6 +70,7 @@ public:
         return verdict(result(mean, deviation, Method::gpr, norm));
     }
 
+    glm::ivec2 size_;
     std::mt19937 random_{1};
     std::array<RgbImage, 2> halves_;
     Result pt_;
@@ -81,6 +82,16 @@ TEST(Verdict, AnUnbiasedMethodIsOkHoweverNoisyTheReference) {
         const Verdict v = suite.verdict(truth, 0.3);
         EXPECT_EQ(v.kind, Verdict::Kind::ok) << v.cause;
         EXPECT_LT(suite.findings(suite.pt_).squared_bias.sigmas, 4);
+    }
+}
+
+TEST(Verdict, OnePieceTellsNothingOfABias) {
+    for (double reference_noise : {0.02, 0.1, 0.3, 0.5}) {
+        Suite suite(reference_noise, {8, 8});
+        const Findings f = suite.findings(suite.pt_);
+        EXPECT_EQ(f.squared_bias.sigmas, 0) << "there is no standard error of one";
+        const Verdict v = suite.verdict(truth, 0.3);
+        EXPECT_EQ(v.kind, Verdict::Kind::ok) << v.cause;
     }
 }
 
@@ -156,6 +167,7 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     for (Measurement& m : slow.runs)
         m.cpu_seconds *= 3;
     EXPECT_NEAR(suite.findings(slow).factor, 3, 0.3) << "error at equal time";
+    EXPECT_THAT(suite.verdict(slow).cause, HasSubstr("costs 3 times"));
     EXPECT_EQ(suite.verdict(truth, 0.1).kind, Verdict::Kind::ok);
     EXPECT_NEAR(suite.findings(suite.result(truth, 0.1)).factor, 1.0 / 9, 0.02);
 }

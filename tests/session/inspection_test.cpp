@@ -56,7 +56,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
         for (std::size_t n = 0; n < std::size(pixels); ++n) {
             const glm::ivec2 p = pixels[n];
             const Inspection seen =
-                inspect(*scene, scene->camera(), size, settings, render.newest_plan(), pass, p);
+                inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), pass, p);
             sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance(p);
             const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.primal(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
@@ -70,7 +70,7 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
     render.pass(pool);
     int joined = 0;
     for (int x = 0; x < size.x; ++x) {
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {x, 8});
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 8});
         for (const InspectedSet& set : seen.sets) {
             EXPECT_EQ(set.to(seen.pixel).size(), set.pixels.size());
             EXPECT_EQ(set.from(seen.pixel).size() + 1, set.pixels.size());
@@ -96,7 +96,7 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
     render.pass(pool);
     int seen_steps = 0, stretched = 0;
     for (int x = 0; x < size.x; ++x) {
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {x, 9});
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 9});
         for (const InspectedSet& set : seen.sets)
             for (const InspectedShift* s : set.to(seen.pixel)) {
                 if (is_black(s->value) || !s->is_tried)
@@ -129,7 +129,7 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
     render.pass(pool);
     const RgbImage primal = render.images().primal;
     const TileInspection tile =
-        inspect_tile(*scene, scene->camera(), size, settings, render.newest_plan(), 0, {12, 7});
+        inspect_tile(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {12, 7});
     EXPECT_TRUE(tile.tile.contains({12, 7}));
     int bases = 0, served = 0;
     for (const InspectedSet& set : tile.sets) {

@@ -83,10 +83,10 @@ TEST(RefusedPlan, IsThatOfThePassOfTheFirst) {
         EXPECT_EQ(render.refused_plan() != nullptr, render.counters().first_refused.has_value());
         if (!render.refused_plan() || render.spp() < 2)
             continue; // the plan of the first pass has learnt nothing
-        const std::string then = learnt(render.newest_plan());
+        const std::string then = learnt(*render.newest_plan());
         render.pass(pool);
         EXPECT_EQ(learnt(*render.refused_plan()), then);
-        EXPECT_NE(learnt(render.newest_plan()), then);
+        EXPECT_NE(learnt(*render.newest_plan()), then);
         return;
     }
     FAIL() << "no sample was refused in a later pass";

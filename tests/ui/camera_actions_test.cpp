@@ -23,8 +23,7 @@ struct CameraActions : testing::Test, ViewerHarness {
     }
     ~CameraActions() override { fs::current_path(before); }
     void show(const fs::path& file) {
-        viewer.load(
-            "a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); }, file);
+        viewer.load("a room", scene_in(file).loader, scene_in(file).source);
         wait_until([&] { return !viewer.loading(); });
         frames(2);
     }

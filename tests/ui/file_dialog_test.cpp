@@ -70,9 +70,9 @@ struct Dialog : testing::Test {
     Dialog() {
         fs::create_directory("scenes");
         std::ofstream("scenes/room.xml") << "";
-        options.open = [this](const fs::path& file) -> SceneLoader {
+        options.open = [this](const fs::path& file) -> SceneOrigin {
             opened.push_back(file.string());
-            return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+            return scene_in(file);
         };
     }
     CurrentFolder folder;

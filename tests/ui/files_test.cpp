@@ -179,9 +179,7 @@ TEST_F(SettingsFile, IsSavedByItsActionAndTakenByDropping) {
 TEST(DroppedTogether, TheSettingsCountAfterTheScene) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
-    options.open = [](const fs::path&) -> SceneLoader {
-        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
-    };
+    options.open = scene_in;
     ViewerHarness h({900, 600}, 1, options);
     h.load_scene();
     for (PaneState& pane : h.state().panes)

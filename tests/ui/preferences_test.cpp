@@ -73,9 +73,9 @@ TEST(Remembered, LayoutAndRecentScenes) {
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = folder.path / "viewer.json";
     std::atomic<int> opened = 0;
-    options.open = [&](const fs::path&) -> SceneLoader {
+    options.open = [&](const fs::path& file) {
         ++opened;
-        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
+        return scene_in(file);
     };
     float width = 0;
     {
@@ -110,9 +110,7 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = folder.path / "viewer.json";
-    options.open = [](const fs::path&) -> SceneLoader {
-        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
-    };
+    options.open = scene_in;
     ViewerHarness h({900, 600}, 1, options);
     h.frames(2);
     Preferences of_another;
@@ -149,9 +147,7 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = folder.path / "viewer.json";
-    options.open = [](const fs::path&) -> SceneLoader {
-        return [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); };
-    };
+    options.open = scene_in;
     fs::create_directory("gone");
     fs::current_path("gone");
     fs::remove(folder.path / "gone");

@@ -65,12 +65,13 @@ private:
 ViewerOptions options_for(const Files& files) {
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = files.preferences();
-    options.open = [](const fs::path& file) -> SceneLoader {
-        return [file](std::vector<std::string>&, LoadProgress&) {
+    options.open = [](const fs::path& file) -> SceneOrigin {
+        const auto loader = [file](std::vector<std::string>&, LoadProgress&) {
             if (file.filename() != "scene.xml")
                 throw std::runtime_error(file.string() + ":1:1: is broken");
             return viewer_scene();
         };
+        return {file.string(), {file, {}, {}}, loader};
     };
     return options;
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace tessera::test {
 namespace {
@@ -51,6 +52,18 @@ struct MakeReference : testing::Test {
         return checksum_of(render.finish());
     }
 };
+
+TEST_F(MakeReference, IsNamedByTheScenesVariablesAndKnowsThem) {
+    h.viewer.load("room.xml", scene_in("room.xml").loader, {"room.xml", {{"unit", "100000"}}, {}});
+    h.wait_until([&] { return h.state().scenes_shown == 2; });
+    h.frames(2);
+    EXPECT_EQ(file(h).filename().string().rfind("room-100000-", 0), 0u) << file(h);
+    begin(h, 2);
+    wait_for_end(h);
+    const auto settings = nlohmann::json::parse(read_reference(file(h)).settings);
+    EXPECT_EQ(settings.at("scene"), "room.xml");
+    EXPECT_EQ(settings.at("variables").at("unit"), "100000");
+}
 
 TEST_F(MakeReference, BecomesTheReferenceAndHasTheBitsOfTheCommand) {
     begin(h, 16);

@@ -41,9 +41,9 @@ struct SceneChange : testing::Test, ViewerHarness {
     ViewerOptions options() {
         ViewerOptions result = two_panes();
         result.max_depth = {};
-        result.open = [this](const std::filesystem::path& path) {
+        result.open = [this](const std::filesystem::path& path) -> SceneOrigin {
             opened = path;
-            return file.loader();
+            return {path.string(), {path, {}, {}}, file.loader()};
         };
         return result;
     }
@@ -52,7 +52,7 @@ struct SceneChange : testing::Test, ViewerHarness {
         frames(3);
     }
     void show() {
-        viewer.load("room.xml", file.loader(), "room.xml");
+        viewer.load("room.xml", file.loader(), {"room.xml", {}, {}});
         settle();
     }
     void reload() {

@@ -32,6 +32,11 @@ ViewerOptions ViewerHarness::two_panes() {
     return options;
 }
 
+SceneOrigin scene_in(const std::filesystem::path& file) {
+    return {
+        file.string(), {file, {}, {}}, [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); }};
+}
+
 ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options)
     : context(size), gui(scale), scale_(scale), session(most_panes, 1), viewer(session, std::move(options)) {}
 

@@ -15,6 +15,9 @@ namespace tessera::test {
 /// A room with a lamp, seen by a camera.
 std::shared_ptr<const Scene> viewer_scene();
 
+/// That room, said to be in a file.
+SceneOrigin scene_in(const std::filesystem::path& file);
+
 /// The viewer drawn in memory, driven by synthetic input.
 class ViewerHarness {
 public:

@@ -1,0 +1,32 @@
+#include "app/interrupt.h"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+TEST(Interrupt, OneAsksForAnEnd) {
+    const InterruptGuard guard;
+    EXPECT_FALSE(interrupted());
+    std::raise(SIGTERM);
+    EXPECT_TRUE(interrupted());
+}
+
+TEST(Interrupt, ASecondOneEndsTheProcessWhicheverItIs) {
+    for (int first : {SIGINT, SIGTERM})
+        for (int second : {SIGINT, SIGTERM}) {
+            const auto raise_both = [&] {
+                const InterruptGuard guard;
+                std::raise(first);
+                std::raise(second);
+            };
+            EXPECT_EXIT(raise_both(), testing::KilledBySignal(second), "") << first << ", " << second;
+        }
+}
+
+} // namespace
+
+} // namespace tessera::test

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "tests/ui/viewer_harness.h"
+#include "ui/picture_error.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+/// A viewer at rest, with a reference of one colour if asked for.
+struct Charts : testing::Test, ViewerHarness {
+    Charts() { rest(2); }
+
+    void set_reference(Rgb value) {
+        state().companions.reference = make_reference("a reference", RgbImage(48, 36, value), {});
+    }
+
+    /// The newest line of a pane; empty: it has none.
+    std::vector<ErrorPoint> errors(int i) {
+        const auto& curves = state().chart_of(pane(i)).curves;
+        return curves.empty() ? std::vector<ErrorPoint>() : curves.back().points();
+    }
+
+    void wait_for_errors(int i, int spp) {
+        wait_until([&] { return !errors(i).empty() && errors(i).back().spp == spp; });
+    }
+};
+
+} // namespace tessera::test
