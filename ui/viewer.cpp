@@ -218,9 +218,9 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
         draw_reference_dialog(screen, controls_, state_);
     if (state_.show_help)
         draw_help(screen, controls_, state_);
-    file_dialog_.draw(screen, controls_, state_);
     if (load_.running())
         draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
+    file_dialog_.draw(screen, controls_, state_); // last: it is modal, and windows may not appear after such
 }
 
 double Viewer::next_frame_in() const {

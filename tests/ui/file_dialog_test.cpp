@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -188,6 +189,23 @@ TEST_F(Dialog, OpensAReferenceAndCanBeCancelled) {
     h.click_at("file/r.exr", 0.1f);
     h.click("file.open");
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
+}
+
+/// A window that appears after the dialog in a frame is more than Dear ImGui 1.86 bears: the dialog comes last.
+TEST_F(Dialog, ASceneCanBeOnItsWayBehindIt) {
+    ViewerHarness h({1280, 720}, 1, options);
+    h.rest(2);
+    std::atomic<bool> through = false;
+    h.viewer.load("a room", [&through](std::vector<std::string>&, LoadProgress&) {
+        while (!through)
+            std::this_thread::yield();
+        return viewer_scene();
+    });
+    h.state().choosing = FilePurpose::scene;
+    h.frames(3);
+    EXPECT_TRUE(h.state().choosing);
+    through = true;
+    h.wait_until([&] { return h.state().loading.empty(); });
 }
 
 } // namespace
