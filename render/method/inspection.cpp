@@ -1,85 +1,48 @@
 #include "render/method/inspection.h"
 
+#include "render/method/method_sets.h"
 #include "render/method/onlooker.h"
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 namespace tessera {
 
 namespace {
 
-/// A sampling set before anything is traced.
-struct PlannedSet {
-    std::vector<glm::ivec2> pixels;
-    std::vector<char> is_border;
-
-    void add(int x, int y, bool border = false) {
-        pixels.emplace_back(x, y);
-        is_border.push_back(border);
-    }
-    void add(PixelRect rect, PixelRect inner) {
-        for (int y = rect.y0; y < rect.y1; ++y)
-            for (int x = rect.x0; x < rect.x1; ++x)
-                add(x, y, !inner.contains({x, y}));
-    }
-    /// Whether the pixel gets its light here.
-    bool serves(glm::ivec2 pixel) const {
-        const auto found = std::find(pixels.begin(), pixels.end(), pixel);
-        return found != pixels.end() && !is_border[static_cast<std::size_t>(found - pixels.begin())];
-    }
-};
-
-/// The pattern sets of a tile.
-void add_rooks(const Pass& pass, PixelRect tile, std::vector<PlannedSet>& sets) {
-    std::vector<int> columns;
-    pass.grid.shuffle_columns(tile, columns);
-    for (int pattern = 0; pattern < tile.width(); ++pattern) {
-        PlannedSet set;
-        pass.grid.for_each_rook(tile, columns, pattern, [&](int x, int y) { set.add(x, y); });
-        if (!set.pixels.empty())
-            sets.push_back(std::move(set));
-    }
-}
-
-/// The sampling sets of a pixel's tile, in the methods' render functions' order; of PT and G-PT those of the
-/// pixel.
-std::vector<PlannedSet> sets_of_tile(const Pass& pass, glm::ivec2 p) {
-    std::vector<PlannedSet> sets;
-    const auto add = [&](PixelRect all, PixelRect inner) { sets.emplace_back().add(all, inner); };
+/// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
+/// for each; of PT and G-PT those of the pixel.
+template <class Visit>
+void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
+    const auto visit_inner = [&](PixelRect inner, auto) { visit(inner); };
     switch (pass.settings.method) {
     case Method::pt:
-        add(pixel, pixel);
-        break;
-    case Method::gpt:
-        if (p.x + 1 < pass.size.x)
-            add({p.x, p.y, p.x + 2, p.y + 1}, pixel);
-        if (p.y + 1 < pass.size.y)
-            add({p.x, p.y, p.x + 1, p.y + 2}, pixel);
-        break;
-    case Method::gpr:
-        pass.grid.for_each_part(tile, [&](PixelRect part) { add(part.with_halo(pass.size), part); });
-        break;
+        set.assign(pixel);
+        return visit(pixel);
     case Method::pr:
-        if (pass.settings.pattern == Pattern::rooks)
-            add_rooks(pass, tile, sets);
-        else
-            pass.grid.for_each_part(tile, [&](PixelRect part) { add(part, part); });
-        break;
+        return for_each_pr_set(pass, tile, set, visit);
+    case Method::gpt:
+        return for_each_gpt_set(pass, p, set, visit_inner);
+    case Method::gpr:
+        return for_each_gpr_set(pass, tile, set, visit_inner);
     }
-    return sets;
 }
 
-InspectedSet look_at(const Pass& pass, const PlannedSet& set, std::optional<glm::ivec2> pixel, Worker& worker) {
-    PixelRect around{set.pixels[0].x, set.pixels[0].y, set.pixels[0].x + 1, set.pixels[0].y + 1};
-    for (glm::ivec2 p : set.pixels)
+PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
+    PixelRect around{pixels[0].x, pixels[0].y, pixels[0].x + 1, pixels[0].y + 1};
+    for (glm::ivec2 p : pixels)
         around = {std::min(around.x0, p.x), std::min(around.y0, p.y), std::max(around.x1, p.x + 1),
                   std::max(around.y1, p.y + 1)};
-    worker.base.trace(pass, worker.tracer, around);
-    worker.set.pixels = set.pixels;
-    InspectedSet result{set.pixels, set.is_border, {}, {}};
+    return around;
+}
+
+/// Shares the light of worker.set, and looks on; closely at what `pixel` gets.
+InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
+    InspectedSet result{worker.set.pixels, {}, {}, {}};
+    for (glm::ivec2 p : result.pixels)
+        result.is_border.push_back(!inner.contains(p));
+    worker.base.trace(pass, worker.tracer, bounds(result.pixels));
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
     const RouletteKind kind =
         reuses_paths(pass.settings.method) ? pass.settings.roulette : RouletteKind::none; // as in the methods
@@ -135,9 +98,10 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     result.radiance = worker.path.radiance();
     result.very_direct = worker.path.very_direct;
     result.is_refused = !is_finite(result.radiance + result.very_direct);
-    for (const PlannedSet& set : sets_of_tile(pass, pixel))
-        if (set.serves(pixel))
-            result.sets.push_back(look_at(pass, set, pixel, worker));
+    for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
+        if (inner.contains(pixel) && worker.set.contains(pixel))
+            result.sets.push_back(look_at(pass, inner, pixel, worker));
+    });
     return result;
 }
 
@@ -148,8 +112,8 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
     const PixelRect tile = reuses_paths(settings.method) ? pass.grid.tile_at(pixel)
                                                          : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
     TileInspection result{tile, index, settings, {}};
-    for (const PlannedSet& set : sets_of_tile(pass, pixel))
-        result.sets.push_back(look_at(pass, set, {}, worker));
+    for_each_set_of_tile(pass, pixel, worker.set,
+                         [&](PixelRect inner) { result.sets.push_back(look_at(pass, inner, {}, worker)); });
     return result;
 }
 

@@ -86,7 +86,7 @@ void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbI
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
-    if (pass.settings.very_direct_grid > 1 && film.has_lamp_edge(x, y))
+    if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
     film.add(x, y, pass.index, sample, worker.counters);
 }

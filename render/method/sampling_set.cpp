@@ -4,7 +4,8 @@
 
 namespace tessera {
 
-void SamplingSet::add(PixelRect rect) {
+void SamplingSet::assign(PixelRect rect) {
+    clear();
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x)
             add(x, y);

@@ -4,6 +4,7 @@
 #include "render/method/pixel_rect.h"
 #include "render/method/reuse_roulette.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,11 @@ struct SamplingSet {
 
     void clear() { pixels.clear(); }
     void add(int x, int y) { pixels.emplace_back(x, y); }
-    /// All pixels of a rectangle, row by row.
-    void add(PixelRect rect);
+    /// All pixels of a rectangle, row by row, and no others.
+    void assign(PixelRect rect);
+    bool contains(glm::ivec2 pixel) const {
+        return std::find(pixels.begin(), pixels.end(), pixel) != pixels.end();
+    }
 
     /// Looks the base paths of `pixels` up, and sets all sums to 0.
     void collect(const BaseBlock& base);

@@ -3,7 +3,7 @@
 // names of scenes, ../shared/scenes/NAME/scene.xml or assets/NAME.xml.
 
 #include "render/load/mitsuba_xml.h"
-#include "render/method/pass.h"
+#include "render/method/method_sets.h"
 
 #include <map>
 #include <string>
@@ -153,7 +153,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
         tile.y1 = tile.y0 + stage.settings.tile;
         const PixelRect pixels = stage.traced(tile);
         tiles[i].trace(stage.pass, worker.tracer, pixels);
-        sets[i].add(pixels);
+        sets[i].assign(pixels);
         sets[i].collect(tiles[i]);
     }
     worker.counters = {};
@@ -178,11 +178,8 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
     for (auto _ : state)
         for (std::size_t i = 0; i < base.size(); ++i) {
             std::swap(worker.base, base[i]);
-            stage.pass.grid.for_each_part(stage.blocks[i], [&](PixelRect part) {
-                worker.set.clear();
-                worker.set.add(stage.traced(part));
-                tessera::share_light(stage.pass, roulette, worker);
-            });
+            for_each_gpr_set(stage.pass, stage.blocks[i], worker.set,
+                             [&](PixelRect, PixelRect) { tessera::share_light(stage.pass, roulette, worker); });
             std::swap(worker.base, base[i]);
         }
     report(state, "paths", static_cast<double>(worker.counters.set_paths()));
