@@ -43,15 +43,12 @@ void ImageView::zoom_at(glm::vec2 pane_pixel, float factor, glm::ivec2 image_siz
     center_ = glm::clamp(center_, glm::vec2(0), glm::vec2(1)); // the picture cannot be lost from sight
 }
 
-void ImageView::show(glm::vec2 min, glm::vec2 max, glm::ivec2 room, glm::ivec2 image_size, glm::ivec2 pane_size) {
-    if (is_degenerate(image_size, pane_size) || is_degenerate(image_size, room))
+void ImageView::show(glm::vec2 min, glm::vec2 max, glm::ivec2 image_size, glm::ivec2 pane_size) {
+    if (is_degenerate(image_size, pane_size))
         return;
-    const glm::vec2 part = glm::max((max - min) * glm::vec2(image_size), glm::vec2(1)), place(room);
-    zoom_ = std::min(place.x / part.x, place.y / part.y) / fitting_scale(image_size, pane_size);
-    zoom_ = std::clamp(zoom_, least_zoom, most_zoom);
-    const glm::vec2 extent = glm::vec2(image_size) * (fitting_scale(image_size, pane_size) * zoom_);
-    center_ = (min + max) * 0.5f + (glm::vec2(pane_size) - place) * 0.5f / extent;
-    center_ = glm::clamp(center_, glm::vec2(0), glm::vec2(1));
+    const glm::vec2 ratio = glm::vec2(pane_size) / glm::max((max - min) * glm::vec2(image_size), glm::vec2(1));
+    const float zoom = std::min(ratio.x, ratio.y) / fitting_scale(image_size, pane_size);
+    *this = ImageView(zoom, (min + max) * 0.5f);
 }
 
 void ImageView::pan(glm::vec2 pixels, glm::ivec2 image_size, glm::ivec2 pane_size) {

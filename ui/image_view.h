@@ -28,8 +28,8 @@ public:
     void zoom_at(glm::vec2 pane_pixel, float factor, glm::ivec2 image_size, glm::ivec2 pane_size);
     /// Moves the picture by so many pixels.
     void pan(glm::vec2 pixels, glm::ivec2 image_size, glm::ivec2 pane_size);
-    /// Shows a part of the image, fractions of it, as large as so many pixels from the pane's top left allow.
-    void show(glm::vec2 min, glm::vec2 max, glm::ivec2 room, glm::ivec2 image_size, glm::ivec2 pane_size);
+    /// Shows a part of the image, fractions of it, as large as the pane allows.
+    void show(glm::vec2 min, glm::vec2 max, glm::ivec2 image_size, glm::ivec2 pane_size);
     /// The whole picture, in the middle.
     void fit() { *this = ImageView(); }
 

@@ -134,9 +134,7 @@ void PaneView::frame_tile(int index, const PictureFrame& frame, ViewerState& sta
     const PixelRect& t = slow.tile->tile; // with its border, and half a pixel about it
     const glm::vec2 image(state.request_size());
     const glm::vec2 min = (glm::vec2(t.x0, t.y0) - 0.75f) / image, max = (glm::vec2(t.x1, t.y1) + 1.75f) / image;
-    const float free = std::clamp(state.covered_from - frame.rect.min.y, 1.0f, frame.rect.size().y);
-    const glm::vec2 room(frame.rect.size().x, free);
-    state.view.show(min, max, glm::ivec2(room * frame.pixels_a_unit), state.request_size(), frame.pixels);
+    state.view.show(min, max, state.request_size(), frame.pixels);
 }
 
 // --- the mouse ---

@@ -141,7 +141,10 @@ void Viewer::draw_frame() {
         draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
         draw_panel_edge(pictures, controls_, state_);
     }
+    ScreenRect bottom = pictures;
+    pictures.max.y = bottom.min.y = pictures.max.y - bottom_height(pictures.size().y);
     draw_panes(pictures);
+    draw_bottom(bottom);
     draw_overlays(pictures);
     fulfil_wishes();
     link_.send(state_);
@@ -196,23 +199,27 @@ void Viewer::draw_panes(const ScreenRect& where) {
     }
 }
 
-void Viewer::draw_overlays(const ScreenRect& pictures) {
-    const auto bottom = [&](float height) {
-        const float top = std::max(pictures.max.y - std::floor(height), pictures.min.y);
-        state_.covered_from = top;
-        return ScreenRect{{pictures.min.x, top}, pictures.max};
-    };
+/// Of the panel below the pictures; 0: there is none. At most half the room that there is.
+float Viewer::bottom_height(float room) const {
     const float least = ImGui::GetFontSize() * 11;
-    const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, pictures.size().y * 0.36f));
-    state_.covered_from = pictures.max.y;
+    const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, room * 0.36f));
+    const bool looks_inside = state_.slow_motion.active || state_.inspector.active;
+    const float wanted = state_.show_messages ? least : looks_inside ? large : 0;
+    return std::min(std::floor(wanted), room / 2);
+}
+
+void Viewer::draw_bottom(const ScreenRect& where) {
+    if (state_.show_messages)
+        draw_message_panel(where, controls_, state_);
+    else if (state_.slow_motion.active)
+        draw_slow_motion_panel(where, controls_, state_);
+    else if (state_.inspector.active)
+        draw_inspector_panel(where, controls_, state_);
+}
+
+void Viewer::draw_overlays(const ScreenRect& pictures) {
     if (state_.large_charts || state_.save_charts)
         draw_large_charts(pictures, controls_, state_);
-    if (state_.show_messages)
-        draw_message_panel(bottom(least), controls_, state_);
-    else if (state_.slow_motion.active)
-        draw_slow_motion_panel(bottom(large), controls_, state_);
-    else if (state_.inspector.active)
-        draw_inspector_panel(bottom(large), controls_, state_);
     const glm::vec2 screen(state_.window_size);
     if (state_.reference_making.show)
         draw_reference_dialog(screen, controls_, state_);

@@ -115,6 +115,8 @@ private:
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);
+    float bottom_height(float room) const;
+    void draw_bottom(const ScreenRect& where);
     void draw_overlays(const ScreenRect& pictures);
     void log_changes();
 

@@ -147,7 +147,6 @@ struct ViewerState {
     bool paused = false;
 
     Theme theme = Theme::dark;
-    float covered_from = 0;    ///< below this, panels lie over the pictures; as last drawn, screen units
     glm::ivec2 window_size{0}; ///< as last drawn, screen units
     WindowPlace window_place;  ///< as it is now
     float display_scale = 1;   ///< of text and controls, as the display says

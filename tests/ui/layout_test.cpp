@@ -46,6 +46,21 @@ TEST_F(Layout, NoPanelNorWindowSizeRestartsARender) {
     same("larger text");
 }
 
+TEST_F(Layout, APanelBelowHidesNothingOfThePictures) {
+    const std::uint64_t before = pane(0).generation;
+    const float without = place("pane0.picture").max.y;
+    type(Key::i);
+    frames(3);
+    EXPECT_LE(place("pane0.picture").max.y, place("inspector.direction").min.y);
+    EXPECT_EQ(pane(0).generation, before);
+    resize({400, 40}); // hardly room for either
+    EXPECT_LT(place("pane0.picture").min.y, place("pane0.picture").max.y);
+    resize({400, 240});
+    type(Key::i);
+    frames(3);
+    EXPECT_EQ(place("pane0.picture").max.y, without);
+}
+
 TEST_F(Layout, ASizeThatFitsComesWithARestart) {
     resize({700, 500});
     ASSERT_TRUE(waits_for_another_size());
