@@ -50,6 +50,11 @@ void next_tone(ViewerState& state) {
     state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
 }
 
+void toggle_charts(ViewerState& state) {
+    state.show_charts = !state.show_charts;
+    state.large_charts = state.large_charts && state.show_charts;
+}
+
 void toggle_inspector(ViewerState& state) {
     state.set_inspector(!state.inspector.active);
 }

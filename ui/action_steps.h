@@ -17,7 +17,8 @@ void step_ui_scale(ViewerState& state, float by);
 void next_pane(ViewerState& state);
 void next_grid(ViewerState& state);
 void next_tone(ViewerState& state);
-void next_tile(ViewerState& state); ///< of the slow motion
+void next_tile(ViewerState& state);     ///< of the slow motion
+void toggle_charts(ViewerState& state); ///< hidden, they are not drawn large either
 void toggle_inspector(ViewerState& state);
 void toggle_slow_motion(ViewerState& state);
 void toggle_comparison(ViewerState& state, Comparison::Kind kind);

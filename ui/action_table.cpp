@@ -47,7 +47,8 @@ constexpr Action table[] = {
      "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
      "settings to an EXR file in the current folder.",
      ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
-    {"File", "Save settings", "Writes panes, camera, size and display to a JSON file in the current folder.",
+    {"File", "Save settings",
+     "Writes panes, camera, size, display and what is inspected to a JSON file in the current folder.",
      ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},
     {"File", "Save charts",
      "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "
@@ -167,7 +168,7 @@ constexpr Action table[] = {
      key(Key::t), no_shortcut, [](State& s) { s.show_statistics = !s.show_statistics; },
      [](const State& s) { return s.show_statistics; }},
     {"View", "Charts", "Shows or hides how errors fall, efficiency, how shifts end, and a histogram.", key(Key::h),
-     no_shortcut, [](State& s) { s.show_charts = !s.show_charts; }, [](const State& s) { return s.show_charts; }},
+     no_shortcut, toggle_charts, [](const State& s) { return s.show_charts; }},
     {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
      [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
 

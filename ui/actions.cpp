@@ -52,6 +52,7 @@ void close_overlays(bool entering_text, ViewerState& state) {
     const bool loads = !state.loading.empty();
     state.cancel_load = state.cancel_load || (!any && loads);
     state.cancel_reference = state.cancel_reference || (!any && !loads && state.reference_read);
+    state.give_up_reconstructions = state.give_up_reconstructions || (!any && !loads && !state.reference_read);
     state.show_help = false;
     state.large_charts = false;
     state.reference_making.show = false;

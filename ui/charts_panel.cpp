@@ -221,7 +221,8 @@ void draw_reference_buttons(Controls& controls, ViewerState& state) {
 
 void draw_chart_buttons(Controls& controls, ViewerState& state) {
     if (controls.button("charts.large", state.large_charts ? "Small" : "Large",
-                        "Draws the chart over the pictures, too."))
+                        state.large_charts ? "Draws them here again (Esc)."
+                                           : "Draws chart and histogram over the pictures instead of here."))
         state.large_charts = !state.large_charts;
     ImGui::SameLine();
     if (controls.button("charts.save", "Save",
@@ -233,10 +234,13 @@ void draw_chart_buttons(Controls& controls, ViewerState& state) {
 void draw_contents(Controls& controls, ViewerState& state) {
     heading("Charts");
     draw_choices(controls, state);
-    draw_chart(controls, state, chart_height(state));
+    if (!state.large_charts)
+        draw_chart(controls, state, chart_height(state));
     if (state.chart_kind != ChartKind::shifts && !state.companions.reference)
         draw_reference_buttons(controls, state);
     draw_chart_buttons(controls, state);
+    if (state.large_charts)
+        return;
     heading("Histogram");
     draw_histogram(controls, state);
 }

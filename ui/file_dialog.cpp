@@ -169,7 +169,7 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
     const bool clicked = ImGui::Selectable(
         label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
     ImGui::PopStyleColor();
-    controls.note(("file/" + entry.name).c_str(), nullptr);
+    controls.note(("file/" + entry.name).c_str(), path.string().c_str()); // a long name is cut off
     if (!clicked)
         return;
     if (entry.is_folder)

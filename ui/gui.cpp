@@ -61,14 +61,17 @@ void Gui::begin_window_frame() {
 
 void Gui::end_frame() {
     ImGui::Render();
-    const ImGuiIO& io = ImGui::GetIO();
-    glViewport(0, 0, static_cast<GLsizei>(io.DisplaySize.x * io.DisplayFramebufferScale.x),
-               static_cast<GLsizei>(io.DisplaySize.y * io.DisplayFramebufferScale.y));
+    draw_over_all(*ImGui::GetDrawData());
+}
+
+void draw_over_all(ImDrawData& frame) {
+    glViewport(0, 0, static_cast<GLsizei>(frame.DisplaySize.x * frame.FramebufferScale.x),
+               static_cast<GLsizei>(frame.DisplaySize.y * frame.FramebufferScale.y));
     glDisable(GL_SCISSOR_TEST);
     const ImVec4 background = ImGui::ColorConvertU32ToFloat4(colours::panel);
     glClearColor(background.x, background.y, background.z, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    ImGui_ImplOpenGL3_RenderDrawData(&frame);
 }
 
 } // namespace tessera

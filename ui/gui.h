@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+struct ImDrawData;
 struct ImGuiContext;
 
 namespace tessera {
@@ -35,5 +36,9 @@ private:
     float scale_ = 1;
     Theme theme_ = Theme::dark;
 };
+
+/// Draws a frame over the whole of the framebuffer bound, with the OpenGL backend of Dear ImGui's current context;
+/// the frame may be another's that has the same fonts.
+void draw_over_all(ImDrawData& frame);
 
 } // namespace tessera

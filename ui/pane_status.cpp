@@ -50,6 +50,13 @@ std::string reconstruction_text(const Snapshot& snapshot) {
     return text;
 }
 
+/// "reconstructing pass 12, 1.3 s (Esc ends it)".
+std::string under_way_text(const ReconstructionUnderWay& now) {
+    char text[96];
+    std::snprintf(text, sizeof text, "reconstructing pass %d, %.1f s (Esc ends it)", now.spp, now.seconds);
+    return text;
+}
+
 } // namespace
 
 std::string status_text(const ViewerState& state, int index) {
@@ -76,7 +83,9 @@ std::string status_text(const ViewerState& state, int index) {
     std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
                   rate * 1e-6);
     line += text;
-    if (snapshot.coarse)
+    if (pane.reconstructs_long())
+        line += "   " + under_way_text(*pane.reconstructing);
+    else if (snapshot.coarse)
         line += "   first look";
     else if (snapshot.reconstruction && has_gradients(snapshot.settings.method))
         line += "   " + reconstruction_text(snapshot);
@@ -172,7 +181,7 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
     const std::string help = // a narrow pane cuts the line off
         status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
                  "second; the pass that the picture on show is reconstructed from, the steps of its solver and "
-                 "their wall seconds.";
+                 "their wall seconds, or a reconstruction that takes long.";
     controls.note((id + ".status").c_str(), help.c_str());
     if (cursor.empty())
         return;

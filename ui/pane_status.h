@@ -8,7 +8,7 @@
 namespace tessera {
 
 /// The line below a picture: method, why it rests, samples a pixel, seconds, rays a second, reconstruction
-/// with its solver's steps and time.
+/// with its solver's steps and time, or one that is under way for long.
 std::string status_text(const ViewerState& state, int pane);
 
 /// "waiting for pane 2 (3:10 of 10:00)": another pane catches up with what this one has had. Empty: it does not

@@ -32,9 +32,11 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
 /// What the render on show in the active pane has counted.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
-/// Errors, efficiencies or shifts against time or samples, and the active pane's histogram.
+/// Errors, efficiencies or shifts against time or samples, and the active pane's histogram; only what is to be
+/// shown, while they are drawn large.
 void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
-/// The same without its controls, as large as there is room; over the pictures. Noted as charts.picture.
+/// Chart and histogram without the controls, as large as there is room; over the pictures. Noted as
+/// charts.picture.
 void draw_large_charts(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
 /// What a reference is to be made of, or how far its making is; over everything.

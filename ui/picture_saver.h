@@ -4,8 +4,8 @@
 
 namespace tessera {
 
-/// Saves what can be seen: fulfils the wishes to save the picture and the charts, some frames after they came up,
-/// when the menu that they came from is closed and what is to be seen is measured and laid out.
+/// Saves what can be seen: fulfils the wish to save the window's picture, some frames after it came up, when the
+/// menu that it came from is closed.
 class PictureSaver {
 public:
     /// To be called after each frame, while it is bound for reading. `pixels`: of its framebuffer. True: another

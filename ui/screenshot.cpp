@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <glad/gl.h>
-#include <glm/common.hpp>
 
 namespace tessera {
 
@@ -21,15 +20,6 @@ ScreenPixels read_screen(glm::ivec2 size) {
                          pixels.rgb.begin() + static_cast<std::ptrdiff_t>(bottom * stride));
     }
     return pixels;
-}
-
-ScreenPixels cropped(const ScreenPixels& pixels, glm::ivec2 min, glm::ivec2 max) {
-    min = glm::clamp(min, glm::ivec2(0), pixels.size);
-    max = glm::clamp(max, min, pixels.size);
-    ScreenPixels part{max - min, {}};
-    for (int y = min.y; y < max.y && min.x < max.x; ++y)
-        part.rgb.insert(part.rgb.end(), pixels.at(min.x, y), pixels.at(max.x - 1, y) + 3);
-    return part;
 }
 
 } // namespace tessera

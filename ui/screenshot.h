@@ -21,7 +21,4 @@ struct ScreenPixels {
 /// What was drawn into the framebuffer bound for reading, from its lower left corner.
 ScreenPixels read_screen(glm::ivec2 size);
 
-/// The part from `min` to before `max`, as far as there is one.
-ScreenPixels cropped(const ScreenPixels& pixels, glm::ivec2 min, glm::ivec2 max);
-
 } // namespace tessera

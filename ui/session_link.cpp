@@ -15,6 +15,7 @@ void SessionLink::take(ViewerState& state) {
         if (auto snapshot = session_.latest(pane.slot))
             pane.snapshot = std::move(snapshot);
         pane.failed = session_.has_failed(pane.slot);
+        pane.reconstructing = session_.reconstructing(pane.slot);
         report_refused(state, i);
     }
     for (std::string& message : session_.take_messages())
@@ -55,9 +56,23 @@ void SessionLink::send(ViewerState& state) {
         if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
             session_.withdraw(static_cast<int>(slot));
     }
+    if (std::exchange(state.give_up_reconstructions, false))
+        give_up_reconstructions(state);
     state.restart = false;
     for (; state.steps > 0; --state.steps)
         session_.step();
+}
+
+/// Those that somebody has read of.
+void SessionLink::give_up_reconstructions(ViewerState& state) {
+    for (const PaneState& pane : state.panes) {
+        if (!pane.reconstructs_long())
+            continue;
+        session_.give_up_reconstruction(pane.slot);
+        state.add_message(Message::Kind::note, std::string(paper_name(pane.settings.render.method)) +
+                                                   ": the reconstruction of pass " +
+                                                   std::to_string(pane.reconstructing->spp) + " was given up.");
+    }
 }
 
 void SessionLink::send_running(const ViewerState& state) {

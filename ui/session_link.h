@@ -34,6 +34,7 @@ private:
     void latch_size(ViewerState& state);
     void send_pane(ViewerState& state, PaneState& pane);
     void send_running(const ViewerState& state);
+    void give_up_reconstructions(ViewerState& state);
     void report_refused(ViewerState& state, std::size_t pane);
 
     Session& session_;

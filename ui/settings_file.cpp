@@ -4,6 +4,7 @@
 #include "render/load/json_text.h"
 #include "render/load/messages.h"
 #include "render/method/settings_table.h"
+#include "ui/inspection_settings.h"
 #include "ui/json_fields.h"
 #include "ui/named_settings.h"
 
@@ -166,6 +167,9 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         read_camera(fields, parse_camera(text.only("camera"), name), state);
     read_display(fields, state);
     read_view(fields, state);
+    read_inspection(fields, state);
+    if (fields.has("space"))
+        state.space.look_as(parse_camera(text.only("space"), name));
     fields.read<std::string>("reference", [&](const std::string& reference) {
         if (!state.companions.reference || state.companions.reference->name != reference)
             state.reference_file = reference;
@@ -178,6 +182,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
 } // namespace
 
 std::string settings_json(const ViewerState& state) {
+    const ImageView view = state.slow_motion.view_before.value_or(state.view); // it finds its tile by itself
     ordered_json panes = ordered_json::array();
     for (const PaneState& pane : state.panes)
         panes.push_back(pane_json(pane.settings));
@@ -201,7 +206,7 @@ std::string settings_json(const ViewerState& state) {
          {{"equal", word(words::shares, state.pace.equal)},
           {"spp_limit", state.pace.spp_limit},
           {"seconds_limit", state.pace.seconds_limit}}},
-        {"picture", {{"zoom", state.view.zoom()}, {"x", state.view.center().x}, {"y", state.view.center().y}}},
+        {"picture", {{"zoom", view.zoom()}, {"x", view.center().x}, {"y", view.center().y}}},
         {"wipe", state.wipe},
         {"tiles", state.show_tiles},
         {"magnifier", state.magnifier},
@@ -212,6 +217,9 @@ std::string settings_json(const ViewerState& state) {
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},
     };
+    add_inspection(json, state);
+    if (state.space.looked)
+        json["space"] = ordered_json::parse(camera_json(state.space.camera.camera()));
     if (state.companions.reference)
         json["reference"] = state.companions.reference->name;
     return to_text(json, 2) + "\n";

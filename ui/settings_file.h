@@ -7,7 +7,9 @@
 
 namespace tessera {
 
-/// What a user has set, as JSON: the panes with all their settings, camera, size, tone, pace.
+/// What a user has set, as JSON: the panes with all their settings, camera, size, tone, pace, ranges, where the
+/// pictures lie, what the path inspector and the slow motion show (inspection_settings.h), and where the view in
+/// space looks.
 std::string settings_json(const ViewerState& state);
 
 /// Sets what such a text holds; what it does not mention stays. A camera file (render/load/camera_file.h) sets the

@@ -64,7 +64,7 @@ void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubjec
         view.camera.orbit({-0.3f, 0.13f}, 1);
         camera = view.camera.camera();
     }
-    view.looked = view.surroundings != nullptr;
+    view.looked = view.looked || view.surroundings;
     view.fits = false;
     const auto axis = [&](int i) { return glm::normalize(glm::vec3(camera.to_world[i])); };
     constexpr float used = 0.8f; // of the picture: names stand beside points

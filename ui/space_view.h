@@ -25,6 +25,12 @@ struct SpaceView {
     bool fits = true;                                 ///< is to show the whole path, from where it looks
     bool looked = false;                              ///< it has a direction to look in
     std::shared_ptr<const Surroundings> surroundings; ///< null: none yet
+
+    /// Is to look where another camera does, from where it then sees the whole path.
+    void look_as(const Camera& other) {
+        camera.put(other, 1);
+        fits = looked = true;
+    }
 };
 
 /// What it shows.

@@ -78,8 +78,10 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
                     {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
     if (view == asked_)
         return;
-    if (scene != asked_.scene.lock())
-        state.space = {};
+    if (scene != asked_.scene.lock()) {
+        state.space.surroundings = nullptr;
+        state.space.fits = true;
+    }
     asked_ = view;
     job_.start([scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
 }

@@ -86,6 +86,7 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     shown_ = origin;
     state_.scene_name = origin.name;
     state_.scene_source = origin.source;
+    state_.space = {};
     ++state_.scenes_shown;
     std::error_code gone; // the current folder: then nobody knows where the file was
     const std::filesystem::path file = std::filesystem::absolute(origin.source.file, gone);
@@ -154,6 +155,8 @@ void Viewer::draw_frame() {
     surroundings_job_.update(state_, options_.wake);
     reference_job_.update(state_, options_.threads, options_.wake);
     chart_job_.update(state_, options_.wake);
+    if (state_.save_charts && !state_.histograms_due) // their end brings a frame
+        save_charts();
     log_changes();
 }
 
@@ -218,7 +221,7 @@ void Viewer::draw_bottom(const ScreenRect& where) {
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
-    if (state_.large_charts || state_.save_charts)
+    if (state_.large_charts)
         draw_large_charts(pictures, controls_, state_);
     const glm::vec2 screen(state_.window_size);
     if (state_.reference_making.show)
@@ -233,7 +236,9 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
 double Viewer::next_frame_in() const {
     if (flying_ || state_.slow_motion.is_playing() || state_.redraw || frames_due_ > 0)
         return 0;
-    if (load_.running() || controls_.tooltip_pending())
+    const bool reconstructs =
+        std::any_of(state_.panes.begin(), state_.panes.end(), [](const PaneState& p) { return p.reconstructing; });
+    if (load_.running() || controls_.tooltip_pending() || reconstructs)
         return 0.1;
     return ImGui::GetIO().WantTextInput ? 0.2 : never; // a blinking cursor
 }

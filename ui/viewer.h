@@ -109,6 +109,7 @@ private:
     void fulfil_saves();
     void save_exr();
     void save_view();
+    void save_charts();
     void take_preferences();
     void update_preferences();
     void remember_later();

@@ -3,6 +3,8 @@
 #include "render/load/png.h"
 #include "render/load/temporary_file.h"
 #include "ui/camera_store.h"
+#include "ui/chart_file.h"
+#include "ui/chart_picture.h"
 #include "ui/file_list.h"
 #include "ui/output_files.h"
 #include "ui/settings_file.h"
@@ -145,6 +147,20 @@ void Viewer::save_view() {
     save([file = dated_file("-" + name + ".png"), picture = std::move(picture)] {
         write_png(file, picture.size, picture.rgb);
         return file.string();
+    });
+}
+
+void Viewer::save_charts() {
+    state_.save_charts = false;
+    save([file = dated_file("-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
+          picture = chart_picture(state_)] {
+        const auto with_ending = [&](const char* ending) {
+            return std::filesystem::path(file).replace_extension(ending);
+        };
+        write_text(file, csv);
+        write_text(with_ending(".svg"), svg);
+        write_png(with_ending(".png"), picture.size, picture.rgb);
+        return "the charts to " + file.string() + ", .svg and .png";
     });
 }
 

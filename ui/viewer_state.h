@@ -58,11 +58,15 @@ struct PaneSettings {
 
 struct PaneState {
     PaneSettings settings;
-    std::shared_ptr<const Snapshot> snapshot; ///< the newest; null before the first
-    std::uint64_t generation = 0;             ///< of the request that is out
-    glm::ivec2 canvas_size{0};                ///< pixels of the place for its picture, as last drawn
-    bool failed = false;                      ///< its render went wrong: nothing more will come of the request
+    std::shared_ptr<const Snapshot> snapshot;               ///< the newest; null before the first
+    std::uint64_t generation = 0;                           ///< of the request that is out
+    glm::ivec2 canvas_size{0};                              ///< pixels of the place for its picture, as last drawn
+    std::optional<ReconstructionUnderWay> reconstructing{}; ///< of its newest picture; empty: none is under way
+    bool failed = false; ///< its render went wrong: nothing more will come of the request
     int slot = 0; ///< the session's pane that renders it: no other has it, and it keeps it wherever it is shown
+
+    /// Others are over before they are read of.
+    bool reconstructs_long() const { return reconstructing && reconstructing->seconds > 0.5; }
 };
 
 /// What charts show of a pane.
@@ -155,7 +159,7 @@ struct ViewerState {
     bool show_panel = true;
     bool show_statistics = false;
     bool show_charts = false;
-    bool large_charts = false; ///< over the pictures, too
+    bool large_charts = false; ///< over the pictures instead of in their panel
     ChartKind chart_kind = ChartKind::error;
     bool charts_by_spp = false;               ///< against samples; otherwise against seconds
     std::array<PaneChart, most_panes> charts; ///< by slot: see chart_of
@@ -171,8 +175,9 @@ struct ViewerState {
     bool restart = false;
     int steps = 0; ///< passes to do though paused
     bool reload = false;
-    bool cancel_load = false;      ///< the scene that is being loaded is wanted no more
-    bool cancel_reference = false; ///< the reference that is being read is wanted no more
+    bool cancel_load = false;             ///< the scene that is being loaded is wanted no more
+    bool give_up_reconstructions = false; ///< those under way are wanted no more
+    bool cancel_reference = false;        ///< the reference that is being read is wanted no more
     bool save_camera = false;
     bool copy_camera = false;
     bool save_picture = false; ///< of the window

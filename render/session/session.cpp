@@ -76,11 +76,31 @@ void Session::set_reconstruction(int pane_index, const ReconstructionSettings& s
     {
         const std::lock_guard lock(mutex_);
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
-        if (!(pane.reconstruction == settings))
+        if (!(pane.reconstruction == settings)) {
             pane.end_solve();
+            pane.given_up.reset();
+        }
         pane.reconstruction = settings;
     }
     reconstruct_wake_.notify_one();
+}
+
+std::optional<ReconstructionUnderWay> Session::reconstructing(int pane_index) const {
+    const std::lock_guard lock(mutex_);
+    const Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
+    if (pane.solving_spp == 0)
+        return std::nullopt;
+    return ReconstructionUnderWay{pane.solving_spp,
+                                  std::chrono::duration<double>(Clock::now() - pane.solving_since).count()};
+}
+
+void Session::give_up_reconstruction(int pane_index) {
+    const std::lock_guard lock(mutex_);
+    Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
+    if (pane.solving_spp == 0 || !pane.latest)
+        return;
+    pane.end_solve();
+    pane.given_up = pane.latest->images;
 }
 
 void Session::set_paused(bool paused) {

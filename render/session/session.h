@@ -37,6 +37,12 @@ struct RenderRequest {
     RenderSettings settings;
 };
 
+/// A reconstruction under way.
+struct ReconstructionUnderWay {
+    int spp = 0;        ///< of the snapshot that it is made from
+    double seconds = 0; ///< that it has taken so far
+};
+
 /// Renders the panes of a viewer in the background: passes of the panes in turn, so that each has had about the
 /// same time (or samples), and their reconstructions on a thread of their own (newest snapshot wins). No call
 /// waits for a worker: all may be made from the UI's thread at every frame.
@@ -58,6 +64,11 @@ public:
     /// Settings of the pane's reconstruction; a change ends the one under way and reconstructs the newest snapshot
     /// again, renders nothing.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
+
+    /// The one under way in the pane; empty: none is.
+    std::optional<ReconstructionUnderWay> reconstructing(int pane) const;
+    /// Ends it. What is rendered so far stays without, until there are other settings.
+    void give_up_reconstruction(int pane);
 
     void set_paused(bool paused);
     bool paused() const;

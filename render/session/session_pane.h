@@ -21,6 +21,9 @@ struct Session::Pane {
     // What the newest reconstruction was made from.
     std::shared_ptr<const GradientImages> reconstructed;
     ReconstructionSettings reconstructed_with;
+    int solving_spp = 0; // of the snapshot that is being reconstructed; 0: none is
+    std::chrono::steady_clock::time_point solving_since;
+    std::weak_ptr<const GradientImages> given_up; // nothing is to be made from these
 
     // Used by the render thread alone.
     std::unique_ptr<Render> render;
@@ -64,7 +67,8 @@ struct Session::Pane {
     /// Of a request that has been replaced, only a first look is worth it.
     bool needs_reconstruction() const {
         return latest && (latest->coarse || latest->generation == generation) &&
-               (latest->images != reconstructed || !(reconstructed_with == reconstruction));
+               (latest->images != reconstructed || !(reconstructed_with == reconstruction)) &&
+               latest->images != given_up.lock();
     }
 
     /// Starts warm from the last snapshot of the same render, and else anew.

@@ -32,6 +32,8 @@ void Session::reconstruct_loop(std::stop_token stop) {
             snapshot = pane->latest;
             settings = pane->reconstruction;
             solve_stop = pane->solve_stop.get_token();
+            pane->solving_spp = snapshot->spp;
+            pane->solving_since = std::chrono::steady_clock::now();
         }
         reconstruct_snapshot(*pane, *snapshot, settings, solve_stop);
     }
@@ -50,6 +52,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
     }
     {
         const std::lock_guard lock(mutex_);
+        pane.solving_spp = 0;
         // A newer picture of another size or request has no use for this one.
         if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
             pane.latest->coarse != snapshot.coarse)

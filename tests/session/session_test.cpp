@@ -122,6 +122,29 @@ TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
     EXPECT_FALSE(saw_l1);
 }
 
+TEST(Session, AReconstructionCanBeGivenUp) {
+    Session session(1, 2);
+    const auto is_made_with = [&](Norm norm) {
+        const auto s = session.latest(0);
+        return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
+    };
+    session.set_pace(until(1));
+    session.set_reconstruction(0, {Norm::none});
+    session.submit(0, request(Method::gpt, {1280, 720}));
+    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::none); }));
+    ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
+    session.set_reconstruction(0, {Norm::l1}); // takes half a second on an idle machine
+    ASSERT_TRUE(eventually([&] { return session.reconstructing(0).has_value(); }));
+    EXPECT_EQ(session.reconstructing(0)->spp, 1);
+    session.give_up_reconstruction(0);
+    ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
+    std::this_thread::sleep_for(50ms);
+    EXPECT_FALSE(session.reconstructing(0)); // nor is it begun again
+    EXPECT_TRUE(is_made_with(Norm::none));
+    session.set_reconstruction(0, {Norm::l2});
+    EXPECT_TRUE(eventually([&] { return is_made_with(Norm::l2); }));
+}
+
 TEST(Session, PanesShareTheTime) {
     Session session(2, 2);
     session.submit(0, request(Method::pt, {96, 64}));

@@ -3,14 +3,18 @@
 #include "tests/ui/charts_fixture.h"
 #include "tests/ui/current_folder.h"
 #include "ui/chart_file.h"
+#include "ui/chart_picture.h"
 #include "ui/viewer_charts.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 #include <pugixml.hpp>
 
 namespace tessera::test {
@@ -50,6 +54,14 @@ std::map<std::string, std::string> files_here() {
     return files;
 }
 
+/// From the header of a PNG file.
+glm::ivec2 size_of_png(const std::string& png) {
+    const auto number = [&](std::size_t at) {
+        return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
+    };
+    return {number(16), number(20)};
+}
+
 TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     const CurrentFolder folder;
     set_reference(Rgb(0.3f));
@@ -73,14 +85,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     EXPECT_GE(std::distance(lines.begin(), lines.end()), 2); // a line a pane
     for (const char* word : {"1  PT", "2  G-PR", "relMSE", "seconds", "a room"})
         EXPECT_NE(files.at(".svg").find(word), std::string::npos) << word;
-    // The picture's size, in the header of a PNG file: that of the place of the panes.
-    const std::string& png = files.at(".png");
-    const auto number = [&](std::size_t at) {
-        return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
-    };
-    EXPECT_EQ(png.substr(1, 3), "PNG");
-    EXPECT_GT(number(16), 700);
-    EXPECT_GT(number(20), 600);
+    EXPECT_EQ(size_of_png(files.at(".png")).x, static_cast<int>(std::ceil(64 * ImGui::GetFontSize())));
     EXPECT_EQ(state().show_charts, false);
     frames(2);
     EXPECT_FALSE(has("charts.picture"));
@@ -90,13 +95,60 @@ TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
     const CurrentFolder folder;
     viewer.keyboard().press(Key::z, Key::z, false, false);
     frame();
-    ASSERT_TRUE(state().save_charts);
     EXPECT_TRUE(state().histograms_due); // the wish alone asks for them
-    for (int i = 0; i < 9; ++i)
-        EXPECT_FALSE(saver.after_frame(viewer, context.size())); // their end brings a frame
     EXPECT_TRUE(state().save_charts);
     finish_saving();
-    EXPECT_EQ(files_here().size(), 3u);
+    EXPECT_NE(files_here().at(".csv").find("luminance,pixels"), std::string::npos);
+}
+
+TEST_F(Charts, AreSavedAlikeFromAnyWindow) {
+    set_reference(Rgb(0.3f));
+    wait_for_errors(1, 2);
+    const auto saved = [&](glm::ivec2 window) {
+        const CurrentFolder folder;
+        resize(window);
+        type(Key::z);
+        finish_saving();
+        EXPECT_EQ(state().messages.back().kind, Message::Kind::note) << state().messages.back().text;
+        return files_here();
+    };
+    const auto usual = saved({1280, 720});
+    EXPECT_EQ(usual.size(), 3u);
+    for (const glm::ivec2 window : {glm::ivec2(40, 30), glm::ivec2(1, 1)})
+        EXPECT_TRUE(saved(window) == usual) << window.x;
+    const ScreenPixels drawn = chart_picture(state());
+    EXPECT_GT(std::set<std::uint8_t>(drawn.rgb.begin(), drawn.rgb.end()).size(), 20u); // lines and letters
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
+    set_reference(Rgb(0.3f));
+    state().show_panel = false;
+    type(Key::h);
+    wait_until([&] { return !errors(1).empty() && state().charts[1].histogram; });
+    frames(2);
+    const float plot = 10 * ImGui::GetFontSize();
+    const auto gap = [&] { return place("charts.large").min.y - place("charts.axis").max.y; };
+    EXPECT_GT(gap(), plot);
+    click("charts.large");
+    frames(2);
+    save("charts-large-once.png");
+    EXPECT_LT(gap(), plot);               // the buttons follow the choices, ...
+    const ScreenPixels pixels = screen(); // ... and nothing them
+    const int x = static_cast<int>(place("charts.large").center().x);
+    const int below = static_cast<int>(place("charts.large").max.y) + 8;
+    for (int y = below; y < pixels.size.y - 2; ++y)
+        for (int channel = 0; channel < 3; ++channel)
+            ASSERT_EQ(pixels.at(x, y)[channel], pixels.at(x, below)[channel]) << y;
+    click("charts.large");
+    frames(2);
+    EXPECT_GT(gap(), plot);
+    EXPECT_FALSE(has("charts.picture"));
+    click("charts.large");
+    EXPECT_TRUE(has("charts.picture"));
+    type(Key::h);
+    frames(2);
+    EXPECT_FALSE(has("charts.picture") || has("charts.large")); // nor do they cover the pictures
 }
 
 TEST_F(Charts, AreDrawnLarge) {

@@ -80,6 +80,19 @@ TEST_F(Explained, TheInspectorsControlsHaveTooltips) {
     EXPECT_EQ(silent(), Silent());
 }
 
+TEST_F(Explained, WhatLiesOverThePicturesHasTooltips) {
+    for (auto show :
+         {+[](ViewerState& s) { s.set_slow_motion(true); }, +[](ViewerState& s) { s.large_charts = true; },
+          +[](ViewerState& s) { s.reference_making.show = true; },
+          +[](ViewerState& s) { s.choosing = FilePurpose::scene; }}) {
+        show(state());
+        wait_until([&] { return !state().slow_motion.active || state().slow_motion.shows_choice(); });
+        frames(4);
+        EXPECT_EQ(silent(), Silent());
+        type(Key::escape);
+    }
+}
+
 TEST_F(Explained, ValuesSayWhatTheyAre) {
     const auto help_of = [&](const char* buffer) {
         choose("pane1.buffer", buffer);

@@ -34,6 +34,13 @@ struct PathInspector : testing::Test, ViewerHarness {
         wait_until([&] { return inspector().inspection && inspector().inspection->pixel == pixel; });
         frames(3);
     }
+    /// Whether nothing keeps the scene on show once another takes its place.
+    bool lets_go_of_the_scene() {
+        const std::weak_ptr<const Scene> before = state().scene;
+        viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+        wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
+        return wait_until([&] { return before.expired(); });
+    }
 };
 
 TEST_F(PathInspector, AClickChoosesAPixelAndMovesNoCamera) {
@@ -211,10 +218,7 @@ TEST_F(PathInspector, NoReplacedSceneIsKept) {
     inspect_pixel(1, {16, 14});
     ASSERT_TRUE(wait_until([&] { return state().space.surroundings != nullptr; }));
     type(Key::i);
-    const std::weak_ptr<const Scene> before = state().scene;
-    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
-    wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
-    EXPECT_TRUE(wait_until([&] { return before.expired(); }));
+    EXPECT_TRUE(lets_go_of_the_scene());
 }
 
 TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
@@ -229,10 +233,7 @@ TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
     }
     ASSERT_TRUE(wait_until([&] { return inspector().inspection != nullptr; }));
     type(Key::i);
-    const std::weak_ptr<const Scene> before = state().scene;
-    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
-    wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
-    EXPECT_TRUE(wait_until([&] { return before.expired(); }));
+    EXPECT_TRUE(lets_go_of_the_scene());
 }
 
 TEST_F(PathInspector, OpensTheSampleOfAMessage) {

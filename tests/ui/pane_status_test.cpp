@@ -29,6 +29,11 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     reconstruction->iterations = 1;
     EXPECT_NE(status_text(state, 0).find("pass 11, 1 step in"), std::string::npos);
     const auto says = [&](const char* word) { return status_text(state, 0).find(word) != std::string::npos; };
+    pane.reconstructing = {12, 0.2};
+    EXPECT_FALSE(says("reconstructing"));
+    pane.reconstructing = {12, 1.34};
+    EXPECT_TRUE(says("Mrays/s   reconstructing pass 12, 1.3 s (Esc ends it)"));
+    EXPECT_FALSE(says("pass 11"));
     state.paused = true;
     EXPECT_TRUE(says("paused"));
     state.paused = false;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 #include <gtest/gtest.h>
 
@@ -123,6 +124,28 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     h.finish_saving();
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
+}
+
+TEST(Remembered, NoFrameWaitsForTheDisk) {
+    CurrentFolder folder;
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    options.open = scene_in;
+    ViewerHarness h({900, 600}, 1, options);
+    std::promise<void> disk;
+    h.viewer.save([ready = disk.get_future().share()] {
+        ready.wait();
+        return std::string();
+    });
+    h.viewer.drop({"/scenes/room.xml"}); // is to be remembered
+    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.frames(3);
+    EXPECT_FALSE(fs::exists(options.preferences)); // and yet there are frames
+    disk.set_value();
+    h.finish_saving();
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes,
+              std::vector<std::string>{"/scenes/room.xml"});
 }
 
 TEST(Remembered, ABrokenFileIsKeptAside) {

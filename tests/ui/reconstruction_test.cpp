@@ -1,0 +1,43 @@
+// Reconstructions that take long: told, and given up.
+
+#include "tests/ui/viewer_harness.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+bool has_message(const ViewerState& state, const std::string& part) {
+    return std::any_of(state.messages.begin(), state.messages.end(),
+                       [&](const Message& m) { return m.text.find(part) != std::string::npos; });
+}
+
+TEST(LongReconstruction, IsGivenUpByEscape) {
+    ViewerOptions options;
+    options.panes.resize(1);
+    options.panes[0].render.method = Method::gpt;
+    options.panes[0].reconstruction.norm = Norm::l1;
+    options.max_depth = 1;
+    options.size = {SizeChoice::Base::custom, 1, {2560, 1440}};
+    options.spp_limit = 1;
+    ViewerHarness h({900, 600}, 1, options);
+    h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    ASSERT_TRUE(h.wait_until([&] { return h.pane(0).reconstructs_long() && !h.pane(0).snapshot->coarse; }));
+    EXPECT_LE(h.viewer.next_frame_in(), 0.1); // the seconds go on
+    h.type(Key::f1);
+    h.type(Key::escape); // closes the help alone
+    EXPECT_FALSE(has_message(h.state(), "given up"));
+    h.type(Key::escape);
+    EXPECT_TRUE(has_message(h.state(), "G-PT: the reconstruction of pass 1 was given up."));
+    ASSERT_TRUE(h.wait_until([&] { return !h.pane(0).reconstructing; }));
+    h.frames(5);
+    EXPECT_FALSE(h.pane(0).reconstructing); // nor is it begun again
+    EXPECT_EQ(h.pane(0).snapshot->reconstruction, nullptr);
+    h.state().panes[0].settings.reconstruction.norm = Norm::none;
+    EXPECT_TRUE(h.wait_until([&] { return h.viewer.settled(1); }));
+}
+
+} // namespace
+} // namespace tessera::test
