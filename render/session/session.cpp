@@ -252,8 +252,7 @@ void Session::report(std::string message) {
         const std::lock_guard lock(mutex_);
         messages_.push_back(std::move(message));
     }
-    if (on_publish_)
-        on_publish_();
+    tell();
 }
 
 /// A first look: one sample a pixel of a small image, there at once. It is not stopped by a newer request: while a

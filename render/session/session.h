@@ -93,6 +93,7 @@ private:
     std::unique_ptr<Render> withdrawn_render();
     Pane* unpublished_pane();
     void render_pass(Pane& pane, std::stop_token session_stop);
+    void tell();
     void report(std::string message);
     void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
                        std::stop_token session_stop);

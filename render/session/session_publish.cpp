@@ -38,8 +38,18 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
         std::swap(pane.latest, latest);
     }
     reconstruct_wake_.notify_one();
-    if (on_publish_)
-        on_publish_();
+    tell();
+}
+
+/// Calls on_publish. It is not to end a thread of the session, whatever goes wrong there.
+void Session::tell() {
+    try {
+        if (on_publish_)
+            on_publish_();
+    } catch (const std::exception& error) {
+        const std::lock_guard lock(mutex_);
+        messages_.push_back(fmt::format("the newest picture is not shown: {}", error.what()));
+    }
 }
 
 /// The pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again with

@@ -72,8 +72,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
             latest = std::exchange(pane.latest, std::move(updated));
         }
     }
-    if (on_publish_)
-        on_publish_();
+    tell();
 }
 
 } // namespace tessera
