@@ -12,6 +12,13 @@ ImTextureID texture_id(unsigned opengl_name) {
 #endif
 }
 
+void set_press_positions(const std::array<glm::vec2, 3>& by_button) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (std::size_t i = 0; i < by_button.size(); ++i)
+        if (io.MouseClicked[i])
+            io.MouseClickedPos[i] = {by_button[i].x, by_button[i].y};
+}
+
 #if IMGUI_VERSION_NUM >= 18700
 
 void send_mouse_position(ImVec2 position) {

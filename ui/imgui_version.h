@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {
@@ -9,6 +12,9 @@ namespace tessera {
 /// keyboard.h.
 
 ImTextureID texture_id(unsigned opengl_name);
+
+/// In a frame that has begun: where the buttons of the mouse that went down did so.
+void set_press_positions(const std::array<glm::vec2, 3>& by_button);
 
 /// Input from elsewhere than a window: seen by the next frame.
 void send_mouse_position(ImVec2 position);

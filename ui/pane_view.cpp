@@ -2,7 +2,7 @@
 
 #include "ui/imgui_version.h"
 #include "ui/magnifier.h"
-#include "ui/mouse.h"
+#include "ui/mouse_input.h"
 #include "ui/pane_header.h"
 #include "ui/pane_status.h"
 #include "ui/path_overlay.h"
@@ -26,26 +26,6 @@ constexpr ImGuiWindowFlags pane_flags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
     ImGuiWindowFlags_NoBackground; // Gui clears the screen in the panels' colour
-
-glm::vec2 mouse_position() {
-    return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
-}
-
-PaneMouse read_mouse(const PictureFrame& frame) {
-    const ImGuiIO& io = ImGui::GetIO();
-    PaneMouse mouse;
-    const glm::vec2 moved(io.MouseDelta.x, io.MouseDelta.y);
-    mouse.position = (mouse_position() - frame.rect.min) * frame.pixels_a_unit;
-    mouse.previous = mouse.position - moved * frame.pixels_a_unit;
-    const bool active = ImGui::IsItemActive();
-    mouse.left = active && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-    mouse.middle = active && ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    mouse.right = active && ImGui::IsMouseDown(ImGuiMouseButton_Right);
-    mouse.wheel = ImGui::IsItemHovered() ? io.MouseWheel : 0.0f;
-    mouse.ctrl = io.KeyCtrl;
-    mouse.shift = io.KeyShift;
-    return mouse;
-}
 
 // Words in the middle of a place that has no picture, wrapped to its width.
 void draw_notice(const ScreenRect& where, const std::string& text) {
@@ -176,10 +156,10 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
 
 /// The pixel under the mouse is to be looked at.
 void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& state) {
-    const glm::vec2 place = frame.to_image(mouse_position());
+    const glm::vec2 at = grab_position(), place = frame.to_image(at);
     if (place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
         return;
-    const float share = (mouse_position().x - frame.rect.min.x) / frame.rect.size().x;
+    const float share = (at.x - frame.rect.min.x) / frame.rect.size().x;
     const int shown = showing_at(state, index, share).pane;
     const auto slot_of = [&](int pane) { return state.panes[static_cast<std::size_t>(pane)].slot; };
     const glm::ivec2 pixel(place * glm::vec2(state.request_size()));
@@ -190,7 +170,7 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
 }
 
 PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools& tools) const {
-    const glm::vec2 point = mouse_position();
+    const glm::vec2 point = grab_position();
     Grip grip;
     grip.range = legends_.held_at(point, tools);
     if (!grip.range && sides_of(tools.state, index).divided() && is_on_wipe(frame, tools.state.wipe, point))

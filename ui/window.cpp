@@ -5,7 +5,9 @@
 #include <glad/gl.h>
 #define GLFW_INCLUDE_NONE
 #include "ui/desktop.h"
+#include "ui/glfw_keys.h"
 #include "ui/gui.h"
+#include "ui/imgui_version.h"
 #include "ui/lost_display.h"
 #include "ui/surface.h"
 #include "ui/viewer.h"
@@ -28,43 +30,6 @@ void note_glfw_error(int, const char* text) {
     last_glfw_error = text;
 }
 
-Key key_of_glfw(int key) {
-    if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
-        return key_of_character(static_cast<char>('a' + key - GLFW_KEY_A));
-    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)
-        return key_of_character(static_cast<char>('0' + key - GLFW_KEY_0));
-    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
-        return static_cast<Key>(static_cast<int>(Key::f1) + key - GLFW_KEY_F1);
-    switch (key) {
-    case GLFW_KEY_LEFT:
-        return Key::left;
-    case GLFW_KEY_RIGHT:
-        return Key::right;
-    case GLFW_KEY_UP:
-        return Key::up;
-    case GLFW_KEY_DOWN:
-        return Key::down;
-    case GLFW_KEY_HOME:
-        return Key::home;
-    case GLFW_KEY_SPACE:
-        return Key::space;
-    case GLFW_KEY_TAB:
-        return Key::tab;
-    case GLFW_KEY_ESCAPE:
-        return Key::escape;
-    case GLFW_KEY_LEFT_SHIFT:
-    case GLFW_KEY_RIGHT_SHIFT:
-        return Key::shift;
-    default:
-        return Key::none;
-    }
-}
-
-// GLFW's own letters and digits are places on an American keyboard.
-const char* printed_on(int key, int scancode) {
-    return key > GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
-}
-
 class Window final : public Surface {
 public:
     ~Window() override;
@@ -82,6 +47,8 @@ private:
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_character(GLFWwindow* window, unsigned character);
+    static void on_cursor(GLFWwindow* window, double x, double y);
+    static void on_button(GLFWwindow* window, int button, int action, int mods);
     static void on_focus(GLFWwindow* window, int focused);
     static void on_drop(GLFWwindow* window, int count, const char** paths);
     void input_came() { frames_due_ = frames_after_input; }
@@ -92,6 +59,9 @@ private:
     float fixed_scale_ = 0;
     float wanted_scale_ = 1;
     Viewer* viewer_ = nullptr; // while it runs
+    glm::vec2 cursor_{0};
+    std::array<glm::vec2, 3>
+        pressed_at_{}; // by button; Dear ImGui 1.86 only knows where they are by the next frame
     int frames_due_ = frames_after_input;
     double last_frame_ = 0;
     std::atomic<bool> woken_{false};
@@ -146,9 +116,9 @@ void Window::install_callbacks() {
     glfwSetCharCallback(window_, on_character);
     glfwSetWindowFocusCallback(window_, on_focus);
     glfwSetDropCallback(window_, on_drop);
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
+    glfwSetCursorPosCallback(window_, on_cursor);
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { of(w).input_came(); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { of(w).input_came(); });
+    glfwSetMouseButtonCallback(window_, on_button);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_came(); });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).input_came(); });
@@ -182,6 +152,18 @@ void Window::on_character(GLFWwindow* window, unsigned character) {
         character > ' ' && character < 127 && key_of_character(static_cast<char>(character)) == Key::none;
     if (self.viewer_ != nullptr && punctuation)
         self.viewer_->keyboard().type(static_cast<char>(character));
+}
+
+void Window::on_cursor(GLFWwindow* window, double x, double y) {
+    of(window).input_came();
+    of(window).cursor_ = {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void Window::on_button(GLFWwindow* window, int button, int action, int) {
+    Window& self = of(window);
+    self.input_came();
+    if (action == GLFW_PRESS && button < static_cast<int>(self.pressed_at_.size()))
+        self.pressed_at_[static_cast<std::size_t>(button)] = self.cursor_;
 }
 
 void Window::on_focus(GLFWwindow* window, int focused) {
@@ -271,6 +253,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         if (hooks.before)
             hooks.before(took);
         gui_->begin_window_frame();
+        set_press_positions(pressed_at_);
         viewer.draw_frame();
         gui_->end_frame();
         if (hooks.after && !hooks.after())

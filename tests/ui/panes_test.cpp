@@ -1,6 +1,7 @@
 // Several panes: how many, compared with each other, and when they render.
 
 #include "tests/ui/panes_fixture.h"
+#include "ui/imgui_version.h"
 
 #include <cmath>
 
@@ -119,6 +120,18 @@ TEST_F(Panes, WipeShowsBothAndItsLineIsDragged) {
     EXPECT_NE(state().camera.position(), camera);
     type(Key::v);
     EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::off);
+}
+
+TEST_F(Panes, AWayToThePressTurnsNoCamera) {
+    move_to(point(1, 0.1f, 0.3f));
+    const glm::vec3 before = state().camera.position();
+    const glm::vec2 to = point(1, 0.6f, 0.6f);
+    send_mouse_position({to.x, to.y}); // in the same slow frame
+    press();
+    release();
+    EXPECT_EQ(state().camera.position(), before);
+    drag(to, {30, 0});
+    EXPECT_NE(state().camera.position(), before);
 }
 
 TEST_F(Panes, FlickerShowsTheOtherWhileTheKeyIsHeld) {
