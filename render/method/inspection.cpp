@@ -93,7 +93,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Worker worker(scene, settings);
     Inspection result{pixel, size, index, settings.method, {}, Rgb(0), Rgb(0), false, {}};
     // Not by trace_pixel(), which empties a path that is to be refused.
-    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y), pass.random(pixel.x, pixel.y), worker.path);
+    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y), pass.pixel_angle(),
+                    pass.random(pixel.x, pixel.y), worker.path);
     result.path = look_at(worker.path);
     result.radiance = worker.path.radiance();
     result.very_direct = worker.path.very_direct;

@@ -71,7 +71,7 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 }
 
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
-    trace_base_path(tracer, pass.camera_ray(x, y), pass.random(x, y), path);
+    trace_base_path(tracer, pass.camera_ray(x, y), pass.pixel_angle(), pass.random(x, y), path);
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, y, x});

@@ -34,6 +34,8 @@ public:
     /// Very direct light of a pixel by a grid of camera rays, each where camera_ray() is in its cell.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
+    float pixel_angle() const { return projection_.pixel_angle(); }
+
     Random random(int x, int y) const {
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
                       static_cast<std::uint32_t>(index));

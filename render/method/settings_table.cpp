@@ -58,6 +58,9 @@ bool shifts_paths(const RenderSettings& s) {
 bool joins_paths(const RenderSettings& s) {
     return shifts_paths(s) && s.shift != ShiftKind::replay;
 }
+bool joins_long_edges(const RenderSettings& s) {
+    return joins_paths(s) && s.shift != ShiftKind::reconnection;
+}
 
 const Setting table[] = {
     {"tile", "Tile",
@@ -104,6 +107,11 @@ const Setting table[] = {
     {"shift_threshold", "Roughness",
      "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",
      Setting::Real{&RenderSettings::shift_threshold, 0, 1, 0, 1}, joins_paths, true},
+    {"shift_distance", "Distance",
+     "Shift distance: edges shorter than so many pixels are wide at the first hit are not joined, but bounced "
+     "along "
+     "again: from other pixels, what is close in a corner looks quite different. 0: all are joined.",
+     Setting::Real{&RenderSettings::shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
     {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
      Setting::Whole{&RenderSettings::max_depth, 1, most_edges}, always},
     {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",

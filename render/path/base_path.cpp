@@ -9,6 +9,7 @@ namespace tessera {
 void BasePath::reset(const Random& numbers, int light_samples) {
     very_direct = direct = indirect = Rgb(0);
     random = numbers;
+    pixel_width = 0;
     size_ = 0;
     light_samples_ = light_samples;
 }
@@ -170,7 +171,8 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
 
 } // namespace
 
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, const Random& random, BasePath& path) {
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+                     BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     ++tracer.counters.camera_paths;
     BaseVertex& primary = path.spare();
@@ -179,6 +181,7 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, const Random& 
         return;
     }
     path.keep();
+    path.pixel_width = pixel_angle * glm::distance(camera_ray.origin, primary.vertex.position);
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());

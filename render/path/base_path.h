@@ -48,6 +48,7 @@ struct BasePath {
     Rgb direct{0};      ///< sum over its light paths of two edges
     Rgb indirect{0};    ///< sum over all longer ones
     Random random{0, 0, 0};
+    float pixel_width = 0; ///< at x_1, across the view: scene units
 
     /// Without very direct light: an unbiased estimate for the pixel.
     Rgb radiance() const { return direct + indirect; }
@@ -83,7 +84,9 @@ private:
 
 /// Traces the path of one sample, with the numbers of `random`. Light paths have tracer.settings.max_depth edges
 /// at most, as in Mitsuba.
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, const Random& random, BasePath& path);
+/// @param pixel_angle  Projection::pixel_angle of the camera ray's picture
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+                     BasePath& path);
 
 /// Traces the path that takes the numbers of `random` from a vertex x_1 that the camera sees: random replay.
 /// @param last  light is looked for at x_1 to x_last

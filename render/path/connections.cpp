@@ -16,6 +16,7 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 
         seen.direction.y[m] = dy * scale;
         seen.direction.z[m] = dz * scale;
         seen.geometry[m] = geometry;
+        seen.distance2[m] = distance2;
         seen.valid[m] = (geometry > 0) & (distance2 > 0) ? asked[m] : 0;
     }
 }

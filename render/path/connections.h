@@ -8,9 +8,10 @@ namespace tessera {
 
 /// How the vertices of offset paths see one point that they are joined to, a lane a pixel.
 struct ConnectionLanes {
-    LaneMask valid;      ///< asked for, and the point is to be seen from the right side
-    Vec3Lanes direction; ///< unit, world, toward the point
-    FloatLanes geometry; ///< |cos| at the point over the squared distance: solid angle over area
+    LaneMask valid;       ///< asked for, and the point is to be seen from the right side
+    Vec3Lanes direction;  ///< unit, world, toward the point
+    FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area
+    FloatLanes distance2; ///< squared, to the point; not for directions
 };
 
 /// Joins vertices to a point on a surface.

@@ -37,7 +37,7 @@ void PathReuse::shift_to_all(int base) {
         primary_.reset(count);
         for (int m = 0; m < count; ++m)
             if (const BasePath& offset = *set_[static_cast<std::size_t>(m)]; !offset.empty())
-                primary_.set(m, offset[0].vertex);
+                primary_.set_pixel(m, offset);
     }
     edges_.reset(count);
     shift_.run(path, light_, primary_, base, paths_, edges_, outcomes_);

@@ -74,7 +74,7 @@ private:
     ShiftSettings settings_;
     float weight_threshold_;
     std::span<const BasePath* const> set_;
-    OffsetVertices primary_; ///< what the pixels of T see; empty until it is needed
+    PrimaryVertices primary_; ///< what the pixels of T see; empty until it is needed
     Shift shift_;
     LightPaths light_;
     OffsetPaths paths_;

@@ -26,6 +26,7 @@ enum class ShiftKind : std::uint8_t {
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
     float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015] [0, 1]
+    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at x_1 [0, 1000]
 
     bool operator==(const ShiftSettings&) const = default;
 };

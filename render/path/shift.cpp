@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-void Shift::run(const BasePath& base, const LightPaths& light, const OffsetVertices& primary, int self,
+void Shift::run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,
                 OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes) {
     base_ = &base;
     light_ = &light;
@@ -16,8 +16,8 @@ void Shift::run(const BasePath& base, const LightPaths& light, const OffsetVerti
 }
 
 /// False: there is nothing to shift to.
-bool Shift::start(const OffsetVertices& primary, int self) {
-    y_ = &primary;
+bool Shift::start(const PrimaryVertices& primary, int self) {
+    y_ = primary_ = &primary;
     for (int m = 0; m < padded(primary.count()); ++m) {
         active_[m] = primary.exists[m];
         prefix_.density[m] = prefix_.value.x[m] = prefix_.value.y[m] = prefix_.value.z[m] = 1;
@@ -51,7 +51,7 @@ void Shift::walk() {
             return escape(i); // what else could carry light there
         lights_are_connected = false;
         if (light_->step_is_connectable(i)) {
-            lights_are_connected = is_connectable(base(i + 1).vertex);
+            lights_are_connected = joins_lights(i);
             connect_vertex(i);
             if (light_->join() == i + 1)
                 return;

@@ -11,6 +11,17 @@
 
 namespace tessera {
 
+/// What the pixels of a sampling set see, x_1 of each.
+struct PrimaryVertices : OffsetVertices {
+    FloatLanes pixel_width; ///< BasePath::pixel_width
+
+    /// Keeps a reference to the path, which sees something.
+    void set_pixel(int lane, const BasePath& path) {
+        set(lane, path[0].vertex);
+        pixel_width[lane] = path.pixel_width;
+    }
+};
+
 /// How a shift went, a lane a pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
 
@@ -27,7 +38,7 @@ public:
     /// @param paths    receives densities and values, all failed before
     /// @param edges    receives the new edges, unchecked
     /// @param outcomes receives ok, or why the first light path that failed did so
-    void run(const BasePath& base, const LightPaths& light, const OffsetVertices& primary, int self,
+    void run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,
              OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
 
     /// From now on all is noted in `trace`, which starts anew before each run(); null: no longer.
@@ -42,10 +53,13 @@ private:
     };
 
     const BaseVertex& base(int i) const { return (*base_)[i]; }
+    /// Whether emitter sampling at x_{i+1} goes the way y_i -> x_{i+1}, where that step is connectable.
+    bool joins_lights(int i) const { return is_connectable(base(i + 1).vertex) && light_->step_is_long(i); }
+    bool is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const;
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
     bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
 
-    bool start(const OffsetVertices& primary, int self);
+    bool start(const PrimaryVertices& primary, int self);
     void walk();
     void ask_for_kind(bool connectable);
     void note_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
@@ -88,8 +102,9 @@ private:
     std::vector<OffsetStep> traced_joins_; ///< of the connection at hand
 
     // The offsets.
-    const OffsetVertices* y_ = nullptr; ///< y_i
-    LaneMask active_;                   ///< those that go on
+    const PrimaryVertices* primary_ = nullptr; ///< y_1
+    const OffsetVertices* y_ = nullptr;        ///< y_i
+    LaneMask active_;                          ///< those that go on
     Prefix prefix_;
     OffsetVertices moved_; ///< y_i beyond the first bounce
     std::vector<Vertex> moved_vertices_;
@@ -97,6 +112,7 @@ private:
     // Of the connection at hand.
     LaneMask asked_;
     ConnectionLanes seen_;
+    LaneMask reached_; ///< those joined to x_{i+1} by a long edge
     LightLanes arriving_;
     BsdfLanes bsdf_;
     Prefix joined_;

@@ -62,7 +62,7 @@ void Shift::connect_vertex(int i) {
     int end = light_->hit_slot(i) + 1;
     if (light_->join() == i + 1)
         end = light_->tail_slot() + 1;
-    else if (is_connectable(next))
+    else if (joins_lights(i))
         end = light_->hit_slot(i + 1);
     const int first = std::max(light_->hit_slot(i), light_->first_shared());
     if (!light_->is_alive(first, end))
@@ -71,12 +71,16 @@ void Shift::connect_vertex(int i) {
     connect_to_point(*y_, asked_, next.position, next.geometric_normal, false, seen_);
     y_->evaluate(seen_.direction, seen_.valid, bsdf_);
     EdgeGroup& edges = edges_->add(first, end);
+    const float length_a_width = least_length(settings_, 1);
+    const FloatLanes& pixel_width = primary_->pixel_width;
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float jacobian = seen_.geometry[m] / x.next_geometry; // of solid angles
         const float scale = jacobian / x.pdf_w;
         const bool is_lit = (bsdf_.f_cos.x[m] > 0) | (bsdf_.f_cos.y[m] > 0) | (bsdf_.f_cos.z[m] > 0);
         edges.exists[m] = is_lit ? seen_.valid[m] : 0;
-        joined_.density[m] = edges.exists[m] ? prefix_.density[m] * bsdf_.pdf_w[m] * scale : 0.0f;
+        const float least = length_a_width * pixel_width[m];
+        reached_[m] = seen_.distance2[m] >= least * least ? edges.exists[m] : 0;
+        joined_.density[m] = reached_[m] ? prefix_.density[m] * bsdf_.pdf_w[m] * scale : 0.0f;
         joined_.value.x[m] = prefix_.value.x[m] * bsdf_.f_cos.x[m] * scale;
         joined_.value.y[m] = prefix_.value.y[m] * bsdf_.f_cos.y[m] * scale;
         joined_.value.z[m] = prefix_.value.z[m] * bsdf_.f_cos.z[m] * scale;
@@ -86,9 +90,11 @@ void Shift::connect_vertex(int i) {
         trace_join(i);
     if (first == light_->hit_slot(i) && light_->is_alive(first))
         set_hits(i, edges.exists);
-    connect_beyond(i + 1, edges.exists);
+    connect_beyond(i + 1, reached_);
     edges_to_point(tracer_, *y_, seen_.direction, next.position, next.geometric_normal, edges.segments);
     note_others(asked_, edges.exists, ShiftOutcome::no_light);
+    if (end > light_->hit_slot(i) + 1)
+        note_others(edges.exists, reached_, ShiftOutcome::kind_mismatch);
     for (int m = 0; m < padded(y_->count()); ++m)
         active_[m] = asked_[m]; // from another kind of vertex nothing can be shifted any more
 }
@@ -120,7 +126,7 @@ void Shift::set_hits(int i, const LaneMask& arrived) {
 void Shift::connect_beyond(int next, const LaneMask& arrived) {
     const BaseVertex& x = base(next);
     const int count = y_->count();
-    for (int sample = 0; is_connectable(x.vertex) && sample < base_->light_samples(); ++sample) {
+    for (int sample = 0; joins_lights(next - 1) && sample < base_->light_samples(); ++sample) {
         const LightSample& l = base_->lights(next)[static_cast<std::size_t>(sample)];
         const int slot = light_->emitter_slot(next, sample);
         if (!light_->is_alive(slot))
@@ -194,12 +200,28 @@ bool Shift::bounce(int i, int m) {
         note(m, ShiftOutcome::outside);
         return false;
     }
+    if (!is_as_long(i, m, origin, next)) {
+        note(m, ShiftOutcome::kind_mismatch);
+        return false;
+    }
     const float scale = s->jacobian / x.pdf_w;
     prefix_.density[m] *= s->pdf_w * scale;
     prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
     if (trace_)
         trace_->bounce(m, {i, s->pdf_w, x.is_delta, s->jacobian, prefix_.density[m], prefix_.value[m]});
     return true;
+}
+
+/// Whether the way back would be this one, as far as that depends on lengths: shortness alone, or neither there
+/// nor here, keeps the edge from being joined. (Lengths alone would not do: from a mirror beside smooth plastic
+/// one comes to both long and short edges, between which there is no way, and the weights of the three would not
+/// add up to 1.)
+bool Shift::is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const {
+    if (!light_->step_is_connectable(i))
+        return true;
+    const bool is_only_short =
+        is_connectable(next) && !is_long(from, next.position, least_length(settings_, primary_->pixel_width[m]));
+    return is_only_short == (is_connectable(base(i + 1).vertex) && !light_->step_is_long(i));
 }
 
 /// The scatter at x_i done again at y: both must be of one kind.

@@ -52,6 +52,7 @@ Projection::Projection(const Camera& camera, glm::ivec2 size) : origin_(camera.t
     corner_ = to_world * glm::vec3(w, w / aspect, 1);
     right_ = to_world * glm::vec3(-2 * w / static_cast<float>(size.x), 0, 0);
     down_ = to_world * glm::vec3(0, -2 * w / aspect / static_cast<float>(size.y), 0);
+    pixel_angle_ = glm::length(right_) / glm::length(to_world[2]); // a scaled camera sees the same
 }
 
 glm::vec3 Projection::project(glm::vec3 point) const {

@@ -40,6 +40,9 @@ public:
         return {origin_, glm::normalize(corner_ + pixel.x * right_ + pixel.y * down_)};
     }
 
+    /// A pixel's width in the middle of the picture, seen from the camera: radians.
+    float pixel_angle() const { return pixel_angle_; }
+
     /// Where a point is seen: pixels from the top left corner times w, and w, which is linear in the point and
     /// above 0 in front of the camera.
     glm::vec3 project(glm::vec3 point) const;
@@ -48,6 +51,7 @@ private:
     glm::vec3 origin_;
     glm::vec3 corner_;       // direction of the top left corner
     glm::vec3 right_, down_; // a pixel's width and height
+    float pixel_angle_;
 };
 
 } // namespace tessera

@@ -27,6 +27,7 @@ TEST(Brightness, L2KeepsTheMeanOfThePrimal) {
                 settings.method = method;
                 settings.max_depth = t.max_depth;
                 settings.shift_threshold = t.shift_threshold;
+                settings.shift_distance = t.shift_distance;
                 settings.seed = 8;
                 Render render(t.scene, t.scene->camera(), size, settings);
                 ThreadPool pool(2);

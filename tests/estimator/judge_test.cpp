@@ -76,6 +76,7 @@ protected:
         const TestScene& t = GetParam();
         v.settings.max_depth = t.max_depth;
         v.settings.shift_threshold = t.shift_threshold;
+        v.settings.shift_distance = t.shift_distance;
         const MethodMeasured m = measure(t.scene, size, v.settings, runs * t.effort, passes);
         report("primal", v, z_test(m.primal, truth.light));
         report("very direct", v, z_test(m.very_direct, truth.very_direct));

@@ -46,6 +46,7 @@ TEST_P(SmallImage, AllMethods) {
                 s.pattern = pattern;
                 s.max_depth = t.max_depth;
                 s.shift_threshold = t.shift_threshold;
+                s.shift_distance = t.shift_distance;
                 s.seed = 500;
                 const MethodMeasured m = measure(t.scene, size, s, runs, passes);
                 const std::string name = std::string(short_name(method)) + " tile " + std::to_string(tile) +

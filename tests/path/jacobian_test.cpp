@@ -134,8 +134,8 @@ void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&
         const Random random(seed, i, 0);
         const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
         BasePath base, other;
-        trace_base_path(tracer, projection.ray(pixel), random, base);
-        trace_base_path(tracer, projection.ray(pixel + apart), random, other);
+        trace_base_path(tracer, projection.ray(pixel), projection.pixel_angle(), random, base);
+        trace_base_path(tracer, projection.ray(pixel + apart), projection.pixel_angle(), random, other);
         if (!base.empty() && !other.empty())
             visit(base, other);
     }
@@ -154,11 +154,11 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
             const ShiftSettings settings{kind};
             LightPaths light;
             light.reset(base, settings);
-            if (!light.has_join() || !light.is_alive(light.tail_slot()))
+            if (light.join() != 1 || !light.is_alive(light.tail_slot()))
                 continue;
             OffsetPaths paths;
             const Vertex &x = base[0].vertex, &join = base[1].vertex, &y = other[0].vertex;
-            shift_to_one(tracer, settings, base, light, y, paths);
+            shift_to_one(tracer, settings, base, light, other, paths);
             const float density = paths.density(light.tail_slot(), 0);
             const glm::vec3 to_join = glm::normalize(join.position - y.position);
             const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(to_join)).pdf_w;
@@ -197,7 +197,7 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
             return;
         OffsetPaths paths;
         const Vertex &x = base[0].vertex, &y = other[0].vertex;
-        shift_to_one(tracer, settings, base, light, y, paths);
+        shift_to_one(tracer, settings, base, light, other, paths);
         const LightSample& l = base.lights(0)[0];
         const glm::vec3 direction = glm::normalize(l.light.position - x.position);
         const auto seen = l.light.seen_from(y.position);
@@ -233,7 +233,7 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
         light.reset(base, settings);
         own.reset(other, settings); // `other` has the base's numbers
         OffsetPaths paths;
-        shift_to_one(tracer, settings, base, light, other[0].vertex, paths);
+        shift_to_one(tracer, settings, base, light, other, paths);
         for (int slot = 0; slot < std::min(light.slot_count(), own.slot_count()); ++slot) {
             if (!(paths.density(slot, 0) > 0) || !own.is_alive(slot)) // dark: an edge that is not looked at here
                 continue;

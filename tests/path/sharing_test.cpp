@@ -32,12 +32,10 @@ struct Tally {
 
 class Sharing {
 public:
-    Sharing(const TestScene& t, ShiftKind kind, int light_samples, int roulette_depth)
-        : scene_(*t.scene), settings_{kind, t.shift_threshold}, tracer_{scene_,
-                                                                        counters_,
-                                                                        {t.max_depth, light_samples,
-                                                                         roulette_depth}},
-          reuse_(tracer_, settings_, 0) {}
+    Sharing(const TestScene& t, ShiftKind kind, float shift_distance, int light_samples, int roulette_depth)
+        : scene_(*t.scene), settings_{kind, t.shift_threshold, shift_distance},
+          tracer_{scene_, counters_, {t.max_depth, light_samples, roulette_depth}}, reuse_(tracer_, settings_, 0) {
+    }
 
     Tally run(int sets) {
         for (int i = 0; i < sets; ++i) {
@@ -59,7 +57,8 @@ private:
             BasePath& path = paths[static_cast<std::size_t>(i)];
             const glm::ivec2 pixel = corner + glm::ivec2(i % edge, i / edge);
             const auto number = static_cast<std::uint32_t>(random.draw(i, Draw::lobe) * 0x1p24f);
-            trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), Random(9, number, 1), path);
+            trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), projection.pixel_angle(),
+                            Random(9, number, 1), path);
             set.push_back(&path);
         }
         for (std::size_t k = 0; k < set.size(); ++k) {
@@ -90,7 +89,7 @@ private:
             if (m == k || is_black(from_k[m]))
                 continue;
             is_shared = true;
-            const auto there = shifted(tracer_, settings_, one, slot, (*set[m])[0].vertex);
+            const auto there = shifted(tracer_, settings_, one, slot, *set[m]);
             if (!there) {
                 ++tally_.lost;
                 return;
@@ -98,7 +97,7 @@ private:
             LightPaths light;
             light.reset(*there, settings_);
             const std::vector<Rgb> from_m = share(set, m, *there);
-            const auto back = shifted(tracer_, settings_, *there, slot, one[0].vertex);
+            const auto back = shifted(tracer_, settings_, *there, slot, one);
             is_astray = is_astray || !back || !is_along(*back, one);
             weights += luminance(from_m[m]) / double(luminance(light.carried(slot)));
             for (std::size_t n = 0; n < set.size(); ++n) {
@@ -138,10 +137,10 @@ class Shares : public testing::TestWithParam<TestScene> {
 protected:
     /// Floats cannot tell the length of the shortest edges, in corners, to 1e-3, nor a direction to what a narrow
     /// lobe makes of it, nor on which side of a triangle's border a ray passes.
-    static void judge(ShiftKind kind, int light_samples, int roulette_depth) {
-        SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(kind)) + ", light samples " +
-                     std::to_string(light_samples));
-        const Tally t = Sharing(GetParam(), kind, light_samples, roulette_depth).run(40);
+    static void judge(ShiftKind kind, float shift_distance, int light_samples, int roulette_depth) {
+        SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(kind)) + ", distance " +
+                     std::to_string(shift_distance) + ", light samples " + std::to_string(light_samples));
+        const Tally t = Sharing(GetParam(), kind, shift_distance, light_samples, roulette_depth).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.apart, 0.001 * t.shared);
@@ -156,8 +155,8 @@ protected:
 TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        judge(kind, 1, 0);
-        judge(kind, 3, 2);
+        judge(kind, 0, 1, 0);
+        judge(kind, GetParam().shift_distance, 3, 2);
     }
 }
 

@@ -33,7 +33,7 @@ Tally tally(const TestScene& t) {
     PathSettings path_settings;
     path_settings.max_depth = t.max_depth;
     const Tracer tracer{*t.scene, counters, path_settings};
-    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold};
+    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold, t.shift_distance};
     const Projection projection(t.scene->camera(), size);
     LightPaths light;
     OffsetPaths paths;
@@ -43,15 +43,17 @@ Tally tally(const TestScene& t) {
                 BasePath base, right;
                 const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
                 const auto pixel = static_cast<std::uint32_t>(y * size.x + x);
-                trace_base_path(tracer, projection.ray(p), {7, pixel, std::uint32_t(pass)}, base);
-                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), {7, pixel + 1, 0}, right);
+                trace_base_path(tracer, projection.ray(p), projection.pixel_angle(),
+                                {7, pixel, std::uint32_t(pass)}, base);
+                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), projection.pixel_angle(),
+                                {7, pixel + 1, 0}, right);
                 if (base.size() < 2 || right.empty())
                     continue;
                 light.reset(base, shift_settings);
                 const int slot = light.emitter_slot(1, 0);
                 if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
                     continue;
-                shift_to_one(tracer, shift_settings, base, light, right[0].vertex, paths, true);
+                shift_to_one(tracer, shift_settings, base, light, right, paths, true);
                 const bool shifted = paths.density(slot, 0) > 0;
                 if (light.last_alive() == slot) {
                     ++sum.light_is_last;

@@ -4,14 +4,15 @@
 
 namespace tessera::test {
 
-/// Shifts all light paths of a base path to one vertex that a camera sees, lane 0 of `paths`. New edges are taken
+/// Shifts all light paths of a base path to what another one sees, lane 0 of `paths`. New edges are taken
 /// for free, or traced with `trace_edges`. Returns whether one was blocked.
 inline bool shift_to_one(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
-                         const LightPaths& light, const Vertex& y, OffsetPaths& paths, bool trace_edges = false) {
+                         const LightPaths& light, const BasePath& other, OffsetPaths& paths,
+                         bool trace_edges = false) {
     Shift shift(tracer, settings);
-    OffsetVertices primary;
+    PrimaryVertices primary;
     primary.reset(1);
-    primary.set(0, y);
+    primary.set_pixel(0, other);
     PendingEdges edges;
     edges.reset(1);
     OutcomeLanes outcomes;

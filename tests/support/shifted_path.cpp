@@ -31,9 +31,10 @@ public:
         end_ = meaning_of(light_, slot);
     }
 
-    std::optional<BasePath> build(const Vertex& primary) {
+    std::optional<BasePath> build(const BasePath& other) {
         path_.reset(base_.random, base_.light_samples());
-        keep(primary);
+        path_.pixel_width = other.pixel_width;
+        keep(other[0].vertex);
         const int steps = end_.vertex + (end_.is_hit || end_.is_tail);
         for (int i = 0; i < steps; ++i)
             if (!step(i))
@@ -54,7 +55,8 @@ private:
         if (!light_.step_is_connectable(i))
             return false;
         const bool joins = light_.has_join() && i + 1 >= light_.join();
-        const bool is_lit = !end_.is_hit && i + 1 == end_.vertex && is_connectable(base_[i + 1].vertex);
+        const bool is_lit =
+            !end_.is_hit && i + 1 == end_.vertex && is_connectable(base_[i + 1].vertex) && light_.step_is_long(i);
         return ends_by_hit(i) || joins || is_lit;
     }
 
@@ -214,13 +216,13 @@ BasePath isolated(const BasePath& path, const ShiftSettings& settings, int slot)
 }
 
 std::optional<BasePath> shifted(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
-                                int slot, const Vertex& primary) {
+                                int slot, const BasePath& other) {
     if (settings.shift != ShiftKind::replay)
-        return Builder(tracer, settings, base, slot).build(primary);
+        return Builder(tracer, settings, base, slot).build(other);
     LightPaths light;
     light.reset(base, settings);
     BasePath path;
-    replay_base_path(tracer, primary, base.random, light.vertex_of(slot) + 1, path);
+    replay_base_path(tracer, other[0].vertex, base.random, light.vertex_of(slot) + 1, path);
     LightPaths own;
     own.reset(path, settings);
     if (!own.is_alive(slot))

@@ -134,6 +134,18 @@ std::shared_ptr<const Scene> coated() {
     return r.build();
 }
 
+/// A floor of mirrors and of smooth plastic, which is connectable, in turns: along edges short and long, one comes
+/// to either.
+std::shared_ptr<const Scene> mirrors_in_plastic() {
+    Room r;
+    const int mirror = r.mirror(), plastic = r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0);
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j)
+            r.quad({-0.96f + 0.16f * static_cast<float>(i), -0.97f, 0.96f - 0.16f * static_cast<float>(j)},
+                   {0.16f, 0, 0}, {0, 0, -0.16f}, (i + j) % 2 ? mirror : plastic);
+    return r.build();
+}
+
 std::shared_ptr<const Scene> phong() {
     return room_with_floor([](SceneBuilder& b) { return b.phong(Rgb(0), Rgb(0.8f, 0.7f, 0.6f), 40); });
 }
@@ -178,6 +190,8 @@ std::vector<TestScene> all_test_scenes() {
         {"coated", coated(), 5},
         {"phong_half_vectors", phong(), 5, 0.5f},
         {"shining_wall", shining_wall(), 4},
+        {"short_edges", blinds(), 4, 0.001f, 1, 20},
+        {"mirrors_in_plastic", mirrors_in_plastic(), 6, 0.001f, 3, 12},
         {"no_light", no_light(), 4},
     };
     for (TestScene& scene : light_scenes())
