@@ -83,7 +83,7 @@ std::string status_text(const ViewerState& state, int index) {
     std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
                   rate * 1e-6);
     line += text;
-    if (pane.reconstructs_long())
+    if (state.reconstructs_long(pane))
         line += "   " + under_way_text(*pane.reconstructing);
     else if (snapshot.coarse)
         line += "   first look";

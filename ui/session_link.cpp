@@ -66,7 +66,7 @@ void SessionLink::send(ViewerState& state) {
 /// Those that somebody has read of.
 void SessionLink::give_up_reconstructions(ViewerState& state) {
     for (const PaneState& pane : state.panes) {
-        if (!pane.reconstructs_long())
+        if (!state.reconstructs_long(pane))
             continue;
         session_.give_up_reconstruction(pane.slot);
         state.add_message(Message::Kind::note, std::string(paper_name(pane.settings.render.method)) +

@@ -64,9 +64,6 @@ struct PaneState {
     std::optional<ReconstructionUnderWay> reconstructing{}; ///< of its newest picture; empty: none is under way
     bool failed = false; ///< its render went wrong: nothing more will come of the request
     int slot = 0; ///< the session's pane that renders it: no other has it, and it keeps it wherever it is shown
-
-    /// Others are over before they are read of.
-    bool reconstructs_long() const { return reconstructing && reconstructing->seconds > 0.5; }
 };
 
 /// What charts show of a pane.
@@ -149,6 +146,7 @@ struct ViewerState {
     std::optional<Cursor> cursor;        ///< empty: it is over no picture
     Pace pace;
     bool paused = false;
+    double patience = 0.5; ///< seconds for which a reconstruction goes on untold
 
     Theme theme = Theme::dark;
     glm::ivec2 window_size{0}; ///< as last drawn, screen units
@@ -229,6 +227,10 @@ struct ViewerState {
     /// What `pane` is compared with: another pane or the_reference; itself if there is neither.
     int compared_with(int pane) const;
 
+    /// Whether the pane's reconstruction is worth telling of: others are over before they are read of.
+    bool reconstructs_long(const PaneState& pane) const {
+        return pane.reconstructing && pane.reconstructing->seconds > patience;
+    }
     /// The size that all panes are to render, pixels: not what fits best at the moment, see SessionLink.
     glm::ivec2 request_size() const { return latched_size; }
     /// The size that the choice and the panes on show now come to, pixels.

@@ -19,12 +19,13 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     options.panes.resize(1);
     options.panes[0].render.method = Method::gpt;
     options.panes[0].reconstruction.norm = Norm::l1;
-    options.max_depth = 1;
-    options.size = {SizeChoice::Base::custom, 1, {2560, 1440}};
+    options.max_depth = 3;
+    options.size = {SizeChoice::Base::custom, 1, {1920, 1080}};
     options.spp_limit = 1;
     ViewerHarness h({900, 600}, 1, options);
+    h.state().patience = 0;
     h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
-    ASSERT_TRUE(h.wait_until([&] { return h.pane(0).reconstructs_long() && !h.pane(0).snapshot->coarse; }));
+    ASSERT_TRUE(h.wait_until([&] { return h.pane(0).reconstructing && !h.pane(0).snapshot->coarse; }));
     EXPECT_LE(h.viewer.next_frame_in(), 0.1); // the seconds go on
     h.type(Key::f1);
     h.type(Key::escape); // closes the help alone
