@@ -98,6 +98,20 @@ TEST(Session, PausePublishesAndStops) {
     EXPECT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
 }
 
+/// Whether the whole picture on show is reconstructed so.
+bool is_made_with(const Session& session, Norm norm) {
+    const auto s = session.latest(0);
+    return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
+}
+
+/// Renders one pass, so large that L1 takes half a second of it on an idle machine.
+bool shows_a_large_primal(Session& session) {
+    session.set_pace(until(1));
+    session.set_reconstruction(0, {Norm::none});
+    session.submit(0, request(Method::gpt, {1280, 720}));
+    return eventually([&] { return is_made_with(session, Norm::none); });
+}
+
 TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
     std::atomic<bool> saw_l1{false};
     std::atomic<Session*> all{nullptr};
@@ -106,43 +120,29 @@ TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
         const auto s = of ? of->latest(0) : nullptr;
         saw_l1 = saw_l1 || (s && s->reconstruction && s->reconstructed_with.norm == Norm::l1);
     });
-    const auto is_made_with = [&](Norm norm) {
-        const auto s = session.latest(0);
-        return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
-    };
-    session.set_pace(until(1));
-    session.set_reconstruction(0, {Norm::none});
-    session.submit(0, request(Method::gpt, {1280, 720}));
-    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::none); }));
-    all = &session;                            // nothing is published by now
-    session.set_reconstruction(0, {Norm::l1}); // takes half a second on an idle machine
+    ASSERT_TRUE(shows_a_large_primal(session));
+    all = &session; // nothing is published by now
+    session.set_reconstruction(0, {Norm::l1});
     std::this_thread::sleep_for(30ms);
     session.set_reconstruction(0, {Norm::l2});
-    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::l2); }));
+    ASSERT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
     EXPECT_FALSE(saw_l1);
 }
 
 TEST(Session, AReconstructionCanBeGivenUp) {
     Session session(1, 2);
-    const auto is_made_with = [&](Norm norm) {
-        const auto s = session.latest(0);
-        return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
-    };
-    session.set_pace(until(1));
-    session.set_reconstruction(0, {Norm::none});
-    session.submit(0, request(Method::gpt, {1280, 720}));
-    ASSERT_TRUE(eventually([&] { return is_made_with(Norm::none); }));
+    ASSERT_TRUE(shows_a_large_primal(session));
     ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
-    session.set_reconstruction(0, {Norm::l1}); // takes half a second on an idle machine
+    session.set_reconstruction(0, {Norm::l1});
     ASSERT_TRUE(eventually([&] { return session.reconstructing(0).has_value(); }));
     EXPECT_EQ(session.reconstructing(0)->spp, 1);
     session.give_up_reconstruction(0);
     ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
     std::this_thread::sleep_for(50ms);
     EXPECT_FALSE(session.reconstructing(0)); // nor is it begun again
-    EXPECT_TRUE(is_made_with(Norm::none));
+    EXPECT_TRUE(is_made_with(session, Norm::none));
     session.set_reconstruction(0, {Norm::l2});
-    EXPECT_TRUE(eventually([&] { return is_made_with(Norm::l2); }));
+    EXPECT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
 }
 
 TEST(Session, PanesShareTheTime) {
