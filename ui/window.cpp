@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 
@@ -60,8 +61,8 @@ private:
     float wanted_scale_ = 1;
     Viewer* viewer_ = nullptr; // while it runs
     glm::vec2 cursor_{0};
-    std::array<glm::vec2, 3>
-        pressed_at_{}; // by button; Dear ImGui 1.86 only knows where they are by the next frame
+    // By button. Dear ImGui 1.86 only knows where the mouse is by the next frame.
+    std::array<glm::vec2, 3> pressed_at_{};
     int frames_due_ = frames_after_input;
     double last_frame_ = 0;
     std::atomic<bool> woken_{false};
@@ -117,7 +118,11 @@ void Window::install_callbacks() {
     glfwSetWindowFocusCallback(window_, on_focus);
     glfwSetDropCallback(window_, on_drop);
     glfwSetCursorPosCallback(window_, on_cursor);
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { of(w).input_came(); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { // perhaps a new window below it: it need not move
+        double x = 0, y = 0;
+        glfwGetCursorPos(w, &x, &y);
+        on_cursor(w, x, y);
+    });
     glfwSetMouseButtonCallback(window_, on_button);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_came(); });

@@ -109,8 +109,7 @@ const Setting table[] = {
      Setting::Real{&RenderSettings::shift_threshold, 0, 1, 0, 1}, joins_paths, true},
     {"shift_distance", "Distance",
      "Shift distance: edges shorter than so many pixels are wide at the first hit are not joined, but bounced "
-     "along "
-     "again: from other pixels, what is close in a corner looks quite different. 0: all are joined.",
+     "along: from other pixels, what is close in a corner looks quite different. 0: all are joined.",
      Setting::Real{&RenderSettings::shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
     {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
      Setting::Whole{&RenderSettings::max_depth, 1, most_edges}, always},

@@ -69,6 +69,13 @@ TEST(Preferences, FollowTheXdgSpecification) {
     ::setenv("HOME", home.c_str(), 1);
 }
 
+ViewerOptions remembering_in(const CurrentFolder& folder) {
+    ViewerOptions options = ViewerHarness::two_panes();
+    options.preferences = folder.path / "viewer.json";
+    options.open = scene_in;
+    return options;
+}
+
 TEST(Remembered, LayoutAndRecentScenes) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
@@ -109,9 +116,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
 
 TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
-    options.open = scene_in;
+    const ViewerOptions options = remembering_in(folder);
     ViewerHarness h({900, 600}, 1, options);
     h.frames(2);
     Preferences of_another;
@@ -128,9 +133,7 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
 
 TEST(Remembered, NoFrameWaitsForTheDisk) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
-    options.open = scene_in;
+    const ViewerOptions options = remembering_in(folder);
     ViewerHarness h({900, 600}, 1, options);
     std::promise<void> disk;
     h.viewer.save([ready = disk.get_future().share()] {
@@ -168,9 +171,7 @@ TEST(Remembered, ABrokenFileIsKeptAside) {
 
 TEST(Remembered, WithoutACurrentFolderNothingEnds) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
-    options.open = scene_in;
+    const ViewerOptions options = remembering_in(folder);
     fs::create_directory("gone");
     fs::current_path("gone");
     fs::remove(folder.path / "gone");
