@@ -1,16 +1,19 @@
 #include "recon/edge_weights.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace tessera {
 
 namespace {
 
-// The best of what was tried on Veach, Ajar and Country Kitchen, G-PT and G-PR, 32 samples a pixel.
-constexpr float noise_factor = 0.4f; // k
-constexpr int gradient_radius = 2, primal_radius = 4;
-constexpr float own_share = 0.5f; // of a gradient's own variance against the mean around
+// The best of what was tried on Veach, Ajar, Country Kitchen and Bathroom, G-PT and G-PR, 16 samples a pixel.
+// Larger squares and a smaller k let dark pixels beside noisy bright ones lose their light; a larger k leaves the
+// noise of rare paths.
+constexpr float noise_factor = 0.8f; // k
+constexpr int gradient_radius = 1, primal_radius = 2;
+constexpr float gradient_share = 0.5f, primal_share = 0.2f; // of the own variance against the mean around
 
 constexpr float largest_variance = 1e30f; // sums of some dozens stay finite
 
@@ -37,11 +40,22 @@ Image<float> mean_around(const Image<float>& values, int radius, int columns, in
     return means;
 }
 
-float weight(float alpha, float own_variance, float variance_around, float primal_variance) {
-    const float least = alpha * alpha * primal_variance;
-    const float variance =
-        own_share * std::min(own_variance, largest_variance) + (1 - own_share) * variance_around;
-    const float noise = noise_factor * variance;
+/// Each value blended with the mean around it.
+Image<float> blended(const Image<float>& values, float own_share, int radius, int columns, int rows,
+                     const ParallelFor& parallel_for) {
+    Image<float> blend = mean_around(values, radius, columns, rows, parallel_for);
+    parallel_for(values.height() - rows, [&](int y) {
+        for (int x = 0; x < values.width() - columns; ++x)
+            blend(x, y) = own_share * std::min(values(x, y), largest_variance) + (1 - own_share) * blend(x, y);
+    });
+    return blend;
+}
+
+/// Of a gradient between two pixels. Where one has far less noise than the other, as a dark pixel beside a lamp's
+/// edge, it needs the gradient least, and would take the other's noise: what counts is the geometric mean.
+float weight(float alpha, float gradient_variance, float one_primal_variance, float other_primal_variance) {
+    const float primal_variance = std::sqrt(one_primal_variance) * std::sqrt(other_primal_variance);
+    const float least = alpha * alpha * primal_variance, noise = noise_factor * gradient_variance;
     return noise > 0 ? least / (least + noise) : 1;
 }
 
@@ -49,18 +63,16 @@ float weight(float alpha, float own_variance, float variance_around, float prima
 
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     const int width = images.primal.width(), height = images.primal.height();
-    const Image<float> primal = mean_around(images.primal_variance, primal_radius, 0, 0, parallel_for);
-    const Image<float> dx = mean_around(images.dx_variance, gradient_radius, 1, 0, parallel_for);
-    const Image<float> dy = mean_around(images.dy_variance, gradient_radius, 0, 1, parallel_for);
+    const Image<float> primal = blended(images.primal_variance, primal_share, primal_radius, 0, 0, parallel_for);
+    const Image<float> dx = blended(images.dx_variance, gradient_share, gradient_radius, 1, 0, parallel_for);
+    const Image<float> dy = blended(images.dy_variance, gradient_share, gradient_radius, 0, 1, parallel_for);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
     parallel_for(height, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)
-            weights.x(x, y) =
-                weight(alpha, images.dx_variance(x, y), dx(x, y), (primal(x, y) + primal(x + 1, y)) / 2);
+            weights.x(x, y) = weight(alpha, dx(x, y), primal(x, y), primal(x + 1, y));
         if (y + 1 < height)
             for (int x = 0; x < width; ++x)
-                weights.y(x, y) =
-                    weight(alpha, images.dy_variance(x, y), dy(x, y), (primal(x, y) + primal(x, y + 1)) / 2);
+                weights.y(x, y) = weight(alpha, dy(x, y), primal(x, y), primal(x, y + 1));
     });
     return weights;
 }

@@ -9,8 +9,8 @@ namespace tessera {
 
 /// How long a weighted solve takes.
 struct WeightedSettings {
-    int cold_iterations = 8; ///< steps of a first solve
-    int warm_iterations = 4; ///< of one that has the last correction
+    int cold_iterations = 16; ///< steps of a first solve
+    int warm_iterations = 4;  ///< of one that has the last correction
 };
 
 /// The screened Poisson problem with a weight for each gradient: minimises the sum over the pixels of

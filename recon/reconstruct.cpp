@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <glm/common.hpp>
+
 namespace tessera {
 
 namespace {
@@ -46,6 +48,19 @@ float alpha_of_patches(float alpha, float patch) {
 }
 
 } // namespace
+
+/// Solvers go below black next to strong edges: radiance is not negative, unless the primal says so.
+void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
+    parallel_for(image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x)
+            image(x, y) = glm::max(image(x, y), glm::min(primal(x, y), Rgb(0)));
+    });
+}
+
+/// Whether the image is a linear function of primal and gradients, and so as unbiased as they are.
+bool is_linear(Norm norm) {
+    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
+}
 
 /// The solvers of one size; each is made when it is first asked for.
 struct Reconstructor::Solvers {
@@ -145,6 +160,8 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
     Reconstruction result = solve(images, settings, parallel_for, stop);
+    if (!is_linear(norm_for(images, settings.norm)))
+        lift_to_black(images.primal, result.image, parallel_for);
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

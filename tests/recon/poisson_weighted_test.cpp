@@ -98,7 +98,7 @@ TEST(PoissonWeighted, WarmStartsFollowTheirData) {
             weights = weights_of_gradients(images, alpha);
             solver.solve(problem_of(images, alpha), weights, {}, image);
             EXPECT_LE(glm::length(mean_color(image) - mean_color(images.primal)),
-                      1e-4 * glm::length(mean_color(image)));
+                      5e-4 * glm::length(mean_color(image))); // each step rounds
         }
         EXPECT_LE(relative_rms_difference(image, solve(problem_of(images, alpha), weights, exact)), 0.01) << alpha;
     }
@@ -174,14 +174,15 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
     images.dx_variance(15, 10) = 1e6f;
     images.dy_variance(4, 4) = std::numeric_limits<float>::max();
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-    EXPECT_FLOAT_EQ(weights.x(3, 17), 0.5f); // 0.04 / (0.04 + 0.4 * 0.2 / 2)
-    EXPECT_FLOAT_EQ(weights.y(28, 3), 0.5f);
-    EXPECT_FLOAT_EQ(weights.x(28, 17), 0.5f);
-    EXPECT_FLOAT_EQ(weights.y(20, 18), 0.5f);
+    constexpr float third = 1 / 3.0f; // 0.04 / (0.04 + 0.8 * 0.2 / 2)
+    EXPECT_FLOAT_EQ(weights.x(3, 17), third);
+    EXPECT_FLOAT_EQ(weights.y(28, 3), third);
+    EXPECT_FLOAT_EQ(weights.x(28, 17), third);
+    EXPECT_FLOAT_EQ(weights.y(20, 18), third);
     EXPECT_LT(weights.x(15, 10), 1e-6f);
     EXPECT_LT(weights.x(16, 11), 1e-4f); // what is beside an outlier is not trusted, either
     EXPECT_LT(weights.y(4, 4), 1e-20f);
-    EXPECT_FLOAT_EQ(weights.x(15, 14), 0.5f);
+    EXPECT_FLOAT_EQ(weights.x(15, 14), third);
     for (int y = 0; y < 20; ++y)
         EXPECT_EQ(weights.x(29, y), 0);
     for (int x = 0; x < 30; ++x)

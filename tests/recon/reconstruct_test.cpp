@@ -1,6 +1,7 @@
 #include "recon/reconstruct.h"
 #include "tests/recon/test_images.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -65,6 +66,40 @@ TEST(Reconstruct, WithoutVariancesNothingIsWeighted) {
     const RgbImage l2 = reconstruct(images, {Norm::l2, 0.2f}).image;
     EXPECT_EQ(relative_difference(reconstruct(images, {Norm::weighted, 0.2f}).image, l2), 0);
     EXPECT_GT(relative_difference(weighted, l2), 0.1);
+}
+
+/// A dark window frame, known well, beside panes known badly: it takes none of their noise, and nothing is below
+/// black.
+TEST(Reconstruct, DarkPixelsBesideNoisyOnesStayDark) {
+    constexpr int width = 60, height = 40, frame_begin = 26, frame_end = 34;
+    const auto in_frame = [](int x) { return x >= frame_begin && x < frame_end; };
+    const RgbImage noise = random_image(width, height, 3, 0, 1);
+    GradientImages images{RgbImage(width, height), {}, {}, {}};
+    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(width, height, 1e-8f);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            images.primal(x, y) = in_frame(x) ? Rgb(0.01f) : Rgb(3) + noise(x, y);
+            if (in_frame(x))
+                continue;
+            images.primal_variance(x, y) = images.dy_variance(x, y) = images.dx_variance(x, y) = 3;
+            if (x > 0)
+                images.dx_variance(x - 1, y) = 3;
+        }
+    const RgbImage other = random_image(width, height, 4, 0, 1); // gradients have noise of their own
+    RgbImage noisy = images.primal;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            if (!in_frame(x))
+                noisy(x, y) = Rgb(3) + other(x, y);
+    images.dx = x_differences(noisy);
+    images.dy = y_differences(noisy);
+    const RgbImage image = reconstruct(images, {Norm::weighted, 0.2f}).image;
+    for (int y = 0; y < height; ++y)
+        for (int x = frame_begin + 1; x + 1 < frame_end; ++x)
+            EXPECT_LE(std::abs(image(x, y).g - 0.01f), 0.05f) << x << " " << y;
+    for (const Norm norm : {Norm::l1, Norm::mixed, Norm::weighted})
+        for (const Rgb c : reconstruct(images, {norm, 0.2f}).image)
+            EXPECT_GE(std::min({c.r, c.g, c.b}), 0) << to_string(norm);
 }
 
 TEST(Reconstruct, L2TellsItsResidual) {
