@@ -60,11 +60,15 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
 ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
                        ThreadPool& pool, std::vector<ReconstructionStats>& stats) {
     ExrFile file = reconstruct_layers(std::move(images), wanted, pool, stats);
-    if (wanted.buffers && !maps.reused.empty()) {
-        file.layers.push_back({"reused", grey(maps.reused)});
-        file.layers.push_back({"failed", grey(maps.failed)});
-        file.layers.push_back({"survival", grey(maps.survival)});
+    if (!wanted.buffers || maps.empty())
+        return file;
+    add_layer(file, "reused", grey(maps.reused()));
+    add_layer(file, "failed", grey(maps.failed()));
+    for (int i = 0; i < shift_outcome_count; ++i) {
+        const auto outcome = static_cast<ShiftOutcome>(i);
+        add_layer(file, fmt::format("shifts_{}", to_string(outcome)), grey(maps.share(outcome)));
     }
+    add_layer(file, "survival", grey(maps.survival()));
     return file;
 }
 

@@ -90,23 +90,6 @@ void Film::find_lamp_edges(const RgbImage& look) {
         }
 }
 
-ReuseMaps Film::reuse_maps(int passes) const {
-    ReuseMaps maps;
-    for (Image<float>* map : {&maps.reused, &maps.failed, &maps.survival})
-        *map = Image<float>(reuse_.width(), reuse_.height());
-    const auto share = [](std::uint32_t part, std::uint32_t rest) {
-        const auto of = static_cast<float>(part) + static_cast<float>(rest);
-        return static_cast<float>(part) / std::max(of, 1.0f);
-    };
-    for (std::size_t i = 0; i < reuse_.size(); ++i) {
-        const ReuseCounts& c = reuse_.data()[i];
-        maps.reused.data()[i] = static_cast<float>(c.arrived) / static_cast<float>(std::max(passes, 1));
-        maps.failed.data()[i] = share(c.failed, c.arrived);
-        maps.survival.data()[i] = share(c.reused, c.skipped);
-    }
-    return maps;
-}
-
 GradientImages Film::means(int passes) const {
     GradientImages images;
     measure(primal_, passes, images.primal, images.primal_variance);

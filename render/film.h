@@ -3,26 +3,12 @@
 #include "recon/gradient_images.h"
 #include "render/memory.h"
 #include "render/path/counters.h"
+#include "render/reuse_maps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
-
-/// How sharing went at one pixel.
-struct ReuseCounts {
-    std::uint32_t arrived = 0; ///< base paths of other pixels that brought light here
-    std::uint32_t failed = 0;  ///< those that were shifted here and brought none
-    std::uint32_t reused = 0; ///< its own base paths that carry light, once a sampling set of its own: reused, ...
-    std::uint32_t skipped = 0; ///< ... and ended by the reuse roulette
-
-    void operator+=(const ReuseCounts& other) {
-        arrived += other.arrived;
-        failed += other.failed;
-        reused += other.reused;
-        skipped += other.skipped;
-    }
-};
 
 /// What one pass found at one pixel.
 struct PixelSample {
@@ -40,14 +26,6 @@ struct FilmBuffers {
     bool reuse = false;          ///< how sharing went
     bool base_luminance = false; ///< of the last pass
     bool lamp_edges = false;     ///< of the lamps that the camera sees
-};
-
-/// How sharing went, per pixel.
-struct ReuseMaps {
-    Image<float> reused;   ///< base paths of other pixels that brought light here, a pass
-    Image<float> failed;   ///< share of the shifts to here that brought none, in [0, 1]; 0 without any
-    Image<float> survival; ///< share of its own base paths with light that the reuse roulette left, in [0, 1]; 0
-                           ///< where none has carried light
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -84,8 +62,8 @@ public:
     /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
     /// means are never all there together. The film is then good for nothing more.
     GradientImages take_means(int passes);
-    /// Empty images where pixels share nothing.
-    ReuseMaps reuse_maps(int passes) const;
+    /// Of `passes` complete passes; empty where pixels share nothing.
+    ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
     /// Of the last pass; empty where it is not kept.
     const Image<float>& base_luminance() const { return base_luminance_; }
     /// All that it has summed.

@@ -1,6 +1,6 @@
 #version 330 core
 // Shows an image of radiance (exposure, then a tone curve), of gradients and differences (+/- colours), or of numbers
-// (false colours) in a pane.
+// (false colours) in a pane, or what has colours already.
 
 uniform sampler2D image;
 uniform ivec2 pane_size;    // pixels
@@ -24,6 +24,7 @@ out vec4 colour;
 const int signed_difference = 1; // gradients: the luminance's sign becomes a hue
 const int false_colour = 2;      // numbers: red alone counts
 const int direction = 3;         // -1 to 1 in each channel
+const int own = 4;               // display colours
 const int gamma_curve = 1;
 const int filmic_curve = 2;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
@@ -64,6 +65,8 @@ vec3 exposed(vec3 value) {
         return vec3(clamp(luminance(value) * gain, -1.0, 1.0));
     if (colour_map == direction)
         return clamp(value * 0.5 + 0.5, 0.0, 1.0);
+    if (colour_map == own)
+        return clamp(value, 0.0, 1.0);
     return tone_curve == filmic_curve ? filmic(min(value * gain, 1e4)) : clamp(value * gain, 0.0, 1.0);
 }
 
@@ -78,7 +81,7 @@ vec3 displayed(vec3 value) {
         return in_false_colour(value.r);
     if (colour_map == signed_difference)
         return mix(zero_colour, value.r >= 0.0 ? plus_colour : minus_colour, srgb(abs(value.r)));
-    if (colour_map == direction)
+    if (colour_map == direction || colour_map == own)
         return value;
     return vec3(encoded(value.r), encoded(value.g), encoded(value.b));
 }

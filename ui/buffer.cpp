@@ -1,6 +1,7 @@
 #include "ui/buffer.h"
 
 #include "ui/error_map.h"
+#include "ui/shift_outcomes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,11 +111,11 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return error_picture(snapshot, buffer, scratch, companions);
     switch (buffer) {
     case Buffer::reused:
-        return scratch = grey(snapshot.reuse->reused);
-    case Buffer::failed:
-        return scratch = grey(snapshot.reuse->failed);
+        return scratch = grey(snapshot.reuse->reused());
+    case Buffer::outcomes:
+        return scratch = grey(snapshot.reuse->failed());
     case Buffer::survival:
-        return scratch = grey(snapshot.reuse->survival);
+        return scratch = grey(snapshot.reuse->survival());
     case Buffer::dx:
         return snapshot.images->dx;
     case Buffer::dy:
@@ -132,6 +133,10 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
     default:
         return primal_with_very_direct(*snapshot.images, scratch);
     }
+}
+
+RgbImage own_colours(const Snapshot& snapshot, Buffer buffer) {
+    return buffer == Buffer::outcomes && snapshot.reuse ? outcome_colours(*snapshot.reuse) : RgbImage();
 }
 
 std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions) {
@@ -156,7 +161,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
 }
 
 float top_value(Buffer buffer, const RgbImage& image) {
-    if (buffer == Buffer::failed || buffer == Buffer::survival)
+    if (buffer == Buffer::outcomes || buffer == Buffer::survival)
         return 1;
     float top = 0;
     for (const Rgb& pixel : image)

@@ -13,7 +13,7 @@ namespace tessera {
 /// What a pane can show.
 // clang-format off
 enum class Buffer {
-    reconstruction, primal, dx, dy, reused, failed, survival, very_direct,
+    reconstruction, primal, dx, dy, reused, outcomes, survival, very_direct,
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
     reference,
     albedo, normal, depth,
@@ -25,7 +25,7 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::dx,
                                          Buffer::dy,
                                          Buffer::reused,
-                                         Buffer::failed,
+                                         Buffer::outcomes,
                                          Buffer::survival,
                                          Buffer::very_direct,
                                          Buffer::error_relative_squared,
@@ -93,6 +93,10 @@ std::shared_ptr<const void> companion_source(const Companions& companions, Buffe
 /// it, to the snapshot or to the companions.
 const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
                         const Companions& companions = {});
+
+/// The image in colours of its own, where the buffer has such (ColourMap::own) and there is one; else empty. The
+/// numbers of picture() are then what differences are taken of.
+RgbImage own_colours(const Snapshot& snapshot, Buffer buffer);
 
 /// Why a pane has no image of its buffer, in words for its place; empty: it has one, or will.
 std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions);

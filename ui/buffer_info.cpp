@@ -21,9 +21,10 @@ constexpr BufferInfo table[] = {
     {Buffer::reused, "reused", "Reuse count",
      "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
      Family::reuse, ColourMap::false_colour, "paths a pass", 1},
-    {Buffer::failed, "failed", "Failed shifts",
-     "Which share of the base paths that were shifted to a pixel brought it no light. Not for PT.", Family::reuse,
-     ColourMap::false_colour, "%", 100},
+    {Buffer::outcomes, "outcomes", "Shift outcomes",
+     "How the shifts of other pixels' base paths to a pixel ended: the mean of the outcomes' colours, black where "
+     "none was tried. Its number, in differences, too, is the share that brought no light. Not for PT.",
+     Family::reuse, ColourMap::own, "%", 100},
     {Buffer::survival, "survival", "Roulette survival",
      "Of a pixel's own base paths that carry light, the share that the roulette on reuse let be shifted to the "
      "others of its tile (all passes; 0 where none has carried light). A survivor weighs 1/q for its probability "

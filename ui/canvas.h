@@ -13,7 +13,13 @@ enum class ColourMap {
     signed_difference, ///< luminance, exposed: orange above zero, blue below
     false_colour,      ///< the first channel, over a range: false_colours
     direction,         ///< from -1 to 1 in each channel: black to full
+    own,               ///< display colours of the image's own
 };
+
+/// Whether an image in such colours holds one number a pixel, not three.
+inline bool has_one_number(ColourMap map) {
+    return map == ColourMap::false_colour || map == ColourMap::own;
+}
 
 /// How an image is to lie in a pane.
 struct CanvasView {

@@ -4,6 +4,18 @@
 
 namespace tessera {
 
+namespace {
+
+template <class Pixel>
+const Pixel& pixel_at(const Image<Pixel>& image, glm::vec2 place) {
+    const auto index = [](float fraction, int count) {
+        return std::clamp(static_cast<int>(fraction * static_cast<float>(count)), 0, count - 1);
+    };
+    return image(index(place.x, image.width()), index(place.y, image.height()));
+}
+
+} // namespace
+
 void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& companions) {
     static const Snapshot none;
     const Snapshot& from = snapshot ? *snapshot : none;
@@ -17,6 +29,8 @@ void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& 
     buffer_ = buffer;
     pixels_ = &picture(from, buffer, scratch_, companions);
     texture_.show(*pixels_);
+    colours_.show(own_colours(from, buffer));
+    outcomes_ = buffer == Buffer::outcomes ? from.reuse : nullptr;
     const RangeKey wanted{from.generation, coarse_, buffer, companion_};
     if (pixels_->empty() || wanted == range_of_)
         return;
@@ -25,10 +39,11 @@ void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& 
 }
 
 const Rgb& PaneImage::at(glm::vec2 place) const {
-    const auto index = [](float fraction, int count) {
-        return std::clamp(static_cast<int>(fraction * static_cast<float>(count)), 0, count - 1);
-    };
-    return (*pixels_)(index(place.x, pixels_->width()), index(place.y, pixels_->height()));
+    return pixel_at(*pixels_, place);
+}
+
+const ReuseCounts* PaneImage::outcomes_at(glm::vec2 place) const {
+    return outcomes_ ? &pixel_at(outcomes_->counts, place) : nullptr;
 }
 
 } // namespace tessera

@@ -19,7 +19,10 @@ public:
 
     bool empty() const { return texture_.empty(); }
     const RgbImage& pixels() const { return *pixels_; }
-    const ImageTexture& texture() const { return texture_; }
+    /// What differences are taken of: the pixels, ...
+    const ImageTexture& numbers() const { return texture_; }
+    /// ... and what is shown by itself: the same, but for a buffer with colours of its own.
+    const ImageTexture& texture() const { return colours_.empty() ? texture_ : colours_; }
     Buffer buffer() const { return buffer_; }
     bool coarse() const { return coarse_; }
     /// Of false colours: what fits the first picture of the request, and stays while more samples come, so that
@@ -29,6 +32,8 @@ public:
 
     /// The value at a place given as fractions of the image. Not if empty.
     const Rgb& at(glm::vec2 place) const;
+    /// How the shifts to the pixel there ended; null: the image is of something else.
+    const ReuseCounts* outcomes_at(glm::vec2 place) const;
 
 private:
     std::shared_ptr<const void> source_; // what it is made of: kept, so that it stays unique, and its pixels alive
@@ -36,7 +41,8 @@ private:
     Buffer buffer_ = Buffer::reconstruction;
     RgbImage scratch_;
     const RgbImage* pixels_ = &scratch_;
-    ImageTexture texture_;
+    ImageTexture texture_, colours_;
+    std::shared_ptr<const ReuseMaps> outcomes_; // of an image of these
     bool coarse_ = false;
 
     /// What a range is found for.

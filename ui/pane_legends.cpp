@@ -1,7 +1,5 @@
 #include "ui/pane_legends.h"
 
-#include "ui/legend.h"
-
 #include <algorithm>
 
 #include <imgui.h>
@@ -9,8 +7,6 @@
 namespace tessera {
 
 namespace {
-
-constexpr float widest_ems = 24; // of a legend
 
 bool has_picture(const Showing& showing, const PaneTools& tools) {
     const auto has = [&](int pane) { return !tools.images[static_cast<std::size_t>(pane)].empty(); };
@@ -43,6 +39,8 @@ Legend legend_of(const Showing& showing, const PaneTools& tools) {
         legend = false_colour_legend(buffer, range_of(buffer, tools.state, tools.images));
     else if (colour_map(showing, tools.state) == ColourMap::signed_difference)
         legend = signed_legend_of(showing, tools.state);
+    else if (colour_map(showing, tools.state) == ColourMap::own)
+        legend = outcome_legend();
     if (is_of_earlier_view(showing, tools.state)) {
         legend.text = (legend.text.empty() ? std::string(info(buffer).id) : legend.text) + "  of an earlier view";
         legend.help += std::string(legend.help.empty() ? "" : "\n\n") +
@@ -69,8 +67,9 @@ void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pan
     ScreenRect room = frame.rect;
     if (left_is_seen)
         drawn_[0] = draw_one(room, id + ".legend", sides.left, false, tools);
-    if (left_is_seen && room.size().x < 2 * widest_ems * ImGui::GetFontSize())
-        room.max.y -= 3 * ImGui::GetFontSize(); // above the other
+    const ScreenRect& left = drawn_[0].place.whole;
+    if (left.size().y > 0 && room.size().x < 2 * widest_legend * ImGui::GetFontSize())
+        room.max.y = left.min.y; // above it
     if (right_is_seen && !(same && left_is_seen))
         drawn_[1] = draw_one(room, id + ".right_legend", sides.right, true, tools);
 }
@@ -82,16 +81,16 @@ PaneLegends::Drawn PaneLegends::draw_one(const ScreenRect& rect, const std::stri
     const Legend legend = legend_of(showing, tools);
     if (legend.text.empty())
         return {};
-    const ScreenRect bar = draw_legend(rect, id, legend, at_right, tools.controls);
+    LegendPlace place = draw_legend(rect, id, legend, at_right, tools.controls);
     if (colour_map(showing, tools.state) != ColourMap::false_colour)
-        return {}; // only the range of these can be dragged
-    return {bar, buffer_of(showing.pane, tools.state)};
+        place.bar = {}; // only the range of these can be dragged
+    return {place, buffer_of(showing.pane, tools.state)};
 }
 
 std::optional<HeldRange> PaneLegends::held_at(glm::vec2 point, const PaneTools& tools) const {
     const float margin = ImGui::GetFontSize() * 0.4f;
     for (const Drawn& legend : drawn_) {
-        const ScreenRect& bar = legend.colours;
+        const ScreenRect& bar = legend.place.bar;
         if (bar.size().x > 0 && ScreenRect{bar.min - margin, bar.max + margin}.contains(point))
             return HeldRange{legend.buffer, point.x >= (bar.min.x + bar.max.x) * 0.5f, point.x, bar.size().x,
                              range_of(legend.buffer, tools.state, tools.images)};

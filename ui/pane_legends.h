@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/legend.h"
 #include "ui/pane_tools.h"
 #include "ui/picture_frame.h"
 
@@ -33,7 +34,7 @@ public:
 
 private:
     struct Drawn {
-        ScreenRect colours; // empty: nothing to take hold of
+        LegendPlace place; // without a bar: nothing to take hold of
         Buffer buffer = Buffer::reconstruction;
     };
     static Drawn draw_one(const ScreenRect& rect, const std::string& id, const Showing& showing, bool at_right,

@@ -1,5 +1,6 @@
 #include "ui/pane_status.h"
 
+#include "ui/shift_outcomes.h"
 #include "ui/theme.h"
 
 #include <algorithm>
@@ -144,7 +145,9 @@ std::string cursor_text(const ViewerState& state, const PaneImages& images, int 
     char where[48];
     std::snprintf(where, sizeof where, "(%d, %d)  ", static_cast<int>(place.x * size.x),
                   static_cast<int>(place.y * size.y));
-    return where + value_text(*value, colour_map(showing, state), info(image.buffer()));
+    const ReuseCounts* outcomes = showing.subtrahend < 0 ? image.outcomes_at(place) : nullptr;
+    return where + (outcomes ? outcome_shares(*outcomes)
+                             : value_text(*value, colour_map(showing, state), info(image.buffer())));
 }
 
 std::string cursor_help(const Showing& showing, const ViewerState& state) {
@@ -154,6 +157,8 @@ std::string cursor_help(const Showing& showing, const ViewerState& state) {
         numbers = "its number" + (*about.unit ? " in " + std::string(about.unit) : "");
     else if (colour_map(showing, state) == ColourMap::direction)
         numbers = "its x, y and z";
+    else if (colour_map(showing, state) == ColourMap::own)
+        numbers = "the shares of the shifts to it that ended so, the largest first";
     return "Pixel under the mouse, counted from the top left, and " + numbers + ".\n\n" +
            (showing.subtrahend >= 0 ? label_of(showing, state) + ": the difference of their numbers.\n\n" : "") +
            about.label + ": " + about.help;

@@ -48,11 +48,6 @@ const PaneImage& image_of(const Showing& showing, const PaneTools& tools) {
     return tools.images[static_cast<std::size_t>(showing.pane)];
 }
 
-const ImageTexture* subtrahend_of(const Showing& showing, const PaneTools& tools) {
-    return showing.subtrahend < 0 ? nullptr
-                                  : &tools.images[static_cast<std::size_t>(showing.subtrahend)].texture();
-}
-
 CanvasView view_of(const Showing& showing, const PictureFrame& frame, const PaneTools& tools) {
     CanvasView view = colours_of(showing, tools.state, tools.images);
     view.pane_size = frame.pixels;
@@ -194,8 +189,9 @@ void PaneView::draw_renditions(int index, const PictureFrame& frame, PaneTools& 
     const ImVec2 min(frame.rect.min.x, frame.rect.min.y), max(frame.rect.max.x, frame.rect.max.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto draw = [&](Canvas& canvas, const Showing& showing) {
-        const GLuint rendition = canvas.draw(tools.shader, image_of(showing, tools).texture(),
-                                             view_of(showing, frame, tools), subtrahend_of(showing, tools));
+        const ShowingTextures textures = textures_of(showing, tools.images);
+        const GLuint rendition =
+            canvas.draw(tools.shader, textures.image, view_of(showing, frame, tools), textures.subtrahend);
         list.AddImage(texture_id(rendition), min, max, {0, 1}, {1, 0});
     };
     draw(canvas_, sides.left);
@@ -266,8 +262,8 @@ void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, Pa
         return;
     const glm::ivec2 size(image.pixels().width(), image.pixels().height());
     const CanvasView view = magnified(view_of(showing, frame, tools), size, place, magnifier_pixels(frame));
-    const GLuint rendition =
-        magnifier_canvas_.draw(tools.shader, image.texture(), view, subtrahend_of(showing, tools));
+    const ShowingTextures textures = textures_of(showing, tools.images);
+    const GLuint rendition = magnifier_canvas_.draw(tools.shader, textures.image, view, textures.subtrahend);
     draw_magnifier(frame, view, size, place, rendition);
 }
 

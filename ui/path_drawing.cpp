@@ -28,25 +28,6 @@ void draw_shift(const SceneLines& lines, const InspectedShift& shift, float shar
 
 } // namespace
 
-ImU32 outcome_colour(ShiftOutcome outcome) {
-    switch (outcome) {
-    case ShiftOutcome::ok:
-        return IM_COL32(72, 214, 140, 255);
-    case ShiftOutcome::occluded:
-        return IM_COL32(255, 84, 84, 255);
-    case ShiftOutcome::kind_mismatch:
-        return IM_COL32(255, 160, 60, 255);
-    case ShiftOutcome::total_reflection:
-        return IM_COL32(190, 120, 255, 255);
-    case ShiftOutcome::outside:
-        return IM_COL32(90, 160, 255, 255);
-    case ShiftOutcome::no_light:
-    case ShiftOutcome::count:
-        break;
-    }
-    return IM_COL32(150, 150, 158, 255);
-}
-
 ImU32 outcome_colour(const InspectedShift& shift) {
     return shift.is_tried ? outcome_colour(shift.outcome) : untried_colour;
 }

@@ -2,14 +2,13 @@
 
 #include "render/method/inspection.h"
 #include "ui/scene_lines.h"
+#include "ui/shift_outcomes.h"
 
 #include <vector>
 
 namespace tessera {
 
-/// The colour that stands for how a shift ended.
-ImU32 outcome_colour(ShiftOutcome outcome);
-/// The same; grey where it was not tried.
+/// The colour that stands for how the shift ended; grey where it was not tried.
 ImU32 outcome_colour(const InspectedShift& shift);
 
 /// Draws shifted paths in the colours of their outcomes; the more of the light one brings, the plainer it is.

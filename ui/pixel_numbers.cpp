@@ -61,7 +61,7 @@ bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& 
         for (int x = from.x; x < to.x; ++x) {
             const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / size, center = frame.to_screen(place);
             const Showing showing = showing_at(state, pane, (center.x - frame.rect.min.x) / frame.rect.size().x);
-            const bool scalar = colour_map(showing, state) == ColourMap::false_colour;
+            const bool scalar = has_one_number(colour_map(showing, state));
             if (const std::optional<Rgb> value = value_at(showing, images, place))
                 draw_value(list, font, center, *value * info(buffer_of(showing.pane, state)).unit_scale,
                            scalar ? 1 : 3);

@@ -82,6 +82,13 @@ CanvasView colours_of(const Showing& showing, const ViewerState& state, const Pa
     return view;
 }
 
+ShowingTextures textures_of(const Showing& showing, const PaneImages& images) {
+    const PaneImage& image = image_of(showing.pane, images);
+    if (showing.subtrahend < 0)
+        return {image.texture(), nullptr};
+    return {image.numbers(), &image_of(showing.subtrahend, images).numbers()};
+}
+
 std::string missing_text(const Showing& showing, const ViewerState& state) {
     const std::string text = missing_text(showing.pane, state);
     return text.empty() && showing.subtrahend >= 0 ? missing_text(showing.subtrahend, state) : text;

@@ -41,6 +41,13 @@ ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& i
 /// How the part is coloured: a canvas view without its place.
 CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images);
 
+/// What a canvas draws for the part.
+struct ShowingTextures {
+    const ImageTexture& image;
+    const ImageTexture* subtrahend; ///< null: nothing is taken off
+};
+ShowingTextures textures_of(const Showing& showing, const PaneImages& images);
+
 /// Why there is nothing to show, in words for its place; empty: there is, or will be.
 std::string missing_text(const Showing& showing, const ViewerState& state);
 

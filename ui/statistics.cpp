@@ -1,6 +1,7 @@
 #include "ui/statistics.h"
 
 #include "ui/buffer.h"
+#include "ui/shift_outcomes.h"
 #include "ui/words.h"
 
 #include <algorithm>
@@ -18,16 +19,6 @@ constexpr const char* ray_help[] = {
     "A new edge of an offset path, to a vertex of the base path or to a light: is anything in between?",
 };
 static_assert(std::size(ray_help) == ray_kind_count);
-
-constexpr const char* outcome_help[] = {
-    "At least one light path of the base path came through to the other pixel.",
-    "Every new edge of the offset path is blocked.",
-    "Base and offset vertex scatter in different ways, so that the way back would be another.",
-    "There is no refracted direction for the half vector.",
-    "A ray left the scene, or the other pixel sees nothing.",
-    "The offset path carries nothing: its BSDF is black there, or it hits no light.",
-};
-static_assert(std::size(outcome_help) == shift_outcome_count);
 
 /// 0 of 0 is 0.
 double ratio(std::uint64_t part, std::uint64_t whole) {
@@ -100,9 +91,10 @@ FigureGroup shifts(const Counters& c) {
                         {},
                         "Shifts of a base path to one other pixel, a camera path."}}};
     for (std::size_t i = 0; i < c.shifts.size(); ++i) {
-        const std::string_view outcome = to_string(static_cast<ShiftOutcome>(i));
-        group.figures.push_back({"shifts." + std::string(outcome), in_words(outcome), count_text(c.shifts[i]),
-                                 ratio(c.shifts[i], all), outcome_help[i]});
+        const auto outcome = static_cast<ShiftOutcome>(i);
+        const std::string_view name = to_string(outcome);
+        group.figures.push_back({"shifts." + std::string(name), in_words(name), count_text(c.shifts[i]),
+                                 ratio(c.shifts[i], all), outcome_help(outcome)});
     }
     return group;
 }

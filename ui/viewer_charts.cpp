@@ -1,8 +1,8 @@
 #include "ui/viewer_charts.h"
 
 #include "recon/slope.h"
-#include "ui/path_overlay.h"
 #include "ui/picture_error.h"
+#include "ui/shift_outcomes.h"
 #include "ui/words.h"
 
 #include <algorithm>

@@ -22,7 +22,7 @@ void SamplingSet::collect(const BaseBlock& base) {
 void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
     for (std::size_t m = 0; m < outcomes.size(); ++m)
         if (m != static_cast<std::size_t>(k))
-            ++(outcomes[m] == ShiftOutcome::ok ? reuse[m].arrived : reuse[m].failed);
+            ++reuse[m].shifts[static_cast<std::size_t>(outcomes[m])];
 }
 
 void SamplingSet::count(const ReuseDecision& decision, int k) {

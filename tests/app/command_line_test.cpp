@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -127,7 +128,7 @@ TEST_F(CommandLine, RendersLayersSettingsAndStats) {
         EXPECT_EQ(layer.image.width(), 24);
         EXPECT_EQ(layer.image.height(), 16);
     }
-    for (const char* name : {"", "l1", "none", "primal", "dx", "dy", "direct"})
+    for (const char* name : {"", "l1", "none", "primal", "dx", "dy", "direct", "reused", "failed", "survival"})
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 
     const auto settings = nlohmann::json::parse(file.attributes.at("tessera:settings"));
@@ -145,6 +146,24 @@ TEST_F(CommandLine, RendersLayersSettingsAndStats) {
     for (const char* phase : {"load", "bvh", "render"})
         for (const char* clock : {"wall", "cpu"})
             EXPECT_TRUE(stats["seconds"][phase][clock].is_number()) << phase << ' ' << clock;
+}
+
+TEST_F(CommandLine, BuffersTellHowShiftsEnded) {
+    ASSERT_EQ(run(folder_, "render box.xml -m pr --size 24x16 --spp 4 --buffers -o out.exr").exit_code, 0);
+    const ExrFile file = read_exr(folder_ / "out.exr");
+    const auto value = [&](const std::string& layer, std::size_t i) {
+        const RgbImage* image = find_layer(file, layer);
+        return image ? image->data()[i].r : std::numeric_limits<float>::quiet_NaN();
+    };
+    for (std::size_t i = 0; i < 24 * 16; ++i) {
+        float failed = 0;
+        for (const char* outcome : {"occluded", "kind_mismatch", "total_reflection", "outside", "no_light"})
+            failed += value(std::string("shifts_") + outcome, i);
+        EXPECT_NEAR(failed, value("failed", i), 1e-6f);
+        EXPECT_NEAR(failed + value("shifts_ok", i), 1, 1e-6f);
+    }
+    ASSERT_EQ(run(folder_, "render box.xml -m pt --size 24x16 --spp 1 --buffers -o pt.exr").exit_code, 0);
+    EXPECT_EQ(find_layer(read_exr(folder_ / "pt.exr"), "shifts_ok"), nullptr);
 }
 
 TEST_F(CommandLine, ThreadsDoNotChangeTheFile) {

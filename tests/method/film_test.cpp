@@ -27,7 +27,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
             for (int channel = 0; channel < 3; ++channel) {
                 Film film(3, 2, {.gradients = true, .reuse = true, .base_luminance = true});
                 Counters counters;
-                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), {1, 1, 1, 1}, 1};
+                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
                 (sample.*part)[channel] = bad;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
@@ -35,7 +35,9 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 const GradientImages images = film.means(1);
                 for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
                     EXPECT_TRUE(is_black_everywhere(*image));
-                EXPECT_EQ(film.reuse_maps(1).reused(1, 0), 0);
+                const ReuseMaps maps = film.reuse_maps(1);
+                for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
+                    EXPECT_EQ(map(1, 0), 0);
                 EXPECT_EQ(film.base_luminance()(1, 0), 0);
             }
 }

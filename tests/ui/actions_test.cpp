@@ -147,9 +147,9 @@ TEST(Actions, SlowMotionAndInspectorTakeTurns) {
 }
 
 TEST(Actions, BuffersInAllPanes) {
-    const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal}, {Key::digit3, Buffer::dx},
-                                           {Key::digit4, Buffer::dy},     {Key::digit5, Buffer::reused},
-                                           {Key::digit6, Buffer::failed}, {Key::digit1, Buffer::reconstruction}};
+    const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal},   {Key::digit3, Buffer::dx},
+                                           {Key::digit4, Buffer::dy},       {Key::digit5, Buffer::reused},
+                                           {Key::digit6, Buffer::outcomes}, {Key::digit1, Buffer::reconstruction}};
     ViewerState state = two_panes();
     for (const auto& [k, buffer] : keys) {
         type(state, key(k));

@@ -1,5 +1,6 @@
 #include "recon/metrics.h"
 #include "ui/buffer.h"
+#include "ui/shift_outcomes.h"
 
 #include <set>
 
@@ -19,8 +20,8 @@ Snapshot snapshot_of(Method method) {
     Snapshot snapshot;
     snapshot.settings.method = method;
     snapshot.images = images;
-    if (method != Method::pt)
-        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, 17.0f}, {4, 3, 0.25f}, {4, 3, 0.75f}});
+    if (method != Method::pt) // of two passes
+        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}}, 2});
     return snapshot;
 }
 
@@ -62,16 +63,40 @@ TEST(Buffer, MethodsWithoutGradientsHaveNone) {
 
 TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     const Snapshot snapshot = snapshot_of(Method::pr);
-    EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 17);
-    EXPECT_FLOAT_EQ(first(snapshot, Buffer::failed), 0.25f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 7.5f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::outcomes), 0.25f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::survival), 0.75f);
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
-    EXPECT_EQ(picture_source(snapshot, Buffer::failed), snapshot.reuse);
-    for (Buffer map : {Buffer::reused, Buffer::failed, Buffer::survival}) {
+    EXPECT_EQ(picture_source(snapshot, Buffer::outcomes), snapshot.reuse);
+    for (Buffer map : {Buffer::reused, Buffer::outcomes, Buffer::survival}) {
         EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
         EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
-        EXPECT_EQ(colour_map(map), ColourMap::false_colour);
+        EXPECT_TRUE(has_one_number(colour_map(map)));
     }
+}
+
+/// The numbers are shares, and the colours the mean of those that stand for the outcomes everywhere.
+TEST(Buffer, OutcomesHaveColoursOfTheirOwn) {
+    const Snapshot snapshot = snapshot_of(Method::pr);
+    const auto colour = [](ShiftOutcome outcome) {
+        const ImU32 c = outcome_colour(outcome);
+        return Rgb(c & 255, c >> 8 & 255, c >> 16 & 255) / 255.0f;
+    };
+    const Rgb mean = 0.75f * colour(ShiftOutcome::ok) + 0.15f * colour(ShiftOutcome::occluded) +
+                     0.1f * colour(ShiftOutcome::outside);
+    const Rgb seen = own_colours(snapshot, Buffer::outcomes)(3, 2);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], mean[c], 1e-5f);
+    EXPECT_TRUE(own_colours(snapshot, Buffer::survival).empty());
+    EXPECT_TRUE(own_colours(snapshot_of(Method::pt), Buffer::outcomes).empty());
+    EXPECT_EQ(outcome_colours({{1, 1}, 5})(0, 0), Rgb(0));
+}
+
+TEST(Buffer, SharesOfOutcomesInWords) {
+    EXPECT_EQ(outcome_shares({{714, 202, 0, 0, 3, 81}, 0, 0}),
+              "ok 71 %, occluded 20 %, no light 8.1 %, outside 0.3 %");
+    EXPECT_EQ(outcome_shares({{0, 0, 0, 7, 0, 0}, 0, 0}), "total reflection 100 %");
+    EXPECT_EQ(outcome_shares({}), "no shifts");
 }
 
 TEST(Buffer, ErrorsOfEachKind) {
@@ -147,14 +172,14 @@ TEST(Buffer, TopValuesReadWell) {
     EXPECT_FLOAT_EQ(top(101), 120);
     EXPECT_FLOAT_EQ(top(0), 1);
     EXPECT_FLOAT_EQ(top_value(Buffer::reused, RgbImage()), 1);
-    EXPECT_FLOAT_EQ(top_value(Buffer::failed, RgbImage(2, 2, Rgb(0.3f))), 1);
+    EXPECT_FLOAT_EQ(top_value(Buffer::outcomes, RgbImage(2, 2, Rgb(0.3f))), 1);
     EXPECT_FLOAT_EQ(top_value(Buffer::survival, RgbImage(2, 2, Rgb(0.3f))), 1);
 }
 
 TEST(Buffer, LegendSaysWhatTheColoursStandFor) {
     EXPECT_EQ(legend_text(Buffer::reused, {0, 50}), "reused: 0 .. 50 paths a pass");
     EXPECT_EQ(legend_text(Buffer::reused, {0, 0.12f}), "reused: 0 .. 0.12 paths a pass");
-    EXPECT_EQ(legend_text(Buffer::failed, {0, 1}), "failed: 0 .. 100 %");
+    EXPECT_EQ(legend_text(Buffer::survival, {0, 1}), "survival: 0 .. 100 %");
 }
 
 TEST(Buffer, EveryOneHasNamesOfItsOwn) {

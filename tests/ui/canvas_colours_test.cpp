@@ -88,6 +88,21 @@ TEST_F(CanvasTest, ToneCurves) {
     EXPECT_LT(pixel(1, 1)[1], 255); // above 1 there is still something to see
 }
 
+TEST_F(CanvasTest, ColoursOfTheImagesOwnStayAsTheyAre) {
+    RgbImage image(2, 1, Rgb(0.25f, 0.5f, 1));
+    image(1, 0) = Rgb(2, nan, 0);
+    image_.show(image);
+    CanvasView view = filling({6, 3});
+    view.colour_map = ColourMap::own;
+    view.mark_negative = true;
+    for (float stops : {0.0f, 3.0f}) { // neither exposure nor tone is for display colours
+        view.tone = {Tone::Curve::filmic, stops, 2.2f};
+        canvas_.draw(shader_, image_, view);
+        expect_colour(1, 1, {64, 128, 255});
+        expect_colour(4, 1, magenta);
+    }
+}
+
 TEST_F(CanvasTest, LogarithmicFalseColours) {
     RgbImage image(4, 1, Rgb(0));
     image(1, 0) = Rgb(1e-4f);

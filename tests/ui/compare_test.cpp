@@ -44,7 +44,7 @@ TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
 TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
     choose("pane0.method", "pr");
     choose("pane0.buffer", "reused");
-    choose("pane1.buffer", "failed");
+    choose("pane1.buffer", "survival");
     wait_for_settled();
     click("pane0.picture");
     type(Key::v);
@@ -57,13 +57,13 @@ TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
     const ControlRect legend = place("pane0.right_legend");
     drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0});
     EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
-    EXPECT_EQ(state().ranges.count(Buffer::failed), 1u);
+    EXPECT_EQ(state().ranges.count(Buffer::survival), 1u);
     state().wipe = 0;
     frames(2);
     EXPECT_FALSE(has("pane0.legend")); // nothing of that side is seen
     EXPECT_TRUE(has("pane0.right_legend"));
     state().wipe = 0.5f;
-    choose("pane0.buffer", "failed");
+    choose("pane0.buffer", "survival");
     EXPECT_TRUE(has("pane0.legend"));
     EXPECT_FALSE(has("pane0.right_legend")); // one serves both
 }

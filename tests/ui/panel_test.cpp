@@ -29,7 +29,7 @@ TEST_F(PanelTest, MethodOfEachPane) {
 
 TEST_F(PanelTest, BufferOfEachPane) {
     for (Buffer buffer :
-         {Buffer::dy, Buffer::primal, Buffer::reused, Buffer::dx, Buffer::failed, Buffer::reconstruction}) {
+         {Buffer::dy, Buffer::primal, Buffer::reused, Buffer::dx, Buffer::outcomes, Buffer::reconstruction}) {
         choose("pane1.buffer", std::string(short_name(buffer)));
         EXPECT_EQ(pane(1).settings.buffer, buffer);
         EXPECT_EQ(pane(0).settings.buffer, Buffer::reconstruction);

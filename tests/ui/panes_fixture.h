@@ -19,6 +19,13 @@ struct Panes : testing::Test, ViewerHarness {
         const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
         return glm::floor(rect.min + (rect.max - rect.min) * glm::vec2(x, y)) + 0.5f;
     }
+    /// The middle of a pixel of a pane's image.
+    glm::vec2 middle_of(int index, int x, int y) {
+        const glm::ivec2 size = state().request_size();
+        const Placement placement = state().view.place(size, pane(index).canvas_size);
+        return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
+               (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
+    }
     /// Mean distance of the colours in a column of one pane to those in another's.
     float distance(int a, int b, float x, const ScreenPixels& pixels) const {
         float sum = 0;

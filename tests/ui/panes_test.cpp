@@ -190,7 +190,7 @@ TEST_F(Panes, AnyTwoPanesCanBeCompared) {
 
 TEST_F(Panes, ComparedBuffersMayDiffer) {
     click("pane0.picture");
-    choose("pane1.buffer", "failed");
+    choose("pane1.buffer", "outcomes");
     type(Key::v);
     EXPECT_LT(distance(0, 1, 0.7f, screen()), 1);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));

@@ -1,6 +1,6 @@
 // Looking at single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
 
-#include "tests/ui/viewer_harness.h"
+#include "tests/ui/panes_fixture.h"
 #include "ui/pane_status.h"
 #include "ui/pixel_numbers.h"
 
@@ -9,25 +9,12 @@
 #include <limits>
 
 #include <glm/vector_relational.hpp>
-#include <gtest/gtest.h>
 
 namespace tessera::test {
 namespace {
 
-struct Pixels : testing::Test, ViewerHarness {
-    Pixels() { rest(3); }
-
+struct Pixels : Panes {
     const PaneImages& images() { return viewer.pane_images(); }
-    glm::vec2 middle_of(int index, int x, int y) {
-        const glm::ivec2 size = state().request_size();
-        const Placement placement = state().view.place(size, pane(index).canvas_size);
-        return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
-               (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
-    }
-    glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
-        const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
-        return {p[0], p[1], p[2]};
-    }
 };
 
 TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
@@ -45,7 +32,7 @@ TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
         }
     }
     save("cursor-values.png");
-    choose("pane1.buffer", "failed");
+    choose("pane1.buffer", "survival");
     move_to(middle_of(0, 20, 20));
     EXPECT_NE(cursor_text(state(), images(), 1).find(" %"), std::string::npos);
     move_to({5, 5}); // over the menu

@@ -1,0 +1,151 @@
+// The maps of reuse: which share of a pixel's base paths with light the roulette left, and how shifts to it ended.
+#include "render/session/render.h"
+#include "tests/support/rooms.h"
+
+#include <array>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(20, 15);
+
+RenderSettings settings_of(Method method, RouletteKind roulette) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.roulette = roulette;
+    settings.tile = 5;
+    settings.max_depth = 4;
+    return settings;
+}
+
+struct Outcome {
+    ReuseMaps maps;
+    Counters counters;
+};
+
+Outcome render(const RenderSettings& settings, int passes,
+               const std::shared_ptr<const Scene>& scene = Room().build()) {
+    ThreadPool pool(1);
+    Render render(scene, scene->camera(), size, settings);
+    for (int pass = 0; pass < passes; ++pass)
+        render.pass(pool);
+    return {render.reuse_maps(), render.counters()};
+}
+
+double sum(const Image<float>& image) {
+    return std::accumulate(image.begin(), image.end(), 0.0);
+}
+
+TEST(Survival, IsWholeWithoutRoulette) {
+    for (const Method method : {Method::pr, Method::gpr, Method::gpt}) {
+        const Outcome o = render(settings_of(method, RouletteKind::none), 3);
+        EXPECT_EQ(o.counters.skipped_paths, 0u);
+        for (const float s : o.maps.survival())
+            EXPECT_TRUE(s == 1 || s == 0); // 0: it is never lit
+        EXPECT_GT(sum(o.maps.survival()), 0.9 * size.x * size.y);
+    }
+}
+
+TEST(Survival, GptHasNoRouletteWhateverIsSet) {
+    const Outcome o = render(settings_of(Method::gpt, RouletteKind::absolute), 2);
+    for (const float s : o.maps.survival())
+        EXPECT_TRUE(s == 1 || s == 0);
+}
+
+/// In one pass of PR every base path is in one set: shares are 0 or 1, and their sum is what was counted.
+TEST(Survival, AddsUpToTheCounters) {
+    RenderSettings settings = settings_of(Method::pr, RouletteKind::absolute);
+    settings.rr_delta = 1;
+    for (const Pattern pattern : {Pattern::tile, Pattern::rooks}) {
+        settings.pattern = pattern;
+        const Outcome o = render(settings, 1);
+        EXPECT_GT(o.counters.skipped_paths, 0u);
+        EXPECT_GT(o.counters.reused_paths, 0u);
+        EXPECT_EQ(sum(o.maps.survival()), static_cast<double>(o.counters.reused_paths));
+    }
+}
+
+/// Over many passes, of pixels alike, the share is that of the counters; of the border's paths each pixel counts
+/// those of its own tile alone.
+TEST(Survival, IsTheShareOfThePathsWithLight) {
+    for (const Method method : {Method::pr, Method::gpr}) {
+        RenderSettings settings = settings_of(method, RouletteKind::absolute);
+        settings.rr_delta = 1;
+        const Outcome o = render(settings, 64);
+        const double lit = static_cast<double>(o.counters.reused_paths + o.counters.skipped_paths);
+        const double expected = static_cast<double>(o.counters.reused_paths) / lit;
+        EXPECT_LT(expected, 0.95);
+        EXPECT_NEAR(sum(o.maps.survival()) / (size.x * size.y), expected, 0.05);
+        for (const float s : o.maps.survival()) {
+            EXPECT_GE(s, 0);
+            EXPECT_LE(s, 1);
+        }
+    }
+}
+
+/// Shifts fail here in all ways: behind slats, at glass and mirrors next to what is rough, and into the dark.
+std::shared_ptr<const Scene> full_of_obstacles() {
+    OpenRoom r;
+    r.sky();
+    r.sphere({-0.5f, -0.5f, 0.2f}, 0.3f, r.glass());
+    r.quad({-0.9f, -0.99f, 0.9f}, {1.8f, 0, 0}, {0, 0, -0.5f}, r.mirror());
+    for (int i = 0; i < 5; ++i)
+        r.quad({-0.9f, -0.8f + 0.25f * static_cast<float>(i), 0.6f}, {0.8f, 0, 0}, {0, 0.06f, 0.03f}, r.w);
+    return r.build();
+}
+
+using Sums = std::array<std::uint64_t, shift_outcome_count>;
+
+Sums sums_of(const ReuseMaps& maps) {
+    Sums sums{};
+    for (const ReuseCounts& counts : maps.counts)
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += counts.shifts[i];
+    return sums;
+}
+
+/// PR keeps all shifts that it tries: outcome by outcome the pixels' sums are the render's totals.
+TEST(ShiftOutcomes, AddUpToTheCounters) {
+    for (const Pattern pattern : {Pattern::tile, Pattern::rooks})
+        for (const ShiftKind shift : {ShiftKind::half_vector, ShiftKind::replay}) {
+            RenderSettings settings = settings_of(Method::pr, RouletteKind::relative);
+            settings.pattern = pattern;
+            settings.shift = shift;
+            const Outcome o = render(settings, 4, full_of_obstacles());
+            EXPECT_EQ(o.maps.passes, 4);
+            EXPECT_EQ(sums_of(o.maps), o.counters.shifts);
+        }
+}
+
+TEST(ShiftOutcomes, AreAllSeen) {
+    const Outcome o = render(settings_of(Method::pr, RouletteKind::none), 16, full_of_obstacles());
+    const Sums sums = sums_of(o.maps);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        EXPECT_GT(sums[i], 0u) << to_string(static_cast<ShiftOutcome>(i));
+}
+
+/// Shifts to the border are nobody's in G-PR, and of the two that measure a gradient of G-PT one is the pixel's.
+TEST(ShiftOutcomes, OfGradientMethodsArePartOfTheCounters) {
+    for (const Method method : {Method::gpr, Method::gpt}) {
+        const Outcome o = render(settings_of(method, RouletteKind::none), 2, full_of_obstacles());
+        const Sums sums = sums_of(o.maps);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            EXPECT_LE(sums[i], o.counters.shifts[i]);
+        const double share = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0})) /
+                             static_cast<double>(o.counters.shift_attempts());
+        EXPECT_GT(share, 0.4);
+        EXPECT_LT(share, 0.9);
+    }
+}
+
+TEST(ShiftOutcomes, ThereAreNoneOfPathTracing) {
+    EXPECT_TRUE(render(settings_of(Method::pt, RouletteKind::none), 1).maps.empty());
+}
+
+} // namespace
+
+} // namespace tessera::test
