@@ -5,6 +5,7 @@
 #include "app/load_notes.h"
 #include "app/machine.h"
 #include "app/output_file.h"
+#include "app/refused_samples.h"
 #include "app/stats.h"
 #include "render/load/exr.h"
 #include "render/method/settings_table.h"
@@ -138,8 +139,7 @@ std::vector<Experiment::SharedRun> Experiment::unfinished_runs(const MeasuredSce
 
 /// Pictures first: what the journal knows is complete.
 void Experiment::finish(const MeasuredScene& scene, const SharedRun& shared, std::uint64_t seed) {
-    if (const std::string warning = refused_text(shared.run->render().counters(), seed); !warning.empty())
-        fmt::print(stderr, "warning: {}\n", warning);
+    warn_of_refused(scene.source(), shared.run->render());
     for (std::size_t i = 0; i < shared.points.size(); ++i) {
         const Point& point = points_[shared.points[i]];
         if (keeps_image(seed))

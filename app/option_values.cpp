@@ -55,4 +55,12 @@ std::vector<Method> parse_methods(const std::string& text) {
     return parse_list("-m", text, "pt, pr, gpt, gpr", method_from_name);
 }
 
+SampleChoice parse_sample(const std::string& option, const std::string& text) {
+    int x = 0, y = 0, pass = 0, used = 0;
+    if (std::sscanf(text.c_str(), "%d,%d,%d%n", &x, &y, &pass, &used) != 3 ||
+        used != static_cast<int>(text.size()) || x < 0 || y < 0 || pass < 0)
+        throw BadInput(fmt::format("{} {}: must be X,Y,PASS, such as 120,45,0", option, text));
+    return {0, {x, y}, pass};
+}
+
 } // namespace tessera

@@ -3,6 +3,7 @@
 #include "recon/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/method/settings.h"
+#include "ui/inspector.h"
 
 #include <string>
 #include <vector>
@@ -22,5 +23,8 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions);
 std::vector<Norm> parse_norms(const std::string& text);
 /// "gpr,pt", as given to -m.
 std::vector<Method> parse_methods(const std::string& text);
+
+/// "X,Y,PASS", as given to `option`: a sample of whatever pane.
+SampleChoice parse_sample(const std::string& option, const std::string& text);
 
 } // namespace tessera

@@ -17,6 +17,7 @@
 #include "app/view.h"
 #include "ui/script.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ namespace {
 
 /// The words of the command line, before they are given a meaning.
 struct Words {
-    std::string scene, camera, size, window, method = "gpr", norms, clock = "wall";
+    std::string scene, camera, size, window, method = "gpr", norms, clock = "wall", sample;
     std::vector<std::string> definitions;
     int spp = 0;
     double time = 0;
@@ -116,9 +117,18 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     add_scene(command, words, false);
     add_settings(command, words);
     command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
-    command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
-        ->check(CLI::IsMember({1, 2, 4}))
-        ->capture_default_str();
+    CLI::Option* panes = command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
+                             ->check(CLI::IsMember({1, 2, 4}))
+                             ->capture_default_str();
+    command
+        .add_option("-m,--method,--methods", words.method,
+                    "pt, pr, gpt, gpr or up to four: gpr,pr; one pane each, instead of --panes")
+        ->excludes(panes);
+    command.add_option(
+        "--inspect", words.sample,
+        "X,Y,PASS: opens this sample in the path inspector, pixel and pass from 0, of the last pane. It is "
+        "that of a render with the same scene, -D, --camera, --size, method, settings and --seed, and only "
+        "of such a one; what is not given is as in `tessera render`: one pane, G-PR, the scene's size");
     command.add_option("--reference", options.reference, "EXR file to show errors against");
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
@@ -129,6 +139,38 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
+}
+
+std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) {
+    const bool as_render = command.count("--inspect") > 0 && command.count("--panes") == 0;
+    std::vector<PaneSettings> panes = default_panes(as_render ? 1 : words.panes);
+    if (command.count("--method")) {
+        const std::vector<Method> methods = parse_methods(words.method);
+        if (methods.size() > most_panes)
+            throw BadInput(fmt::format("-m {}: there are up to {} panes", words.method, most_panes));
+        panes.resize(methods.size());
+        for (std::size_t i = 0; i < methods.size(); ++i)
+            panes[i].render.method = methods[i];
+    }
+    for (PaneSettings& pane : panes) {
+        const Method method = pane.render.method;
+        pane.render = words.settings;
+        pane.render.method = method;
+        pane.reconstruction.alpha = words.alpha;
+    }
+    return panes;
+}
+
+/// A sample is one of a picture of a certain size, whatever the window's.
+SizeChoice size_of(const Words& words) {
+    const bool has_sample = !words.sample.empty();
+    if (words.size.empty())
+        return {has_sample ? SizeChoice::Base::scene : SizeChoice::Base::pane};
+    const glm::ivec2 size = parse_size("--size", words.size);
+    if (has_sample && std::max(size.x, size.y) > most_render_pixels_an_edge)
+        throw BadInput(fmt::format("--size {}: with --inspect, width and height must be from 1 to {}", words.size,
+                                   most_render_pixels_an_edge));
+    return {SizeChoice::Base::custom, 1, size};
 }
 
 int view(const CLI::App& command, const Words& words, ViewOptions options) {
@@ -142,18 +184,14 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
                          threads);
     };
-    options.panes = default_panes(words.panes);
-    options.panes_as_remembered = command.count("--panes") == 0;
-    for (PaneSettings& pane : options.panes) {
-        const Method method = pane.render.method;
-        pane.render = words.settings;
-        pane.render.method = method;
-        pane.reconstruction.alpha = words.alpha;
-    }
+    options.panes = panes_of(command, words);
+    options.panes_as_remembered =
+        command.count("--panes") + command.count("--method") + command.count("--inspect") == 0;
     if (command.count("--max-depth"))
         options.max_depth = words.settings.max_depth;
-    if (!words.size.empty())
-        options.render_size = {SizeChoice::Base::custom, 1, parse_size("--size", words.size)};
+    options.render_size = size_of(words);
+    if (!words.sample.empty())
+        options.sample = parse_sample("--inspect", words.sample);
     if (!words.window.empty())
         options.window_size = parse_size("--window", words.window);
     options.threads = threads;

@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/refused_samples.h"
 
 #include <fmt/core.h>
 
@@ -26,8 +27,8 @@ std::optional<ReferenceImage> render_reference(const std::filesystem::path& outp
             return {};
         tell(render);
     }
-    for (const std::string& warning : render.warnings())
-        fmt::print(stderr, "warning: {}\n", warning);
+    for (const Render& half : render.halves())
+        warn_of_refused(source, half);
     return render.finish();
 }
 

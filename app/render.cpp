@@ -6,6 +6,7 @@
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/reconstruction_layers.h"
+#include "app/refused_samples.h"
 #include "app/stats.h"
 #include "render/load/json_text.h"
 #include "render/method/settings_table.h"
@@ -74,8 +75,7 @@ int run_render(const RenderOptions& options) {
     const Plan plan = make_plan(options, *opened.scene);
     Render render(opened.scene, opened.scene->camera(), plan.size, plan.settings);
     render_passes(options, plan, render, pool);
-    if (const std::string warning = refused_text(render.counters(), plan.settings.seed); !warning.empty())
-        fmt::print(stderr, "warning: {}\n", warning);
+    warn_of_refused(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
     const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
@@ -86,9 +86,11 @@ int run_render(const RenderOptions& options) {
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);
-    if (!options.stats.empty())
-        write_text(options.stats,
-                   to_text(stats_json(settings, opened, render, pool.size(), recon, interrupted()), 2) + "\n");
+    if (!options.stats.empty()) {
+        nlohmann::json stats = stats_json(settings, opened, render, pool.size(), recon, interrupted());
+        stats["first_refused"] = refused_json(options.scene, render);
+        write_text(options.stats, to_text(stats, 2) + "\n");
+    }
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
     return exit_ok;

@@ -53,6 +53,20 @@ void add_setting_options(CLI::App& command, RenderSettings& settings) {
         add_setting(command, setting, settings);
 }
 
+std::string option_words(const RenderSettings& from, const RenderSettings& to) {
+    std::string words;
+    for (const Setting& setting : all_settings()) {
+        const std::string name = option_name(setting), value = setting.text(to);
+        if (value == setting.text(from))
+            continue;
+        if (std::holds_alternative<Setting::Switch>(setting.kind))
+            words += (value == "on" ? " " : " --no-") + name.substr(value == "on" ? 0 : 2);
+        else
+            words += " " + name + " " + value;
+    }
+    return words;
+}
+
 void add_picture_options(CLI::App& command, PictureWords words) {
     command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
     add_setting_options(command, words.settings);

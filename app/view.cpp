@@ -77,7 +77,7 @@ private:
             if (message.kind == Message::Kind::error)
                 return fail(message.text);
         }
-        if (!viewer_.settled(viewer_.state().pace.spp_limit))
+        if (!viewer_.settled(viewer_.state().pace.spp_limit) || viewer_.inspecting())
             return true;
         try {
             const ScreenPixels screen = read_screen(surface_.pixels());
@@ -139,6 +139,7 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.size = options.render_size;
     result.threads = options.threads;
     result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
+    result.sample = options.sample;
     result.show_panel = options.show_panel;
     result.panes_as_remembered = options.panes_as_remembered;
     if (options.log_actions)

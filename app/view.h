@@ -31,6 +31,7 @@ struct ViewOptions {
     std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810
     float ui_scale = 0;                    ///< of text and controls; 0: as the display says
     int spp = 0;                           ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
+    std::optional<SampleChoice> sample;    ///< to begin with in the path inspector, of the last pane
     bool show_panel = true;
     std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
     std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end

@@ -51,13 +51,13 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
 }
 
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
+    if (!base_luminance_.empty()) // its base path's alone, and finite, whatever the others brought
+        base_luminance_(x, y) = sample.base_luminance;
     if (!is_finite(sample.primal) || !is_finite(sample.dx) || !is_finite(sample.dy) ||
         !is_finite(sample.very_direct)) {
         counters.refuse({pass, y, x});
         return;
     }
-    if (!base_luminance_.empty())
-        base_luminance_(x, y) = sample.base_luminance;
     if (!reuse_.empty())
         reuse_(x, y) += sample.reuse;
     primal_(x, y) += sample.primal;

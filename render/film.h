@@ -49,7 +49,8 @@ public:
     int width() const { return primal_.width(); }
     int height() const { return primal_.height(); }
 
-    /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted.
+    /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted: nothing of it
+    /// is kept but its base luminance.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
     /// Remembers the edges of lamps, if it keeps them: both sides of every step between pixels side by side of

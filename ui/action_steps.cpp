@@ -59,6 +59,16 @@ void toggle_inspector(ViewerState& state) {
     state.set_inspector(!state.inspector.active);
 }
 
+void open_sample_form(ViewerState& state) {
+    SampleForm& form = state.sample_form;
+    if (const auto& inspection = state.inspector.inspection) {
+        form.pixel = inspection->pixel;
+        form.pass = inspection->pass;
+    }
+    form.seed = state.active().settings.render.seed;
+    form.show = true;
+}
+
 void toggle_slow_motion(ViewerState& state) {
     state.set_slow_motion(!state.slow_motion.active);
 }

@@ -20,6 +20,7 @@ void next_tone(ViewerState& state);
 void next_tile(ViewerState& state);     ///< of the slow motion
 void toggle_charts(ViewerState& state); ///< hidden, they are not drawn large either
 void toggle_inspector(ViewerState& state);
+void open_sample_form(ViewerState& state); ///< with the sample that is looked at
 void toggle_slow_motion(ViewerState& state);
 void toggle_comparison(ViewerState& state, Comparison::Kind kind);
 

@@ -137,6 +137,9 @@ constexpr Action table[] = {
      "The left button chooses a pixel: its base path and the shifts of its tile are drawn over the picture, and "
      "listed.",
      key(Key::i), no_shortcut, toggle_inspector, [](const State& s) { return s.inspector.active; }},
+    {"View", "Inspect a sample ...",
+     "Opens a sample of the active pane in the path inspector, by pixel, pass and seed, as a message gives it.",
+     ctrl(Key::i), no_shortcut, open_sample_form, nullptr},
     {"View", "Slow motion",
      "Draws one tile of the active pane's newest pass, its base paths one after the other, with the pixels that "
      "each "

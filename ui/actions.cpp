@@ -47,7 +47,8 @@ bool counts_in_text(const Shortcut& typed) {
 
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
-                     state.show_help || state.large_charts || state.reference_making.show || state.choosing;
+                     state.show_help || state.large_charts || state.reference_making.show ||
+                     state.sample_form.show || state.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
     state.cancel_load = state.cancel_load || (!any && loads);
@@ -55,7 +56,7 @@ void close_overlays(bool entering_text, ViewerState& state) {
     state.give_up_reconstructions = state.give_up_reconstructions || (!any && !loads && !state.reference_read);
     state.show_help = false;
     state.large_charts = false;
-    state.reference_making.show = false;
+    state.reference_making.show = state.sample_form.show = false;
     state.choosing.reset();
 }
 

@@ -63,8 +63,13 @@ Values describe(const ViewerState& state) {
     if (const auto& sample = state.inspector.sample) {
         const PaneState* pane = state.pane_in(sample->slot);
         values["inspected"] = "pane " + (pane ? std::to_string(pane - state.panes.data()) : "none") + " pixel " +
-                              std::to_string(sample->pixel.x) + " " + std::to_string(sample->pixel.y);
+                              std::to_string(sample->pixel.x) + " " + std::to_string(sample->pixel.y) +
+                              (sample->pass ? " pass " + std::to_string(*sample->pass) : "");
     }
+    if (const auto& found = state.inspector.inspection)
+        values["inspection"] = std::string(short_name(found->method)) + " pixel " +
+                               std::to_string(found->pixel.x) + " " + std::to_string(found->pixel.y) + " pass " +
+                               std::to_string(found->pass) + (found->is_refused ? " refused" : "");
     values["slow motion"] = text(state.slow_motion.active);
     if (state.slow_motion.active && state.slow_motion.tile)
         values["slow motion at"] = "tile " + std::to_string(state.slow_motion.tile->tile.x0) + " " +

@@ -177,6 +177,18 @@ bool Controls::number(const char* id, const char* label_text, double& value, dou
     return taken;
 }
 
+bool Controls::number(const char* id, const char* label_text, std::uint64_t& value, const char* help) {
+    label(label_text);
+    std::uint64_t draft = draft_of(id, value);
+    const std::uint64_t step = 1, large_step = 16;
+    const bool changed =
+        ImGui::InputScalar(hidden_label(id).c_str(), ImGuiDataType_U64, &draft, &step, &large_step);
+    const bool stepped = changed && !ImGui::GetIO().WantTextInput;
+    const bool taken = take_draft(id, draft, stepped, value);
+    note(id, help);
+    return taken;
+}
+
 bool Controls::text(const char* id, const char* label_text, std::string& value, const char* hint,
                     const char* help) {
     label(label_text);

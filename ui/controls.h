@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
@@ -48,6 +49,7 @@ public:
     /// What is typed is taken with Enter, and when the control is left.
     bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
     bool number(const char* id, const char* label, double& value, double least, double most, const char* help);
+    bool number(const char* id, const char* label, std::uint64_t& value, const char* help);
     /// Taken likewise; empty text shows `hint`.
     bool text(const char* id, const char* label, std::string& value, const char* hint, const char* help);
     bool toggle(const char* id, const char* label, bool& value, const char* help);
@@ -88,7 +90,7 @@ private:
 
     // What is being typed: the value itself changes when that is taken.
     std::string draft_id_;
-    std::variant<int, double, std::string> draft_;
+    std::variant<int, double, std::uint64_t, std::string> draft_;
 };
 
 /// A heading in a panel, with a line.

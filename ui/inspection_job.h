@@ -13,10 +13,17 @@ public:
     /// To be called every frame. `wake` is called from another thread when there is something new.
     void update(ViewerState& state, const std::function<void()>& wake);
 
+    /// Whether what is to be shown is still being found out.
+    bool running() const { return job_.running(); }
+
 private:
     struct Asked {
-        std::uint64_t generation = 0;
-        SampleChoice sample; ///< with its pass
+        std::uint64_t generation = 0; ///< of its request
+        SampleChoice sample;          ///< as it was chosen
+        int pass = 0;
+        bool is_of(const PassOrigin& origin, const SampleChoice& choice) const {
+            return generation == origin.generation && sample == choice;
+        }
         bool operator==(const Asked&) const = default;
     };
     struct Found {
@@ -25,7 +32,11 @@ private:
     };
     void take(ViewerState& state);
     void drop_what_is_gone(ViewerState& state);
+    void give_up();
     std::shared_ptr<const PassOrigin> origin_of(const ViewerState& state, const SampleChoice& sample) const;
+    int pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const;
+    void start(const std::shared_ptr<const PassOrigin>& origin, const Asked& wanted,
+               const std::function<void()>& wake);
 
     BackgroundJob<Found> job_;
     Asked asked_; // last

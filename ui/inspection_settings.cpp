@@ -2,6 +2,8 @@
 
 #include "ui/path_overlay.h"
 
+#include <limits>
+
 namespace tessera {
 
 namespace {
@@ -11,8 +13,11 @@ using nlohmann::ordered_json;
 /// "sample", if it is a pixel of what a pane shows.
 void add_sample(ordered_json& json, const std::optional<SampleChoice>& sample, const ViewerState& state) {
     const PaneState* pane = sample ? state.pane_in(sample->slot) : nullptr;
-    if (pane && (!sample->origin || is_on_show(*sample->origin, state)))
-        json["sample"] = {{"pane", pane - state.panes.data() + 1}, {"x", sample->pixel.x}, {"y", sample->pixel.y}};
+    if (!pane || (sample->origin && !is_on_show(*sample->origin, state)))
+        return;
+    json["sample"] = {{"pane", pane - state.panes.data() + 1}, {"x", sample->pixel.x}, {"y", sample->pixel.y}};
+    if (sample->pass)
+        json["sample"]["pass"] = *sample->pass;
 }
 
 std::optional<SampleChoice> read_sample(const JsonFields& fields, const ViewerState& state) {
@@ -24,6 +29,8 @@ std::optional<SampleChoice> read_sample(const JsonFields& fields, const ViewerSt
     sample.read("pane", {1, static_cast<double>(state.panes.size())}, pane);
     sample.read("x", {0, most_render_pixels_an_edge - 1}, choice.pixel.x);
     sample.read("y", {0, most_render_pixels_an_edge - 1}, choice.pixel.y);
+    if (sample.has("pass"))
+        sample.read("pass", {0, std::numeric_limits<int>::max()}, choice.pass.emplace());
     choice.slot = state.panes[static_cast<std::size_t>(pane - 1)].slot;
     return choice;
 }

@@ -9,14 +9,14 @@
 
 namespace tessera {
 
-/// What a pass was made of: enough to take its samples again, whatever is on show by now.
+/// What a render is made of: enough to take its samples again, whatever is on show by now.
 struct PassOrigin {
     std::shared_ptr<const Scene> scene;
     Camera camera;
     glm::ivec2 size{0};
     RenderSettings settings;
-    std::shared_ptr<const ReusePlan> plan;
-    std::uint64_t generation = 0; ///< of the request
+    std::shared_ptr<const ReusePlan> plan{}; ///< of the pass; null: it is to be learnt again
+    std::uint64_t generation = 0;            ///< of the request; 0: no pane's
 };
 
 /// One sample of one pixel that is to be looked at.
@@ -38,7 +38,7 @@ struct Inspector {
     bool active = false; ///< the mouse chooses a pixel
     std::optional<SampleChoice> sample;
     Direction direction = Direction::to_pixel;
-    bool follows = false; ///< from pass to pass; otherwise the one that was the newest stays
+    bool follows = false; ///< from pass to pass, not a given one; otherwise the one that was the newest stays
     int marked = -1;      ///< the row of the table under the mouse; -1: none
     int chosen = -1;      ///< the row whose vertices are listed; -1: those of the base path are
 
@@ -52,8 +52,25 @@ struct Inspector {
     void choose(const SampleChoice& choice) {
         if (sample != choice)
             chosen = -1;
+        if (sample != choice && choice.pass)
+            inspection.reset(); // it may take a while
+        follows = follows && !choice.pass;
         sample = choice;
     }
+    /// Looks at the newest pass from now on, of what the pane of the sample shows; or no longer.
+    void follow(bool on) {
+        follows = on;
+        if (on && sample)
+            choose({sample->slot, sample->pixel, {}});
+    }
+};
+
+/// What the dialog for a sample asks for.
+struct SampleForm {
+    bool show = false;
+    glm::ivec2 pixel{0};
+    int pass = 0;
+    std::uint64_t seed = 0;
 };
 
 } // namespace tessera

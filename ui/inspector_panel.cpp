@@ -32,8 +32,15 @@ std::string headline(const Inspection& i) {
     return line + (i.is_refused ? "   REFUSED: not finite" : "");
 }
 
-/// `is_earlier`: of a request that no pane shows any more.
-void draw_top_row(Controls& controls, Inspector& inspector, bool is_earlier) {
+/// What there is to say while there is nothing to show.
+const char* waiting_text(const Inspector& inspector) {
+    return !inspector.sample        ? "click on a pixel"
+           : inspector.sample->pass ? "going through the passes before it ..."
+                                    : "waiting for the first whole pass";
+}
+
+/// `is_elsewhere`: of a request that no pane shows.
+void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
     static const std::vector<ChoiceItem> directions = {
         {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
         {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
@@ -46,19 +53,25 @@ void draw_top_row(Controls& controls, Inspector& inspector, bool is_earlier) {
         inspector.chosen = -1;
     }
     ImGui::SameLine();
-    ImGui::Checkbox("follow", &inspector.follows);
-    controls.note("inspector.follow",
-                  "Looks at the newest pass, again and again; else at the one that was the newest "
-                  "when the pixel was chosen.");
+    bool follows = inspector.follows;
+    if (ImGui::Checkbox("follow", &follows))
+        inspector.follow(follows);
+    controls.note(
+        "inspector.follow",
+        inspector.sample && inspector.sample->pass
+            ? "This sample is of a given pass, and stays. Following leaves it for the newest pass at its "
+              "pixel, of what the pane shows now."
+            : "Looks at the newest pass, again and again; else at the one that was the newest "
+              "when the pixel was chosen.");
     ImGui::SameLine();
     if (controls.button("inspector.close", "Close", "Ends the path inspector (I)."))
         inspector.active = false;
     ImGui::SameLine();
     if (inspector.inspection)
         ImGui::TextUnformatted(
-            ((is_earlier ? "of an earlier picture:   " : "") + headline(*inspector.inspection)).c_str());
+            ((is_elsewhere ? "of another picture:   " : "") + headline(*inspector.inspection)).c_str());
     else
-        ImGui::TextDisabled(inspector.sample ? "waiting for the first whole pass" : "click on a pixel");
+        ImGui::TextDisabled("%s", waiting_text(inspector));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "ui/words.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -62,6 +63,14 @@ glm::ivec2 size_of(const std::string& value) {
     return size;
 }
 
+std::uint64_t seed_of(const std::string& name, const std::string& value) {
+    std::uint64_t seed = 0;
+    const char* const end = value.data() + value.size();
+    if (const auto [rest, error] = std::from_chars(value.data(), end, seed); error != std::errc() || rest != end)
+        throw std::invalid_argument(name + " is a whole number from 0, not " + value);
+    return seed;
+}
+
 struct Named {
     const char* name;
     void (*set)(ViewerState&, const std::string& name, const std::string& value);
@@ -78,6 +87,11 @@ void flag(S& s, Text name, Text value) {
 
 constexpr Named table[] = {
     {"method", [](S& s, Text, Text v) { s.active().settings.render.method = method_named(v); }},
+    {"seed",
+     [](S& s, Text n, Text v) {
+         s.active().settings.render.seed = seed_of(n, v);
+         s.share_settings();
+     }},
     {"buffer", [](S& s, Text, Text v) { s.active().settings.buffer = buffer_named(v); }},
     {"comparison",
      [](S& s, Text n, Text v) {

@@ -119,11 +119,8 @@ void draw_message(const Message& message, int index, Controls& controls, ViewerS
     ImGui::SameLine();
     if (message.sample) {
         const std::string id = "inspect_message" + std::to_string(index);
-        if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector.")) {
-            state.set_inspector(true);
-            state.inspector.choose(*message.sample);
-            state.show_messages = false;
-        }
+        if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector."))
+            state.inspect(*message.sample);
         ImGui::SameLine();
     }
     ImGui::PushFont(mono_font());

@@ -42,6 +42,9 @@ void draw_large_charts(const ScreenRect& where, Controls& controls, const Viewer
 /// What a reference is to be made of, or how far its making is; over everything.
 void draw_reference_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
 
+/// Which sample the path inspector is to open; over everything.
+void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
+
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 

@@ -1,7 +1,7 @@
 #include "render/session/reference_render.h"
 #include "ui/buffer.h"
+#include "ui/dialog.h"
 #include "ui/panels.h"
-#include "ui/theme.h"
 #include "ui/words.h"
 
 #include <algorithm>
@@ -14,14 +14,6 @@
 namespace tessera {
 
 namespace {
-
-void dim(const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
 
 void draw_method(Controls& controls, ReferenceMaking& making) {
     static const std::array<ChoiceItem, 4> methods = {{
@@ -49,18 +41,18 @@ void draw_file(Controls& controls, ViewerState& state) {
 void draw_notes(Controls& controls, ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     const auto seconds = estimated_seconds(state);
-    dim(fmt::format("{} x {} pixels, depth {}, the camera of the panes. {}", size.x, size.y,
-                    state.active().settings.render.max_depth,
-                    seconds
-                        ? "About " + duration_text(*seconds) + " if nothing else is rendered: the panes go first."
-                        : "How long it takes is known once a pane has a picture."));
+    dim_text(fmt::format("{} x {} pixels, depth {}, the camera of the panes. {}", size.x, size.y,
+                         state.active().settings.render.max_depth,
+                         seconds ? "About " + duration_text(*seconds) +
+                                       " if nothing else is rendered: the panes go first."
+                                 : "How long it takes is known once a pane has a picture."));
     std::error_code ignored;
     const std::filesystem::path file = wanted_reference_file(state);
     if (std::filesystem::exists(file, ignored))
-        dim("There is such a file already: it will be replaced.");
+        dim_text("There is such a file already: it will be replaced.");
     if (!std::filesystem::exists(reference_checkpoint(file), ignored))
         return;
-    dim("It was begun before, and goes on from its checkpoint.");
+    dim_text("It was begun before, and goes on from its checkpoint.");
     controls.toggle("reference.anew", "Begin anew", state.reference_making.anew, "Forgets the checkpoint.");
 }
 
@@ -81,13 +73,13 @@ void draw_progress(Controls& controls, const ReferenceProgress& progress) {
     ImGui::PopStyleColor();
     controls.note("reference.progress", "Samples a pixel of both halves.");
     const bool known = std::isfinite(progress.seconds_left);
-    dim(progress.is_ending ? "Ending after this pass; the checkpoint is kept."
-        : known            ? "About " + duration_text(progress.seconds_left) + " left."
-                           : "Beginning ...");
-    dim(progress.error ? fmt::format("Its own relMSE so far: {:.3g} +- {:.2g}", progress.error->relative_mse,
-                                     progress.error->standard_error)
-                       : "Its own error is not known yet.");
-    dim(progress.file.string());
+    dim_text(progress.is_ending ? "Ending after this pass; the checkpoint is kept."
+             : known            ? "About " + duration_text(progress.seconds_left) + " left."
+                                : "Beginning ...");
+    dim_text(progress.error ? fmt::format("Its own relMSE so far: {:.3g} +- {:.2g}", progress.error->relative_mse,
+                                          progress.error->standard_error)
+                            : "Its own error is not known yet.");
+    dim_text(progress.file.string());
 }
 
 void draw_buttons(Controls& controls, ViewerState& state) {
@@ -110,25 +102,14 @@ void draw_buttons(Controls& controls, ViewerState& state) {
 } // namespace
 
 void draw_reference_dialog(glm::vec2 screen, Controls& controls, ViewerState& state) {
-    const float font = ImGui::GetFontSize();
-    const glm::vec2 size(std::min(screen.x, font * 30), 0); // as high as what is in it
-    ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.5f}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({size.x, size.y});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    if (ImGui::Begin("Make a reference", nullptr, overlay_flags & ~ImGuiWindowFlags_NoMove)) {
-        heading("Make a reference");
+    draw_dialog("Make a reference", screen, 30, [&] {
         if (const auto& progress = state.reference_making.progress)
             draw_progress(controls, *progress);
         else
             draw_form(controls, state);
         ImGui::Spacing();
         draw_buttons(controls, state);
-    }
-    ImGui::End();
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
+    });
 }
 
 } // namespace tessera

@@ -118,11 +118,13 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
                 std::filesystem::remove(reference_checkpoint(file));
             ThreadPool pool(threads);
             ReferenceRender render(file, subject, recipe, pool);
-            if (!render.run([&](const ReferenceRender& r) { return watch->look(r, stop); }))
-                return {std::nullopt, render.spp(), render.warnings()};
-            const int spp = render.spp();
-            std::vector<std::string> warnings = render.warnings();
-            return {error_of(render.finish()), spp, std::move(warnings)};
+            const bool is_complete = render.run([&](const ReferenceRender& r) { return watch->look(r, stop); });
+            Made made{{}, render.spp(), {}};
+            for (const Render& half : render.halves())
+                made.halves.push_back({half.settings(), half.counters()});
+            if (is_complete)
+                made.error = error_of(render.finish());
+            return made;
         },
         wake);
 }
@@ -134,8 +136,9 @@ void ReferenceJob::take(ViewerState& state, BackgroundJob<Made>::Outcome outcome
     if (!outcome.result)
         return state.add_message(Message::Kind::error, "The reference was not made: " + outcome.error);
     const Made& made = *outcome.result;
-    for (const std::string& warning : made.warnings)
-        state.add_message(Message::Kind::note, "The reference: " + warning);
+    for (const Counted& half : made.halves)
+        state.add_refused("The reference", half.counters, state.active().slot,
+                          {subject.scene, subject.camera, subject.size, half.settings});
     if (!made.error)
         return state.add_message(Message::Kind::note,
                                  fmt::format("The reference has {} spp; made again, it goes on from {}", made.spp,

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace tessera {
@@ -20,11 +19,16 @@ public:
     void update(ViewerState& state, int threads, const std::function<void()>& wake);
 
 private:
+    /// What one of its renders has counted.
+    struct Counted {
+        RenderSettings settings;
+        Counters counters;
+    };
     /// What has become of it.
     struct Made {
         std::optional<FloorFreeError> error; ///< of a complete one; empty: it was cancelled
         int spp = 0;
-        std::vector<std::string> warnings;
+        std::vector<Counted> halves;
     };
     /// What it is made of.
     struct Subject {

@@ -31,6 +31,8 @@ constexpr StepKind kinds[] = {
     {"wheel", 1, 1, "wheel N", "notches, up is positive"},
     {"set", 2, 2, "set NAME VALUE",
      "a setting of the active pane or of the viewer, such as tile 4, panes 2, exposure 1.5"},
+    {"inspect", 3, 3, "inspect X Y PASS",
+     "opens a sample of the active pane in the path inspector, and waits for it"},
     {"open", 1, 1, "open FILE", "a scene, an EXR reference, or settings (JSON), as if dropped on the window"},
     {"reference", 1, 1, "reference FILE", "an EXR file to measure errors against"},
     {"screenshot", 1, 1, "screenshot FILE.png", "of the window"},

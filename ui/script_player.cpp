@@ -4,9 +4,11 @@
 #include "ui/named_settings.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -71,6 +73,13 @@ double ScriptPlayer::number(const std::string& text) const {
     return value;
 }
 
+int ScriptPlayer::whole(const std::string& text) const {
+    const double value = number(text);
+    if (value != std::floor(value) || value < 0 || value > std::numeric_limits<int>::max())
+        fail(text + " is no whole number from 0");
+    return static_cast<int>(value);
+}
+
 // --- steps ---
 
 void ScriptPlayer::start(const ScriptStep& step) {
@@ -84,6 +93,8 @@ void ScriptPlayer::start(const ScriptStep& step) {
         start_frames(step);
     else if (step.word == "set")
         set_by_name(state, a[0], a[1]);
+    else if (step.word == "inspect")
+        start_inspect(step);
     else if (step.word == "open")
         viewer_.drop({a[0]});
     else if (step.word == "reference")
@@ -119,7 +130,20 @@ void ScriptPlayer::start_wait(const ScriptStep& step) {
     else
         fail("it is: wait scene | spp N | seconds S | reference");
     waiting_ = what != "seconds";
-    actions_.push_back([this, holds, began] {
+    add_wait(holds);
+}
+
+void ScriptPlayer::start_inspect(const ScriptStep& step) {
+    const std::vector<std::string>& a = step.arguments;
+    ViewerState& state = viewer_.state();
+    state.inspect({state.active().slot, {whole(a[0]), whole(a[1])}, whole(a[2])});
+    add([] {}); // the viewer has begun
+    add_wait([this] { return viewer_.state().scene && !viewer_.inspecting(); });
+}
+
+/// Until it holds; an error of the viewer, or too long a time, is one of the script.
+void ScriptPlayer::add_wait(const std::function<bool()>& holds) {
+    actions_.push_back([this, holds, began = now()] {
         for (const Message& message : viewer_.state().messages) {
             if (message.kind == Message::Kind::error)
                 fail(message.text);

@@ -42,17 +42,20 @@ private:
 
     void start(const ScriptStep& step);
     void start_wait(const ScriptStep& step);
+    void start_inspect(const ScriptStep& step);
     void start_pointer(const ScriptStep& step);
     void start_key(const ScriptStep& step);
     void start_frames(const ScriptStep& step);
 
     void add(const std::function<void()>& once);
+    void add_wait(const std::function<bool()>& holds);
     void add_click(const std::function<glm::vec2()>& point);
     void add_drag(glm::vec2 from, glm::vec2 to, int frames);
     std::vector<glm::vec2> points(const ScriptStep& step, std::size_t count) const;
     glm::vec2 point_on(const std::string& control) const;
     bool have_samples(int spp) const;
     double number(const std::string& text) const;
+    int whole(const std::string& text) const;
     void send_input() const;
     [[noreturn]] void fail(const std::string& what) const;
 

@@ -30,17 +30,12 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     if (snapshot == nullptr || snapshot->coarse || snapshot->generation == told ||
         snapshot->generation != sent.generation)
         return;
-    const std::string text = refused_text(snapshot->counters, snapshot->settings.seed);
-    if (text.empty())
+    if (snapshot->counters.first_refused.list().empty())
         return;
     told = snapshot->generation;
-    state.add_message(Message::Kind::note, std::string(paper_name(snapshot->settings.method)) + ": " + text,
-                      Message::Origin::scene);
-    const RefusedSample& first = *snapshot->counters.first_refused;
-    const auto origin =
-        std::make_shared<const PassOrigin>(PassOrigin{sent.scene, snapshot->camera, sent.size, snapshot->settings,
-                                                      snapshot->refused_plan, snapshot->generation});
-    state.messages.back().sample = SampleChoice{state.panes[pane].slot, {first.x, first.y}, first.pass, origin};
+    state.add_refused(std::string(paper_name(snapshot->settings.method)), snapshot->counters,
+                      state.panes[pane].slot,
+                      {sent.scene, snapshot->camera, sent.size, snapshot->settings, {}, snapshot->generation});
 }
 
 void SessionLink::send(ViewerState& state) {

@@ -13,6 +13,9 @@ public:
     /// To be called every frame. `wake` is called from another thread when there is something new.
     void update(ViewerState& state, const std::function<void()>& wake);
 
+    /// Whether they are still being found out.
+    bool running() const { return job_.running(); }
+
 private:
     struct View {
         std::weak_ptr<const Scene> scene; // not kept alive by what was found in it

@@ -51,6 +51,10 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.show_panel = options_.show_panel;
     state_.reference_file = options_.reference.string();
     take_preferences();
+    if (options_.sample) {
+        options_.sample->slot = state_.active().slot;
+        state_.inspect(*options_.sample);
+    }
 }
 
 Viewer::~Viewer() {
@@ -226,6 +230,8 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
     const glm::vec2 screen(state_.window_size);
     if (state_.reference_making.show)
         draw_reference_dialog(screen, controls_, state_);
+    if (state_.sample_form.show)
+        draw_sample_dialog(screen, controls_, state_);
     if (state_.show_help)
         draw_help(screen, controls_, state_);
     if (load_.running())

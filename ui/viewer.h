@@ -43,7 +43,8 @@ struct ViewerOptions {
     std::optional<int> max_depth;    ///< otherwise the scene decides
     SizeChoice size;
     int spp_limit = 0;
-    int threads = 0; ///< of references that are made; as in ThreadPool
+    int threads = 0;                    ///< of references that are made; as in ThreadPool
+    std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the active pane
     bool show_panel = true;
     bool panes_as_remembered = false;            ///< as many as the last time, if that is known
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
@@ -96,6 +97,8 @@ public:
     const PaneImage& pane_image(int pane) const { return images_[static_cast<std::size_t>(pane)]; }
     const PaneImages& pane_images() const { return images_; }
     bool loading() const { return load_.running(); }
+    /// Whether what the path inspector is to show is still being found out.
+    bool inspecting() const { return inspection_job_.running() || surroundings_job_.running(); }
 
     /// Whether every pane shows `spp` samples a pixel of what is now asked for, and their reconstruction.
     bool settled(int spp) const;

@@ -95,6 +95,18 @@ void ViewerState::set_slow_motion(bool on) {
     inspector.active = inspector.active && !on;
 }
 
+void ViewerState::inspect(const SampleChoice& sample) {
+    set_inspector(true);
+    inspector.choose(sample);
+    show_messages = false; // which lie where the inspector does
+}
+
+void ViewerState::inspect(glm::ivec2 pixel, int pass, std::uint64_t seed) {
+    active().settings.render.seed = seed;
+    share_settings();
+    inspect({active().slot, pixel, pass});
+}
+
 int ViewerState::compared_with(int pane) const {
     const int count = static_cast<int>(panes.size()),
               with = panes[static_cast<std::size_t>(pane)].settings.comparison.with;
@@ -120,6 +132,17 @@ void ViewerState::add_message(Message::Kind kind, std::string text, Message::Ori
     redraw = true;
     if (kind == Message::Kind::error)
         show_messages = scroll_to_newest = true;
+}
+
+void ViewerState::add_refused(const std::string& whose, const Counters& counters, int slot,
+                              const PassOrigin& origin) {
+    if (counters.first_refused.list().empty())
+        return;
+    const RefusedSample& first = counters.first_refused.list().front();
+    add_message(Message::Kind::note, whose + ": " + refused_text(counters, origin.settings.seed),
+                Message::Origin::scene);
+    messages.back().sample =
+        SampleChoice{slot, {first.x, first.y}, first.pass, std::make_shared<const PassOrigin>(origin)};
 }
 
 void ViewerState::drop_messages(Message::Origin origin) {

@@ -138,6 +138,7 @@ struct ViewerState {
     bool magnifier = false;
     bool show_tiles = false;
     Inspector inspector;
+    SampleForm sample_form; ///< its dialog
     SlowMotion slow_motion;
     SpaceView space;      ///< of the inspector, or the slow motion
     float wipe = 0.5f;    ///< where wiped pictures are divided, a share of a pane's width
@@ -222,6 +223,11 @@ struct ViewerState {
     void set_inspector(bool on);
     void set_slow_motion(bool on);
 
+    /// Opens a sample in the path inspector, ...
+    void inspect(const SampleChoice& sample);
+    /// ... or one of the active pane, which gets that seed (with the others, where they are linked).
+    void inspect(glm::ivec2 pixel, int pass, std::uint64_t seed);
+
     bool is_on_show(int pane) const { return !alone || pane == active_pane; }
 
     /// What `pane` is compared with: another pane or the_reference; itself if there is neither.
@@ -238,6 +244,10 @@ struct ViewerState {
 
     /// Adds a message; an error opens the list at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
+
+    /// A note of the scene on samples that a render refused, the first of which can be inspected; none, if there
+    /// are none. `whose` begins it; `slot` is of the pane that rendered it, or is to be followed later.
+    void add_refused(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
 
     /// Takes away the messages of that origin. Closes the list if that leaves no error of some.
     void drop_messages(Message::Origin origin);

@@ -50,6 +50,13 @@ InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2
     return result;
 }
 
+/// Whether the film refuses what the pixel got: its light, or a difference to that of a neighbour.
+bool is_refused(const InspectedSet& set, glm::ivec2 pixel, Method method) {
+    const auto is_bad = [&](glm::ivec2 p) { return set.index_of(p) >= 0 && !is_finite(set.radiance(p)); };
+    return is_bad(pixel) ||
+           (has_gradients(method) && (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
+}
+
 } // namespace
 
 int InspectedSet::index_of(glm::ivec2 pixel) const {
@@ -103,6 +110,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
         if (inner.contains(pixel) && worker.set.contains(pixel))
             result.sets.push_back(look_at(pass, inner, pixel, worker));
     });
+    for (const InspectedSet& set : result.sets)
+        result.is_refused = result.is_refused || is_refused(set, pixel, settings.method);
     return result;
 }
 

@@ -81,7 +81,7 @@ struct Inspection {
     std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: the camera ray leaves the scene
     Rgb radiance;                      ///< of the pixel's own base path, without very direct light
     Rgb very_direct;
-    bool is_refused; ///< the path is not finite, and took no part
+    bool is_refused; ///< the path, or what the pixel and its neighbours got, is not finite: it was left out
     /// Those that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below).
     std::vector<InspectedSet> sets;
 };

@@ -23,24 +23,37 @@ void ReusePlan::learn(const Image<float>& luminance) {
     if (!adapts_)
         return;
     for (int y = 0; y < luminance.height(); ++y)
-        for (int x = 0; x < luminance.width(); ++x) {
-            Cell& cell = cells_(x / cell_edge, y / cell_edge);
-            const double l = luminance(x, y);
-            if (l < 0)
-                continue;
-            cell.paths += 1;
-            cell.lit += l > 0;
-            cell.sum += l;
-            cell.squares += l * l;
-        }
+        for (int x = 0; x < luminance.width(); ++x)
+            learn(x, y, luminance(x, y));
+}
+
+void ReusePlan::learn(int x, int y, float luminance) {
+    const double l = luminance;
+    if (l < 0)
+        return;
+    Cell& cell = cells_(x / cell_edge, y / cell_edge);
+    cell.paths += 1;
+    cell.lit += l > 0;
+    cell.sum += l;
+    cell.squares += l * l;
+}
+
+/// That of the pixel in its middle.
+glm::ivec2 ReusePlan::cell_of(PixelRect tile) const {
+    const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
+    return glm::clamp(middle, glm::ivec2(0), size_ - 1) / cell_edge;
+}
+
+PixelRect ReusePlan::evidence(PixelRect tile) const {
+    const glm::ivec2 from = cell_of(tile) * cell_edge;
+    return PixelRect{from.x, from.y, from.x + cell_edge, from.y + cell_edge}.clipped(size_);
 }
 
 int ReusePlan::part_edge(PixelRect tile) const {
     if (!adapts_)
         return tile_;
-    const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
-    const glm::ivec2 pixel = glm::clamp(middle, glm::ivec2(0), size_ - 1);
-    const Cell& cell = cells_(pixel.x / cell_edge, pixel.y / cell_edge);
+    const glm::ivec2 at = cell_of(tile);
+    const Cell& cell = cells_(at.x, at.y);
     if (!(cell.sum > 0))
         return tile_;
     const double relative_variance = cell.squares * cell.paths / (cell.sum * cell.sum) - 1;

@@ -31,6 +31,11 @@ public:
     /// Learns from a whole pass.
     /// @param luminance  of what each pixel's base path has to share; negative: it sees nothing
     void learn(const Image<float>& luminance);
+    /// The same of one pixel. A plan's bits depend on the order of those of a tile's evidence(): row by row.
+    void learn(int x, int y, float luminance);
+
+    /// The pixels whose base paths decide on how a tile is cut.
+    PixelRect evidence(PixelRect tile) const;
 
     /// All that it has learnt.
     Memory memory() { return {memory_of(cells_)}; }
@@ -40,6 +45,8 @@ private:
     struct Cell {
         double paths = 0, lit = 0, sum = 0, squares = 0;
     };
+
+    glm::ivec2 cell_of(PixelRect tile) const;
 
     int tile_;
     bool adapts_;

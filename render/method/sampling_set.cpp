@@ -34,8 +34,7 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
 PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    const float base_luminance = path.empty() ? -1 : luminance(estimator.shared_light(path));
-    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], base_luminance};
+    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], estimator.shared_luminance(path)};
 }
 
 } // namespace tessera

@@ -67,4 +67,9 @@ inline bool reuses_paths(Method method) {
     return method == Method::pr || method == Method::gpr;
 }
 
+/// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.
+inline bool has_tiles_to_cut(const RenderSettings& s) {
+    return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
+}
+
 } // namespace tessera

@@ -68,10 +68,7 @@ const Setting table[] = {
      Setting::Whole{&RenderSettings::tile, 1, 16}, shares},
     {"adapt_tile", "Adapt",
      "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain.",
-     Setting::Switch{&RenderSettings::adapt_tile},
-     [](const RenderSettings& s) {
-         return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
-     }},
+     Setting::Switch{&RenderSettings::adapt_tile}, has_tiles_to_cut},
     {"jitter", "Jitter",
      "Moves the grid of tiles every pass, so that no pixel is always at a tile's edge. Off, edges stay in the "
      "picture.",
@@ -147,7 +144,7 @@ std::string Setting::text(const RenderSettings& s) const {
     if (const auto* whole = std::get_if<Whole>(&kind))
         return fmt::format("{}", s.*whole->member);
     if (const auto* real = std::get_if<Real>(&kind))
-        return fmt::format("{:.6g}", s.*real->member);
+        return fmt::format("{}", s.*real->member);
     if (const auto* on = std::get_if<Switch>(&kind))
         return s.*on->member ? "on" : "off";
     const OneOf& one = std::get<OneOf>(kind);

@@ -46,7 +46,7 @@ struct Setting {
     bool (*matters)(const RenderSettings&);
     bool is_rare = false; ///< seldom changed: the panel folds it away
 
-    /// The value as a word or number: "6", "0.1", "on", "half-vector".
+    /// The value as a word or number: "6", "0.1", "on", "half-vector". Numbers with all digits that they need.
     std::string text(const RenderSettings& settings) const;
     /// Sets it from such a word or number. Throws std::invalid_argument that says what it may be.
     void set_text(RenderSettings& settings, std::string_view text) const;

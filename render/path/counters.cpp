@@ -1,5 +1,7 @@
 #include "render/path/counters.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 namespace tessera {
@@ -17,16 +19,25 @@ std::string_view to_string(RayKind kind) {
     return names[static_cast<int>(kind)];
 }
 
+void FirstRefused::add(const RefusedSample& sample) {
+    const auto end = samples_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto at = std::lower_bound(samples_.begin(), end, sample);
+    if (at == samples_.end() || (at != end && *at == sample))
+        return;
+    std::move_backward(at, count_ < most ? end : end - 1, count_ < most ? end + 1 : end);
+    *at = sample;
+    count_ = std::min(count_ + 1, most);
+}
+
 void Counters::refuse(const RefusedSample& sample) {
     ++refused_samples;
-    if (!first_refused || sample < *first_refused)
-        first_refused = sample;
+    first_refused.add(sample);
 }
 
 std::string refused_text(const Counters& counters, std::uint64_t seed) {
-    if (!counters.first_refused)
+    if (counters.first_refused.list().empty())
         return {};
-    const RefusedSample& first = *counters.first_refused;
+    const RefusedSample& first = counters.first_refused.list().front();
     return fmt::format(
         "{} samples were not finite and were left out; the first is pass {}, pixel ({}, {}), seed {}",
         counters.refused_samples, first.pass, first.x, first.y, seed);
@@ -44,8 +55,8 @@ Counters& Counters::operator+=(const Counters& other) {
     for (std::size_t i = 0; i < shifts.size(); ++i)
         shifts[i] += other.shifts[i];
     refused_samples += other.refused_samples;
-    if (other.first_refused && (!first_refused || *other.first_refused < *first_refused))
-        first_refused = other.first_refused;
+    for (const RefusedSample& sample : other.first_refused.list())
+        first_refused.add(sample);
     return *this;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -47,6 +47,19 @@ struct RefusedSample {
     auto operator<=>(const RefusedSample&) const = default;
 };
 
+/// The first few of such samples, in order and each of them once, whoever finds them first.
+class FirstRefused {
+public:
+    static constexpr std::size_t most = 16;
+
+    void add(const RefusedSample& sample);
+    std::span<const RefusedSample> list() const { return {samples_.data(), count_}; }
+
+private:
+    std::array<RefusedSample, most> samples_{};
+    std::size_t count_ = 0;
+};
+
 /// Sums over a render; each worker has its own, added at the end of a pass.
 struct Counters {
     std::uint64_t camera_paths = 0;  ///< base paths traced
@@ -62,7 +75,7 @@ struct Counters {
     std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
 
     std::uint64_t refused_samples = 0; ///< not finite, and so not added
-    std::optional<RefusedSample> first_refused;
+    FirstRefused first_refused;
 
     std::uint64_t shift_attempts() const {
         return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});

@@ -34,6 +34,10 @@ public:
 
     /// What of a path's radiance is shifted to others, ...
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
+    /// ... in luminance (negative: the path sees nothing), ...
+    float shared_luminance(const BasePath& path) const {
+        return path.empty() ? -1 : luminance(shared_light(path));
+    }
     /// ... and what is not.
     Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }
 

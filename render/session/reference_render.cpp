@@ -82,14 +82,6 @@ FloorFreeError ReferenceRender::error_so_far() const {
     return measure_reference_error(image(halves_[0]), image(halves_[1]));
 }
 
-std::vector<std::string> ReferenceRender::warnings() const {
-    std::vector<std::string> texts;
-    for (const Render& half : halves_)
-        if (std::string text = refused_text(half.counters(), half.settings().seed); !text.empty())
-            texts.push_back(std::move(text));
-    return texts;
-}
-
 ReferenceImage ReferenceRender::finish() {
     ReferenceImage reference;
     reference.settings = to_text(

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -59,8 +58,8 @@ public:
     double seconds_left() const;                                              ///< infinite before the first pass
     /// That of the mean, were it to be complete now; both halves need a sample. Costs two reconstructions.
     FloorFreeError error_so_far() const;
-    /// What the user should know of samples that were left out.
-    std::vector<std::string> warnings() const;
+    /// As they are so far.
+    const std::array<Render, 2>& halves() const { return halves_; }
 
     /// Once it is complete: writes it, and only then takes the checkpoint away. Nothing may follow.
     ReferenceImage finish();

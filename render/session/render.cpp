@@ -86,8 +86,6 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         cpu_seconds_ += worker->cpu_seconds;
     }
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
-    if (counters_.first_refused && counters_.first_refused->pass == spp_)
-        refused_plan_ = newest_plan_;
     plan_.learn(film_.base_luminance());
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++spp_;

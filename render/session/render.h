@@ -27,6 +27,7 @@ public:
     const RenderSettings& settings() const { return settings_; }
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Camera& camera() const { return camera_; }
+    glm::ivec2 size() const { return size_; }
     GradientImages images() const { return with_patch(film_.means(spp_)); }
     /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
     /// counts stay.
@@ -34,8 +35,6 @@ public:
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
     /// What the newest pass knew of where tiles are to be cut.
     std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
-    /// The same of the pass of counters().first_refused; null: none was refused in the passes of this render.
-    std::shared_ptr<const ReusePlan> refused_plan() const { return refused_plan_; }
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
     /// filled with this goes on with the same bits.
     Memory memory();
@@ -50,7 +49,6 @@ private:
     Film film_;
     ReusePlan plan_;
     std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
-    std::shared_ptr<const ReusePlan> refused_plan_;
     Counters counters_;
     int spp_ = 0;
     double seconds_ = 0;

@@ -21,7 +21,6 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->camera = render.camera();
     snapshot->plan = render.newest_plan();
     snapshot->counters = render.counters();
-    snapshot->refused_plan = render.refused_plan();
     snapshot->images = std::make_shared<GradientImages>(render.images());
     if (ReuseMaps maps = render.reuse_maps(); !maps.empty())
         snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));

@@ -27,7 +27,6 @@ struct Snapshot {
     Camera camera;
     std::shared_ptr<const ReusePlan> plan; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
     Counters counters;
-    std::shared_ptr<const ReusePlan> refused_plan; ///< of the pass of counters.first_refused; null: none was
     std::shared_ptr<const GradientImages> images;
     std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)
 

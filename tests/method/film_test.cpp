@@ -31,14 +31,15 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 (sample.*part)[channel] = bad;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
-                EXPECT_EQ(counters.first_refused, (RefusedSample{4, 0, 1}));
+                ASSERT_EQ(counters.first_refused.list().size(), 1u);
+                EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{4, 0, 1}));
                 const GradientImages images = film.means(1);
                 for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
                     EXPECT_TRUE(is_black_everywhere(*image));
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
-                EXPECT_EQ(film.base_luminance()(1, 0), 0);
+                EXPECT_EQ(film.base_luminance()(1, 0), 1); // so that a plan depends on base paths alone
             }
 }
 
@@ -95,9 +96,9 @@ TEST(Film, VariancesStayFinite) {
     EXPECT_EQ(film.means(2).primal_variance(0, 0), std::numeric_limits<float>::max());
 }
 
-/// Whoever counts, and in whatever order counts are added: the first is that of the earliest pass, then row, then
-/// column.
-TEST(Counters, RememberTheFirstRefusedSample) {
+/// Whoever counts, and in whatever order counts are added: the first are those of the earliest pass, then row,
+/// then column, and each is there once.
+TEST(Counters, RememberTheFirstRefusedSamples) {
     const RefusedSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
     std::size_t order[] = {0, 1, 2, 3};
     do {
@@ -110,11 +111,24 @@ TEST(Counters, RememberTheFirstRefusedSample) {
         all += sums[0];
         all += Counters{};
         all += sums[1];
+        one.refuse(in_order[0]); // again, as where a block's border is traced twice
+        all.refuse(in_order[3]);
         for (const Counters& c : {one, all}) {
-            EXPECT_EQ(c.refused_samples, 4u);
-            EXPECT_EQ(c.first_refused, in_order[0]);
+            EXPECT_EQ(c.refused_samples, 5u);
+            EXPECT_TRUE(std::ranges::equal(c.first_refused.list(), in_order));
         }
     } while (std::next_permutation(std::begin(order), std::end(order)));
+}
+
+TEST(Counters, RememberNoMoreRefusedSamplesThanTheFirst) {
+    Counters counters;
+    constexpr int count = 3 * FirstRefused::most;
+    for (int i = 0; i < count; ++i)
+        counters.refuse({0, 0, 7 * i % count}); // 7 and 48 have no common factor: each once
+    EXPECT_EQ(counters.refused_samples, static_cast<std::uint64_t>(count));
+    ASSERT_EQ(counters.first_refused.list().size(), FirstRefused::most);
+    for (std::size_t i = 0; i < FirstRefused::most; ++i)
+        EXPECT_EQ(counters.first_refused.list()[i].x, static_cast<int>(i));
 }
 
 TEST(Counters, SayWhereTheFirstRefusedSampleIs) {

@@ -1,7 +1,10 @@
 // Light beyond what floats hold: nothing that is not finite gets into a buffer, and what was left out is counted.
+#include "render/method/inspection.h"
+#include "render/method/plan_replay.h"
 #include "render/session/render.h"
 #include "tests/support/rooms.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -50,8 +53,8 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
         const Counters& counters = render.counters();
         EXPECT_GT(counters.refused_samples, 0u);
         EXPECT_LT(counters.refused_samples, 100u); // not every pixel that such a path is shared with
-        ASSERT_TRUE(counters.first_refused);
-        EXPECT_EQ(counters.first_refused->pass, 0);
+        ASSERT_FALSE(counters.first_refused.list().empty());
+        EXPECT_EQ(counters.first_refused.list()[0].pass, 0);
         const std::string text = refused_text(counters, settings.seed);
         EXPECT_NE(text.find("pass 0"), std::string::npos) << text;
         EXPECT_NE(text.find("seed 77"), std::string::npos) << text;
@@ -60,36 +63,34 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
     EXPECT_EQ(texts.size(), 1u); // whoever came first
 }
 
-/// All that a plan has learnt.
-std::string learnt(ReusePlan plan) {
-    std::string bytes;
-    for (const auto& piece : plan.memory())
-        bytes.append(reinterpret_cast<const char*>(piece.data()), piece.size());
-    return bytes;
-}
-
-TEST(RefusedPlan, IsThatOfThePassOfTheFirst) {
-    const auto scene = blinding_room();
+/// Every sample of a short render, taken again from what names it: those that were refused are found to be so.
+TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
     RenderSettings settings;
-    settings.method = Method::gpr;
+    settings.method = GetParam();
     settings.max_depth = 6;
-    settings.adapt_tile = true;
     settings.tile = 4;
-    ThreadPool pool(1);
-    for (settings.seed = 0; settings.seed < 50; ++settings.seed) {
-        Render render(scene, scene->camera(), {5, 4}, settings); // few pixels: not in every pass
-        while (!render.counters().first_refused && render.spp() < 20)
+    const auto scene = blinding_room();
+    constexpr glm::ivec2 small(7, 5);
+    std::size_t refused = 0;
+    for (settings.seed = 0; refused == 0 && settings.seed < 50; ++settings.seed) {
+        Render render(scene, scene->camera(), small, settings);
+        ThreadPool pool(1);
+        for (int pass = 0; pass < passes; ++pass)
             render.pass(pool);
-        EXPECT_EQ(render.refused_plan() != nullptr, render.counters().first_refused.has_value());
-        if (!render.refused_plan() || render.spp() < 2)
-            continue; // the plan of the first pass has learnt nothing
-        const std::string then = learnt(*render.newest_plan());
-        render.pass(pool);
-        EXPECT_EQ(learnt(*render.refused_plan()), then);
-        EXPECT_NE(learnt(*render.newest_plan()), then);
-        return;
+        const auto first = render.counters().first_refused.list();
+        ASSERT_LT(first.size(), FirstRefused::most); // all of them
+        refused += first.size();
+        for (int i = 0; i < passes * small.x * small.y; ++i) {
+            const RefusedSample sample{i / (small.x * small.y), i / small.x % small.y, i % small.x};
+            const glm::ivec2 pixel(sample.x, sample.y);
+            const Inspection seen = inspect(
+                *scene, scene->camera(), small, settings,
+                replay_plan(*scene, scene->camera(), small, settings, sample.pass, pixel), sample.pass, pixel);
+            EXPECT_EQ(seen.is_refused, std::ranges::find(first, sample) != first.end())
+                << sample.pass << ": " << sample.x << ", " << sample.y;
+        }
     }
-    FAIL() << "no sample was refused in a later pass";
+    EXPECT_GT(refused, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, Refused, testing::ValuesIn(all_methods),

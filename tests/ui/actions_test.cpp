@@ -88,6 +88,10 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     EXPECT_TRUE(state.quit);
     type(state, {Key::s, true, false, 0});
     EXPECT_TRUE(state.save_picture);
+    type(state, {Key::i, true, false, 0});
+    EXPECT_TRUE(state.sample_form.show);
+    type(state, key(Key::escape));
+    EXPECT_FALSE(state.sample_form.show);
     type(state, key(Key::f5));
     EXPECT_TRUE(state.reload);
     type(state, key(Key::k));

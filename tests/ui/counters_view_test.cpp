@@ -1,6 +1,7 @@
 // What a render has counted, as it is seen in the viewer: maps, panel, message.
 
 #include "tests/support/scene_builder.h"
+#include "tests/ui/current_folder.h"
 #include "tests/ui/panes_fixture.h"
 #include "ui/false_colours.h"
 #include "ui/path_overlay.h"
@@ -245,6 +246,28 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     h.frames(5);
     EXPECT_TRUE(h.state().inspector.inspection->is_refused);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(RefusedSamples, OfAReferenceOpen) {
+    const CurrentFolder folder;
+    ViewerHarness h;
+    h.state().pace.spp_limit = 1;
+    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
+    h.state().reference_making.spp = 2;
+    h.state().reference_making.start = true;
+    const auto told = [&] { return h.state().messages.size() > 4; }; // of both halves, and the end
+    ASSERT_TRUE(h.wait_until(told));
+    h.state().messages.erase(h.state().messages.begin(), h.state().messages.begin() + 2);
+    const Message& second = h.state().messages[1];
+    EXPECT_EQ(second.text.rfind("The reference: ", 0), 0u) << second.text;
+    EXPECT_NE(second.text.find("seed 1002"), std::string::npos) << second.text;
+    h.state().show_messages = true;
+    h.frames(2);
+    h.click("inspect_message1");
+    ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
+    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
+    EXPECT_EQ(h.state().inspector.sample->origin->settings.seed, 1002u);
 }
 
 } // namespace

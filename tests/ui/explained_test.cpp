@@ -84,6 +84,7 @@ TEST_F(Explained, WhatLiesOverThePicturesHasTooltips) {
     for (auto show :
          {+[](ViewerState& s) { s.set_slow_motion(true); }, +[](ViewerState& s) { s.large_charts = true; },
           +[](ViewerState& s) { s.reference_making.show = true; },
+          +[](ViewerState& s) { s.sample_form.show = true; },
           +[](ViewerState& s) { s.choosing = FilePurpose::scene; }}) {
         show(state());
         wait_until([&] { return !state().slow_motion.active || state().slow_motion.shows_choice(); });

@@ -66,6 +66,15 @@ TEST_F(InspectionSettings, TheInspectorShowsTheSamePixel) {
     h->save("inspector-restored.png");
 }
 
+TEST_F(InspectionSettings, AGivenPassIsTheSame) {
+    state().inspect({16, 14}, 1, 0);
+    ASSERT_TRUE(wait_for_paths());
+    begin_anew();
+    ASSERT_TRUE(wait_for_paths());
+    EXPECT_EQ(state().inspector.inspection->pixel, glm::ivec2(16, 14));
+    EXPECT_EQ(state().inspector.inspection->pass, 1); // of 3
+}
+
 TEST_F(InspectionSettings, TheViewInSpaceBelongsToItsScene) {
     h->type(Key::i);
     state().inspector.choose(sample(1, {16, 14}));
@@ -133,6 +142,7 @@ TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
         {"\"inspector\": {\"shows\": \"both\"}", "shows is \"both\", which there is not"},
         {"\"inspector\": {\"sample\": {\"pane\": 2}}", "pane is out of range"},
         {"\"inspector\": {\"sample\": {\"pane\": 1, \"x\": -1}}", "x is out of range"},
+        {"\"inspector\": {\"sample\": {\"pane\": 1, \"pass\": -1}}", "pass is out of range"},
         {"\"slow_motion\": {\"speed\": 0}", "speed is out of range"},
         {"\"space\": {\"fov\": 40}", "the camera has no 'to_world'"},
     };

@@ -1,0 +1,95 @@
+// The plan of any pass, learnt again for one tile: the bits of the render's own.
+#include "render/method/inspection.h"
+#include "render/method/plan_replay.h"
+#include "render/session/render.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(41, 26);
+
+/// A room in which tiles are cut into smaller ones here, and not there.
+std::shared_ptr<const Scene> half_lit_room() {
+    SceneBuilder room;
+    const int white = room.diffuse(Rgb(0.75f));
+    room.room({white, white, white, room.mirror(), white});
+    room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
+    room.quad({-1, -0.2f, -1}, {1.2f, 0, 0}, {0, 0, 2}, white); // below it, light comes from the walls alone
+    room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
+    return room.build();
+}
+
+std::string bytes_of(const Inspection& seen) {
+    std::string bytes;
+    const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    add(seen.radiance);
+    for (const InspectedSet& set : seen.sets) {
+        add(set.radiance(seen.pixel));
+        for (const glm::ivec2 p : set.pixels)
+            add(p);
+        for (const InspectedShift& s : set.shifts)
+            add(s.value);
+    }
+    return bytes;
+}
+
+class PlanReplay : public testing::TestWithParam<RenderSettings> {};
+
+TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
+    const auto scene = half_lit_room();
+    const RenderSettings settings = GetParam();
+    Render render(scene, scene->camera(), size, settings);
+    ThreadPool pool(2);
+    int otherwise = 0; // without knowing what passes before have seen
+    for (int pass = 0; pass < 6; ++pass) {
+        render.pass(pool);
+        if (pass == 1 || pass == 3)
+            continue;
+        for (const glm::ivec2 pixel :
+             {glm::ivec2(0, 0), {40, 25}, {16, 15}, {15, 16}, {31, 20}, {8, 22}, {25, 3}}) {
+            const auto sample = [&](const ReusePlan& plan) {
+                return bytes_of(inspect(*scene, scene->camera(), size, settings, plan, pass, pixel));
+            };
+            const std::string own = sample(*render.newest_plan());
+            EXPECT_EQ(sample(replay_plan(*scene, scene->camera(), size, settings, pass, pixel)), own)
+                << "pass " << pass << ": " << pixel.x << ", " << pixel.y;
+            otherwise += sample(ReusePlan(size, settings)) != own;
+        }
+    }
+    EXPECT_EQ(otherwise > 0, settings.adapt_tile && has_tiles_to_cut(settings));
+}
+
+RenderSettings settings_of(Method method, int tile = 6) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.tile = tile;
+    settings.max_depth = 5;
+    settings.seed = 21;
+    return settings;
+}
+
+RenderSettings rooks() {
+    RenderSettings settings = settings_of(Method::pr);
+    settings.pattern = Pattern::rooks;
+    return settings;
+}
+
+/// Only indirect light is shared, so that tiles are cut less.
+RenderSettings reconnection() {
+    RenderSettings settings = settings_of(Method::pr, 16);
+    settings.shift = ShiftKind::reconnection;
+    return settings;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,
+                         testing::Values(settings_of(Method::pt), settings_of(Method::pr),
+                                         settings_of(Method::gpt), settings_of(Method::gpr), rooks(),
+                                         reconnection()));
+
+} // namespace
+
+} // namespace tessera::test
