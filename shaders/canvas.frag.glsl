@@ -1,22 +1,21 @@
-#version 330 core
 // Shows an image of radiance (exposure, then a tone curve), of gradients and differences (+/- colours), or of numbers
-// (false colours) in a pane, or what has colours already.
+// (false colours) in a pane, or what has colours already. Before this text stand constants that say which (CanvasShader):
+//     int colour_map      0: radiance, or one of those below
+//     int sampling        0: the image's pixel that the pane's lies in, or one of those below
+//     bool is_difference  to a second image
 
 uniform sampler2D image;
 uniform ivec2 pane_size;    // pixels
 uniform vec2 image_origin;  // top left corner of the image in the pane, pixels from the pane's top left
 uniform vec2 image_extent;  // size of the image in the pane, pixels
 uniform sampler2D subtrahend; // what a difference takes off, stretched over the image
-uniform bool is_difference;
 uniform float gain;         // 2^exposure
 uniform int tone_curve;     // 0: sRGB, or one of those below
 uniform float gamma;        // of the tone curve of that name
-uniform int colour_map;     // 0: radiance, or one of those below
 uniform vec2 range;         // the values that false colours begin and end with
 uniform bool is_logarithmic; // false colours stand for powers
 uniform vec3 false_colours[9]; // display colours of the range, evenly spaced
 uniform bool marks_negative;
-uniform bool is_coarse;     // a first look at a fraction of the size: interpolate
 uniform vec3 background;    // display colour around the image
 
 out vec4 colour;
@@ -25,6 +24,8 @@ const int signed_difference = 1; // gradients: the luminance's sign becomes a hu
 const int false_colour = 2;      // numbers: red alone counts
 const int direction = 3;         // -1 to 1 in each channel
 const int own = 4;               // display colours
+const int averaged = 1;     // of all pixels of the image that the pane's covers
+const int interpolated = 2; // between the image's pixels
 const int gamma_curve = 1;
 const int filmic_curve = 2;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
@@ -90,8 +91,9 @@ bool is_marked_negative(vec3 v) {
     return marks_negative && colour_map == 0 && any(lessThan(v, vec3(0.0)));
 }
 
-// What lies in a pixel of the image.
-vec3 fetched(ivec2 point, ivec2 size) {
+// What lies in a pixel of the image, that of a point outside in the nearest.
+vec3 fetched(vec2 place, ivec2 size) {
+    ivec2 point = clamp(ivec2(floor(place)), ivec2(0), size - 1);
     vec3 value = texelFetch(image, point, 0).rgb;
     if (!is_difference)
         return value;
@@ -118,19 +120,39 @@ vec3 marked(vec3 display_colour, Oddities odd) {
                              : display_colour;
 }
 
-// The image's pixels that the pane's pixel covers, or the one that it lies in.
-vec3 covered(vec2 from, vec2 to, ivec2 size, inout Oddities odd) {
+// The image's pixels that a pixel of the pane covers, exposed.
+vec3 average(vec2 from, vec2 to, ivec2 size, inout Oddities odd) {
     ivec2 taps = clamp(ivec2(ceil(to - from - 0.01)), ivec2(1), ivec2(most_taps));
     vec3 sum = vec3(0.0);
     for (int y = 0; y < taps.y; ++y) {
         for (int x = 0; x < taps.x; ++x) {
             vec2 point = mix(from, to, (vec2(x, y) + 0.5) / vec2(taps));
-            vec3 value = fetched(clamp(ivec2(floor(point)), ivec2(0), size - 1), size);
+            vec3 value = fetched(point, size);
             look(value, odd);
             sum += exposed(value);
         }
     }
     return sum / float(taps.x * taps.y);
+}
+
+// What the image has for a pixel of the pane, exposed; `where` is its centre, as shares of the image.
+vec3 sampled(vec2 pixel, vec2 where, inout Oddities odd) {
+    ivec2 size = textureSize(image, 0);
+    if (sampling == averaged) {
+        vec2 to_image = vec2(size) / image_extent;
+        vec2 from = (pixel - 0.5 - image_origin) * to_image;
+        return average(from, from + to_image, size, odd);
+    }
+    vec3 value;
+    if (sampling == interpolated) {
+        value = texture(image, where).rgb;
+        if (is_difference)
+            value -= texture(subtrahend, where).rgb;
+    } else {
+        value = fetched(where * vec2(size), size);
+    }
+    look(value, odd);
+    return exposed(value);
 }
 
 void main() {
@@ -139,21 +161,7 @@ void main() {
     colour = vec4(background, 1.0);
     if (any(lessThan(where, vec2(0.0))) || any(greaterThanEqual(where, vec2(1.0))))
         return;
-
     Oddities odd = Oddities(false, false, false);
-    if (is_coarse) {
-        vec3 value = texture(image, where).rgb;
-        if (is_difference)
-            value -= texture(subtrahend, where).rgb;
-        look(value, odd);
-        colour.rgb = marked(displayed(exposed(value)), odd);
-        return;
-    }
-    ivec2 size = textureSize(image, 0);
-    vec2 to_image = vec2(size) / image_extent;
-    vec2 from = (pixel - 0.5 - image_origin) * to_image;
-    vec2 span = max(to_image, vec2(0.0));
-    vec3 value = all(lessThanEqual(span, vec2(1.0))) ? covered(where * vec2(size), where * vec2(size), size, odd)
-                                                     : covered(from, from + span, size, odd);
+    vec3 value = sampled(pixel, where, odd);
     colour.rgb = marked(displayed(value), odd);
 }

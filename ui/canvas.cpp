@@ -6,13 +6,14 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
+#include <glm/vector_relational.hpp>
+
 namespace tessera {
 
 namespace {
 constexpr glm::vec3 background_colour(0.055f, 0.058f, 0.066f);
 } // namespace
-
-CanvasShader::CanvasShader() : program_(canvas_vertex_shader, canvas_fragment_shader) {}
 
 const GlTexture& ImageTexture::texture() const {
     static const GlTexture none;
@@ -26,6 +27,30 @@ void ImageTexture::show(const RgbImage& image) {
     ++serial_;
 }
 
+CanvasShader::Sampling CanvasShader::sampling_of(glm::ivec2 image_size, const CanvasView& view) {
+    if (view.coarse)
+        return Sampling::interpolated;
+    const bool is_shrunk = glm::any(glm::greaterThan(glm::vec2(image_size), view.image_extent));
+    return is_shrunk ? Sampling::averaged : Sampling::nearest;
+}
+
+std::string CanvasShader::fragment_shader_of(const Kind& kind) {
+    return fmt::format("#version 330 core\n"
+                       "const int colour_map = {};\n"
+                       "const int sampling = {};\n"
+                       "const bool is_difference = {};\n"
+                       "{}",
+                       static_cast<int>(kind.colour_map), static_cast<int>(kind.sampling), kind.is_difference,
+                       canvas_fragment_shader);
+}
+
+const Program& CanvasShader::program_of(const Kind& kind) const {
+    std::unique_ptr<const Program>& program = programs_[kind];
+    if (!program)
+        program = std::make_unique<Program>(canvas_vertex_shader, fragment_shader_of(kind));
+    return *program;
+}
+
 void CanvasShader::draw(const GlTexture& image, const CanvasView& view, const GlTexture* subtrahend) const {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
@@ -35,23 +60,21 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view, const Gl
     glClear(GL_COLOR_BUFFER_BIT);
     if (image.name() == 0 || view.image_extent.x <= 0 || view.image_extent.y <= 0)
         return;
-    program_.use();
-    program_.set("image", 0);
-    program_.set("pane_size", view.pane_size);
-    program_.set("image_origin", view.image_origin);
-    program_.set("image_extent", view.image_extent);
-    program_.set("gain", std::exp2(view.tone.exposure));
-    program_.set("tone_curve", static_cast<int>(view.tone.curve));
-    program_.set("gamma", view.tone.gamma);
-    program_.set("range", glm::vec2(view.range.low, view.range.high));
-    program_.set("is_logarithmic", view.range.logarithmic ? 1 : 0);
-    program_.set("marks_negative", view.mark_negative ? 1 : 0);
-    program_.set("subtrahend", 1);
-    program_.set("is_difference", subtrahend != nullptr ? 1 : 0);
-    program_.set("colour_map", static_cast<int>(view.colour_map));
-    program_.set("false_colours", false_colours);
-    program_.set("is_coarse", view.coarse ? 1 : 0);
-    program_.set("background", background_colour);
+    const Program& program = program_of({view.colour_map, sampling_of(image.size(), view), subtrahend != nullptr});
+    program.use();
+    program.set("image", 0);
+    program.set("pane_size", view.pane_size);
+    program.set("image_origin", view.image_origin);
+    program.set("image_extent", view.image_extent);
+    program.set("gain", std::exp2(view.tone.exposure));
+    program.set("tone_curve", static_cast<int>(view.tone.curve));
+    program.set("gamma", view.tone.gamma);
+    program.set("range", glm::vec2(view.range.low, view.range.high));
+    program.set("is_logarithmic", view.range.logarithmic ? 1 : 0);
+    program.set("marks_negative", view.mark_negative ? 1 : 0);
+    program.set("subtrahend", 1);
+    program.set("false_colours", false_colours);
+    program.set("background", background_colour);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, subtrahend != nullptr ? subtrahend->name() : 0);
     glActiveTexture(GL_TEXTURE0);

@@ -4,7 +4,10 @@
 #include "ui/tone.h"
 #include "ui/value_range.h"
 
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 
 namespace tessera {
 
@@ -51,16 +54,30 @@ private:
     int serial_ = 0;
 };
 
-/// The program that all canvases draw with.
+/// The programs that all canvases draw with, one for each kind of view, made when it is first drawn: software
+/// renderers go through all branches of a shader at every pixel.
 class CanvasShader {
 public:
-    CanvasShader();
     /// Fills the framebuffer drawn into with `image`, less `subtrahend` if there is one (of any size; it is
     /// stretched). Without an image, with the background.
     void draw(const GlTexture& image, const CanvasView& view, const GlTexture* subtrahend = nullptr) const;
 
 private:
-    Program program_;
+    /// What the pane's pixels are made of: the image's pixel that each lies in, all those that it covers, or what
+    /// is between them.
+    enum class Sampling { nearest, averaged, interpolated };
+    /// What a program is made for; all else are numbers that it is given.
+    struct Kind {
+        ColourMap colour_map;
+        Sampling sampling;
+        bool is_difference;
+        auto operator<=>(const Kind&) const = default;
+    };
+    static Sampling sampling_of(glm::ivec2 image_size, const CanvasView& view);
+    static std::string fragment_shader_of(const Kind& kind);
+    const Program& program_of(const Kind& kind) const;
+
+    mutable std::map<Kind, std::unique_ptr<const Program>> programs_;
     EmptyVertexArray vertices_;
 };
 

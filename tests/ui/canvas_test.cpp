@@ -7,6 +7,15 @@
 namespace tessera {
 namespace {
 
+/// Whether a program that there is makes use of the uniform.
+bool is_used(const char* uniform) {
+    constexpr GLuint names = 64; // of a fresh context
+    for (GLuint name = 1; name < names; ++name)
+        if (glIsProgram(name) != GL_FALSE && glGetUniformLocation(name, uniform) >= 0)
+            return true;
+    return false;
+}
+
 TEST_F(CanvasTest, RadianceIsExposedAndEncodedAsSrgb) {
     RgbImage image(2, 1);
     image(0, 0) = {0.18f, 0.5f, 0.002f};
@@ -134,6 +143,21 @@ TEST_F(CanvasTest, DrawsAgainOnlyWhenSomethingChanged) {
     image_.show(RgbImage(2, 2, Rgb(0.5f)));
     canvas_.draw(shader_, image_, view);
     EXPECT_EQ(canvas_.drawings(), 3);
+}
+
+// Software renderers go through all that a program holds at every pixel.
+TEST_F(CanvasTest, ProgramsHoldOnlyWhatTheirViewsNeed) {
+    image_.show(RgbImage(2, 2, Rgb(1)));
+    CanvasView view = filling({8, 8});
+    canvas_.draw(shader_, image_, view);
+    EXPECT_TRUE(is_used("gain"));
+    EXPECT_FALSE(is_used("false_colours"));
+    EXPECT_FALSE(is_used("subtrahend"));
+    view.colour_map = ColourMap::false_colour;
+    canvas_.draw(shader_, image_, view);
+    EXPECT_TRUE(is_used("false_colours"));
+    canvas_.draw(shader_, image_, view, &image_);
+    EXPECT_TRUE(is_used("subtrahend"));
 }
 
 TEST_F(CanvasTest, EmptyImagesAndPanesAreHarmless) {
