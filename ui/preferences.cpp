@@ -2,12 +2,18 @@
 
 #include "render/load/json_text.h"
 #include "render/load/temporary_file.h"
+#include "ui/output_files.h"
 #include "ui/viewer_state.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -15,8 +21,24 @@ namespace tessera {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 constexpr int largest_window = 16384;
+
+/// The text of a file; nothing where there is none of that name. Throws std::exception where it cannot be read: it
+/// is somebody else's, a folder, a link to nowhere.
+std::optional<std::string> text_of(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::symlink_status(file, ignored).type() == fs::file_type::not_found)
+        return std::nullopt;
+    if (const fs::file_status target = fs::status(file, ignored);
+        fs::exists(target) && !fs::is_regular_file(target))
+        throw std::runtime_error("it is a folder, or a device");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw std::system_error(errno, std::generic_category());
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
 
 Preferences parse(const std::string& text) {
     const ordered_json json = ordered_json::parse(text);
@@ -42,38 +64,47 @@ Preferences parse(const std::string& text) {
     return p;
 }
 
+enum class Condition { fine, broken, unreadable };
+
+Preferences read(const fs::path& file, std::string& note, Condition& condition) {
+    condition = Condition::unreadable;
+    try {
+        const std::optional<std::string> text = text_of(file);
+        condition = Condition::broken;
+        Preferences preferences = text ? parse(*text) : Preferences{};
+        condition = Condition::fine;
+        return preferences;
+    } catch (const std::exception& error) {
+        note = file.string() + " is ignored, as it " +
+               (condition == Condition::broken ? "is broken: " : "cannot be read: ") + error.what();
+        return {};
+    }
+}
+
 } // namespace
 
-void Preferences::add_recent(const std::filesystem::path& scene) {
+void Preferences::add_recent(const fs::path& scene) {
     const std::string name = scene.lexically_normal().string();
     std::erase(recent_scenes, name);
     recent_scenes.insert(recent_scenes.begin(), name);
     recent_scenes.resize(std::min(recent_scenes.size(), most_recent));
 }
 
-std::filesystem::path preferences_file() {
+fs::path preferences_file() {
     const char* config = std::getenv("XDG_CONFIG_HOME");
     const char* home = std::getenv("HOME");
     if (config && *config == '/') // a relative one is to be ignored, as the XDG specification says
-        return std::filesystem::path(config) / "tessera" / "viewer.json";
-    return home && *home ? std::filesystem::path(home) / ".config" / "tessera" / "viewer.json"
-                         : std::filesystem::path();
+        return fs::path(config) / "tessera" / "viewer.json";
+    return home && *home ? fs::path(home) / ".config" / "tessera" / "viewer.json" : fs::path();
 }
 
-Preferences read_preferences(const std::filesystem::path& file, std::string& note) {
-    std::ifstream stream(file, std::ios::binary);
-    if (file.empty() || !stream)
-        return {};
-    try {
-        return parse(std::string(std::istreambuf_iterator<char>(stream), {}));
-    } catch (const std::exception& error) {
-        note = file.string() + " is ignored, as it is broken: " + error.what();
-        return {};
-    }
+Preferences read_preferences(const fs::path& file, std::string& note) {
+    Condition ignored;
+    return read(file, note, ignored);
 }
 
-void write_preferences(const std::filesystem::path& file, const Preferences& p) {
-    std::filesystem::create_directories(file.parent_path());
+void write_preferences(const fs::path& file, const Preferences& p) {
+    fs::create_directories(file.parent_path());
     ordered_json json{{"window", {p.window.size.x, p.window.size.y}},
                       {"maximised", p.window.maximised},
                       {"panes", p.panes},
@@ -86,7 +117,38 @@ void write_preferences(const std::filesystem::path& file, const Preferences& p) 
                       {"recent_scenes", p.recent_scenes}};
     if (p.window.position)
         json["position"] = {p.window.position->x, p.window.position->y};
-    write_text(file, to_text(json, 2) + "\n");
+    write_text(fs::weakly_canonical(file), to_text(json, 2) + "\n"); // a link stays one
+}
+
+KeptPreferences claim_preferences(const fs::path& file) {
+    KeptPreferences kept;
+    Condition condition;
+    kept.preferences = read(file, kept.note, condition);
+    if (condition == Condition::fine)
+        return kept;
+    const fs::path aside = free_name(file.string() + ".broken");
+    std::error_code failed;
+    if (condition == Condition::broken)
+        fs::rename(file, aside, failed);
+    kept.can_be_replaced = condition == Condition::broken && !failed;
+    kept.note +=
+        kept.can_be_replaced ? "; it is now " + aside.string() : "; it stays as it is, and nothing is remembered";
+    return kept;
+}
+
+KeptPreferences store_preferences(const fs::path& file, Preferences preferences,
+                                  const std::vector<std::string>& opened) {
+    KeptPreferences kept = claim_preferences(file);
+    preferences.recent_scenes = std::move(kept.preferences.recent_scenes);
+    for (const std::string& scene : opened)
+        preferences.add_recent(scene);
+    kept.preferences = std::move(preferences);
+    try {
+        if (kept.can_be_replaced)
+            write_preferences(file, kept.preferences);
+    } catch (const std::exception&) { // a full disk is nothing to tell of here
+    }
+    return kept;
 }
 
 } // namespace tessera

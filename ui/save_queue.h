@@ -3,16 +3,29 @@
 #include "ui/background_job.h"
 
 #include <deque>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace tessera {
+
+/// What came of writing.
+struct Saved {
+    Saved(std::string saved, std::function<void()> afterwards = {})
+        : what(std::move(saved)), then(std::move(afterwards)) {}
+
+    std::string what;           ///< was saved, and where; empty: nothing that anybody need be told of
+    std::function<void()> then; ///< to be called by who polls; may be empty
+};
 
 /// Files to write, one after the other in the background, in the order of their wishes. Its end waits until all
 /// are written.
 class SaveQueue {
 public:
-    /// Writes; returns what was saved where, empty: what nobody need be told of. Throws std::exception.
-    using Work = std::function<std::string()>;
-    using Outcome = BackgroundJob<std::string>::Outcome;
+    /// Writes. Throws std::exception.
+    using Work = std::function<Saved()>;
+    using Outcome = BackgroundJob<Saved>::Outcome;
 
     SaveQueue() = default;
     ~SaveQueue();
@@ -38,7 +51,7 @@ private:
     void start_next();
 
     std::deque<Waiting> waiting_;
-    BackgroundJob<std::string> job_;
+    BackgroundJob<Saved> job_;
 };
 
 } // namespace tessera

@@ -75,8 +75,8 @@ public:
     /// first settings, which count once the scene is there.
     void drop(const std::vector<std::filesystem::path>& files);
 
-    /// Writes in the background, after what is being written already: a message then says "Saved " and what comes
-    /// back, or what was thrown.
+    /// Writes in the background, after what is being written already: a message then says "Saved " and what that
+    /// was, or what was thrown.
     void save(SaveQueue::Work write) { save_queue_.add(std::move(write), options_.wake); }
     bool saving() const { return save_queue_.running(); }
 
@@ -110,11 +110,13 @@ private:
     void fulfil_wishes();
     void load_settings(const std::filesystem::path& file);
     void fulfil_saves();
+    void take(const SaveQueue::Outcome& outcome);
     void save_exr();
     void save_view();
     void save_charts();
     void take_preferences();
-    void update_preferences();
+    Preferences current_preferences() const;
+    void take(const KeptPreferences& kept);
     void remember_later();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
@@ -139,7 +141,8 @@ private:
     ChartJob chart_job_;
     FileDialog file_dialog_;
     SaveQueue save_queue_;
-    Preferences preferences_;                // as in the file
+    Preferences preferences_;                // as the file last had them
+    std::string told_of_preferences_;        // the last note
     std::vector<std::string> opened_scenes_; // by this viewer, the last one last
     SceneLoad load_;
     SceneOrigin shown_; // where the scene on show is from

@@ -12,6 +12,7 @@
 #include "ui/viewer.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <utility>
 
@@ -115,9 +116,17 @@ void Viewer::fulfil_saves() {
         save_exr();
     if (std::exchange(state_.save_view, false))
         save_view();
-    if (const auto outcome = save_queue_.poll(); outcome && outcome->result != "")
-        state_.add_message(outcome->result ? Message::Kind::note : Message::Kind::error,
-                           outcome->result ? "Saved " + *outcome->result : outcome->error);
+    if (const auto outcome = save_queue_.poll())
+        take(*outcome);
+}
+
+void Viewer::take(const SaveQueue::Outcome& outcome) {
+    if (!outcome.result)
+        return state_.add_message(Message::Kind::error, outcome.error);
+    if (!outcome.result->what.empty())
+        state_.add_message(Message::Kind::note, "Saved " + outcome.result->what);
+    if (outcome.result->then)
+        outcome.result->then();
 }
 
 void Viewer::save_exr() {
@@ -169,15 +178,9 @@ void Viewer::save_charts() {
 void Viewer::take_preferences() {
     if (options_.preferences.empty())
         return;
-    std::string note;
-    preferences_ = read_preferences(options_.preferences, note);
-    if (!note.empty()) { // it will be written anew: what the user wrote there is kept aside
-        const std::filesystem::path aside = options_.preferences.string() + ".broken";
-        std::error_code failed;
-        std::filesystem::rename(options_.preferences, aside, failed);
-        state_.add_message(Message::Kind::note, failed ? note : note + "; it is now " + aside.string());
-    }
-    state_.recent_scenes = preferences_.recent_scenes;
+    const KeptPreferences kept = claim_preferences(options_.preferences);
+    preferences_ = kept.preferences;
+    take(kept);
     state_.window_place = preferences_.window; // until the window tells
     state_.theme = preferences_.theme;
     state_.text_factor = preferences_.text_factor;
@@ -189,45 +192,48 @@ void Viewer::take_preferences() {
     state_.show_charts = preferences_.show_charts;
 }
 
-void Viewer::update_preferences() {
-    // Another viewer may have opened scenes meanwhile.
-    std::string ignored;
-    preferences_.recent_scenes = read_preferences(options_.preferences, ignored).recent_scenes;
+/// What the file says of itself, and the scenes that other viewers have opened.
+void Viewer::take(const KeptPreferences& kept) {
+    if (!kept.note.empty() && kept.note != told_of_preferences_)
+        state_.add_message(Message::Kind::note, kept.note);
+    told_of_preferences_ = kept.note;
+    preferences_.recent_scenes = kept.preferences.recent_scenes;
+    state_.recent_scenes = current_preferences().recent_scenes; // more may have been opened meanwhile
+    state_.redraw = true;
+}
+
+Preferences Viewer::current_preferences() const {
+    Preferences now = preferences_;
     for (const std::string& scene : opened_scenes_)
-        preferences_.add_recent(scene);
-    state_.recent_scenes = preferences_.recent_scenes;
+        now.add_recent(scene);
     if (state_.window_size.x > 0) // it has been drawn
-        preferences_.window = state_.window_place;
-    preferences_.panes = static_cast<int>(state_.panes.size());
-    preferences_.theme = state_.theme;
-    preferences_.text_factor = state_.text_factor;
-    preferences_.panel_width = state_.panel_width;
-    preferences_.show_panel = state_.show_panel;
-    preferences_.show_statistics = state_.show_statistics;
-    preferences_.show_charts = state_.show_charts;
+        now.window = state_.window_place;
+    now.panes = static_cast<int>(state_.panes.size());
+    now.theme = state_.theme;
+    now.text_factor = state_.text_factor;
+    now.panel_width = state_.panel_width;
+    now.show_panel = state_.show_panel;
+    now.show_statistics = state_.show_statistics;
+    now.show_charts = state_.show_charts;
+    return now;
 }
 
 void Viewer::remember() {
     if (options_.preferences.empty())
         return;
-    update_preferences();
-    try {
-        write_preferences(options_.preferences, preferences_);
-    } catch (const std::exception&) { // a layout that cannot be remembered is no reason to fail
-    }
+    const KeptPreferences kept = store_preferences(options_.preferences, current_preferences(), opened_scenes_);
+    if (!kept.note.empty() && kept.note != told_of_preferences_) // there is nobody to read messages any more
+        std::fprintf(stderr, "%s\n", kept.note.c_str());
 }
 
-/// The disk may take its time.
+/// The disk may take its time, also to tell what other viewers have stored.
 void Viewer::remember_later() {
     if (options_.preferences.empty())
         return;
-    update_preferences();
-    save([file = options_.preferences, preferences = preferences_]() -> std::string {
-        try {
-            write_preferences(file, preferences);
-        } catch (const std::exception&) { // likewise
-        }
-        return {};
+    const Preferences now = current_preferences();
+    state_.recent_scenes = now.recent_scenes;
+    save([this, file = options_.preferences, now, opened = opened_scenes_] {
+        return Saved("", [this, kept = store_preferences(file, now, opened)] { take(kept); });
     });
 }
 

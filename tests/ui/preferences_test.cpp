@@ -4,10 +4,13 @@
 #include "tests/ui/viewer_harness.h"
 #include "ui/preferences.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <iterator>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +60,30 @@ TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
     EXPECT_EQ(read_preferences("viewer.json", note).panel_width, ViewerState::least_panel_width);
 }
 
+TEST(Preferences, WhatCannotBeReadIsIgnoredWithANote) {
+    CurrentFolder folder;
+    fs::create_directory("folder");
+    fs::create_symlink("nowhere", "link");
+    for (const char* file : {"folder", "link"}) {
+        std::string note;
+        EXPECT_TRUE(read_preferences(file, note) == Preferences{}) << file;
+        EXPECT_EQ(note.find(std::string(file) + " is ignored, as it cannot be read: "), 0u) << note;
+    }
+}
+
+TEST(Preferences, AreWrittenToWhereALinkLeads) {
+    CurrentFolder folder;
+    const fs::path file = folder.path / "viewer.json";
+    Preferences p;
+    std::ofstream("elsewhere.json") << "{}";
+    fs::create_symlink("elsewhere.json", file);
+    p.panes = 4;
+    write_preferences(file, p);
+    std::string note;
+    EXPECT_TRUE(fs::is_symlink(file));
+    EXPECT_EQ(read_preferences("elsewhere.json", note).panes, 4);
+}
+
 TEST(Preferences, FollowTheXdgSpecification) {
     const char* old = std::getenv("XDG_CONFIG_HOME");
     const std::string before = old ? old : "", home = std::getenv("HOME") ? std::getenv("HOME") : "/";
@@ -78,8 +105,7 @@ ViewerOptions remembering_in(const CurrentFolder& folder) {
 
 TEST(Remembered, LayoutAndRecentScenes) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
+    ViewerOptions options = remembering_in(folder);
     std::atomic<int> opened = 0;
     options.open = [&](const fs::path& file) {
         ++opened;
@@ -124,9 +150,9 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     write_preferences(options.preferences, of_another);
     h.viewer.drop({"/scenes/ours.xml"});
     h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.finish_saving();
     const std::vector<std::string> both{"/scenes/ours.xml", "/scenes/theirs.xml"};
     EXPECT_EQ(h.state().recent_scenes, both);
-    h.finish_saving();
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
 }
@@ -140,33 +166,97 @@ TEST(Remembered, NoFrameWaitsForTheDisk) {
         ready.wait();
         return std::string();
     });
-    h.viewer.drop({"/scenes/room.xml"}); // is to be remembered
+    Preferences of_another;
+    of_another.add_recent("/scenes/theirs.xml");
+    write_preferences(options.preferences, of_another);
+    std::vector<std::string> scenes{"/scenes/room.xml"};
+    h.viewer.drop({scenes.front()}); // is to be remembered
     h.wait_until([&] { return h.state().scenes_shown == 1; });
     h.frames(3);
-    EXPECT_FALSE(fs::exists(options.preferences)); // and yet there are frames
+    std::string note;
+    EXPECT_TRUE(read_preferences(options.preferences, note) ==
+                of_another);                    // not written, and yet there are frames
+    EXPECT_EQ(h.state().recent_scenes, scenes); // nor read
     disk.set_value();
     h.finish_saving();
-    std::string note;
-    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes,
-              std::vector<std::string>{"/scenes/room.xml"});
+    scenes.emplace_back("/scenes/theirs.xml");
+    EXPECT_EQ(h.state().recent_scenes, scenes);
+    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, scenes);
 }
 
-TEST(Remembered, ABrokenFileIsKeptAside) {
+/// How many messages have these words.
+long told(ViewerHarness& h, const std::string& words) {
+    const auto& messages = h.state().messages;
+    return std::count_if(messages.begin(), messages.end(),
+                         [&](const Message& m) { return m.text.find(words) != std::string::npos; });
+}
+
+std::string first_line(const fs::path& file) {
+    std::string line;
+    std::getline(std::ifstream(file), line);
+    return line;
+}
+
+TEST(Remembered, EveryBrokenFileIsKeptAside) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
-    std::ofstream(options.preferences) << "{\"theme\": light}";
-    {
+    const ViewerOptions options = remembering_in(folder);
+    const std::vector<std::pair<std::string, std::string>> broken{
+        {"{\"theme\": light}", ".broken"}, {"[1]", ".broken-2"}, {"[2]", ".broken-3"}};
+    for (const auto& [text, ending] : broken) {
+        std::ofstream(options.preferences) << text;
         ViewerHarness h({900, 600}, 1, options);
         h.load_scene();
-        EXPECT_NE(h.state().messages.front().text.find("it is now "), std::string::npos);
+        EXPECT_EQ(told(h, "it is now " + options.preferences.string() + ending), 1)
+            << h.state().messages.front().text;
     }
-    std::string text;
-    std::getline(std::ifstream(folder.path / "viewer.json.broken"), text);
-    EXPECT_EQ(text, "{\"theme\": light}");
+    for (const auto& [text, ending] : broken)
+        EXPECT_EQ(first_line(options.preferences.string() + ending), text);
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
     EXPECT_EQ(note, "");
+}
+
+TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
+    CurrentFolder folder;
+    const ViewerOptions options = remembering_in(folder);
+    ViewerHarness h({900, 600}, 1, options);
+    std::ofstream(options.preferences) << "[1]";
+    h.viewer.drop({"/scenes/room.xml"});
+    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.finish_saving();
+    EXPECT_EQ(told(h, "it is now "), 1);
+    EXPECT_EQ(first_line(options.preferences.string() + ".broken"), "[1]");
+    std::string note;
+    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 1u);
+}
+
+/// Something that cannot be read is in the preferences' place: it is told once, and nothing comes beside it.
+void expect_nothing_remembered(const CurrentFolder& folder) {
+    {
+        ViewerHarness h({900, 600}, 1, remembering_in(folder));
+        for (int n = 1; n <= 2; ++n) {
+            h.viewer.drop({"/scenes/room.xml"});
+            h.wait_until([&] { return h.state().scenes_shown == n; });
+            h.finish_saving();
+        }
+        EXPECT_EQ(told(h, "cannot be read"), 1);
+        EXPECT_EQ(h.state().recent_scenes, std::vector<std::string>{"/scenes/room.xml"});
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1);
+}
+
+TEST(Remembered, AFolderInTheFilesPlaceStays) {
+    CurrentFolder folder;
+    fs::create_directory("viewer.json");
+    expect_nothing_remembered(folder);
+    EXPECT_TRUE(fs::is_directory("viewer.json"));
+}
+
+TEST(Remembered, ALinkToNowhereStays) {
+    CurrentFolder folder;
+    fs::create_symlink("nowhere", "viewer.json");
+    expect_nothing_remembered(folder);
+    EXPECT_TRUE(fs::is_symlink("viewer.json"));
 }
 
 TEST(Remembered, WithoutACurrentFolderNothingEnds) {
@@ -192,8 +282,7 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
 
 TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {
     CurrentFolder folder;
-    ViewerOptions options = ViewerHarness::two_panes();
-    options.preferences = folder.path / "viewer.json";
+    const ViewerOptions options = remembering_in(folder);
     {
         ViewerHarness h({900, 600}, 1, options);
         h.frames(2);

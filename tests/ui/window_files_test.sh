@@ -4,10 +4,7 @@
 #   window_files_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
-if [ -z "${TESSERA_WINDOW_TEST_INSIDE:-}" ]; then
-    TESSERA_WINDOW_TEST_INSIDE=1 exec xvfb-run -a -s "-screen 0 1280x800x24" "$0" "$@"
-fi
-
+source "$(dirname "$0")/virtual_display.sh"
 assets=$(realpath "$(dirname "$0")/../../assets")
 source "$(dirname "$0")/real_window.sh"
 need xdotool import convert

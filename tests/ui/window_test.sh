@@ -4,57 +4,13 @@
 #   window_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
-if [ -z "${TESSERA_WINDOW_TEST_INSIDE:-}" ]; then
-    TESSERA_WINDOW_TEST_INSIDE=1 exec xvfb-run -a -s "-screen 0 1280x800x24" "$0" "$@"
-fi
-
+source "$(dirname "$0")/virtual_display.sh"
 source "$(dirname "$0")/real_window.sh"
 need xdotool xprop import convert
-
-# --- what can be done ---
-
-# Where a control lies, as last logged: x0 y0 x1 y1.
-rect_of() {
-    wait_for "^control $1 "
-    grep -E "^control $1 " "$log" | tail -1 | cut -d ' ' -f 3-6
-}
-
-# Its middle.
-place_of() { rect_of "$1" | awk '{ print int(($1 + $3) / 2), int(($2 + $4) / 2) }'; }
-
-click() {
-    xdotool mousemove $(place_of "$1")
-    sleep 0.2
-    xdotool click 1
-}
-
-# Drags with the left button, in four steps of ($3, $4) from ($1, $2).
-drag() {
-    xdotool mousemove "$1" "$2" mousedown 1
-    for step in 1 2 3 4; do
-        xdotool mousemove $(($1 + $3 * step)) $(($2 + $4 * step))
-        sleep 0.05
-    done
-    xdotool mouseup 1
-}
-
-# --- what can be seen ---
-
-# A control's part of the screen, for convert.
-part_of() { rect_of "$1" | awk '{ printf "%dx%d+%d+%d", $3 - $1, $4 - $2, $1, $2 }'; }
-
-# Mean distance, 0 to 1, of two pictures of the screen in a part of it.
-distance() {
-    convert "$work/$1.png" "$work/$2.png" -crop "$3" +repage -compose difference -composite -colorspace Gray \
-        -format '%[fx:mean]' info:
-}
 
 shows_a_picture() {
     more_than "$(brightness "$work/$1.png" "$(part_of pane1.picture)")" 0.05 || fail "the picture is black: $1"
 }
-
-# The file whose name ends so.
-saved() { ls "$work"/*"$1" 2>/dev/null || fail "nothing was saved: $1"; }
 
 # --- start ---
 

@@ -1,0 +1,126 @@
+#!/bin/bash
+# The real viewer under a virtual display, and what it shows beside plain pictures: the slow motion, errors to a
+# reference, charts; and settings that are saved and taken back. The panes rest at a few samples, so that pictures can
+# be compared to the bit.
+#   window_insides_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
+set -u
+
+source "$(dirname "$0")/virtual_display.sh"
+scene=$(realpath "$(dirname "$0")/../../assets/cornell-box.xml")
+source "$(dirname "$0")/real_window.sh"
+need xdotool import convert
+
+spp=8
+all_samples() { # of both panes, in a request later than that line of the log
+    wait_for "^pane 0 spp $spp\$" "$1"
+    wait_for "^pane 1 spp $spp\$" "$1"
+}
+
+# Whether two pictures of the screen are the same in the right pane, or differ there.
+same() { [ "$(distance "$1" "$2" "$picture")" = 0 ] || fail "the pictures differ: $1, $2"; }
+differ() { more_than "$(distance "$1" "$2" "$picture")" "$3" || fail "the pictures do not differ: $1, $2"; }
+
+# The share of a control's part of a picture that is colourful, as lines of charts are.
+colourful() {
+    convert "$work/$1.png" ${2:+-crop "$(part_of "$2")"} -colorspace HSL -channel G -separate -threshold 40% \
+        -format '%[fx:mean]' info:
+}
+
+# Opens a file of the current folder in the dialog that this key brings.
+choose() {
+    press "$1" "^control file/$2 "
+    click "file/$2"
+    click file.open
+}
+
+"$tessera" reference "$scene" --size 64x48 --spp 16 -o "$work/reference.exr" >"$work/made" 2>&1 ||
+    fail "$(cat "$work/made")"
+start_viewer "$scene" --size 64x48 --spp $spp
+all_samples 1
+picture=$(part_of pane1.picture)
+xdotool mousemove $(place_of pane0.picture)
+look_at_rest rest
+
+# --- the slow motion: it plays by itself, steps by key, and gives the picture back ---
+
+from=$(next_line)
+press j '^slow motion on$'
+wait_for '^slow motion at tile .* path [2-9]' "$from"
+xdotool key greater # and it waits there
+look_at_rest slow
+differ rest slow 0.05
+path=$(grep '^slow motion at ' "$log" | tail -1 | grep -o '[0-9]*$')
+press greater "^slow motion at tile .* path $((path + 1))\$"
+look_at_rest step
+differ slow step 0.0005
+more_than "$(distance slow step "$(part_of slow.progress)")" 0 || fail "the slow motion's panel does not go on"
+press less "^slow motion at tile .* path $path\$"
+look_at_rest back
+same slow back
+press j '^slow motion off$'
+look_at_rest ended
+same rest ended
+
+# --- errors: none without a reference; with one, they are shown ---
+
+press 7 '^pane 1 buffer relMSE$'
+look_at_rest unknown
+grep -q '^control pane1.legend ' "$log" && fail "there are errors without a reference"
+from=$(next_line)
+choose ctrl+r reference.exr
+wait_for '^control pane1.legend ' "$from"
+look_at_rest errors
+differ unknown errors 0.02
+more_than "$(brightness "$work/errors.png" "$picture")" 0.1 || fail "all errors are zero"
+
+# --- charts: drawn, and saved with the errors that tessera compare finds, too ---
+
+press h '^charts on$'
+wait_for '^control charts.figures1 '
+from=$(next_line)
+xdotool key r # for more than one point
+all_samples "$from"
+look_at_rest charts
+more_than "$(colourful charts charts.error)" 0.001 || fail "there are no lines in the chart"
+press z '^messages '
+csv=$(saved -charts.csv) || exit 1
+svg=$(saved -charts.svg) || exit 1
+png=$(saved -charts.png) || exit 1
+keep "$png"
+mv "$png" "$work/charts-saved.png"
+more_than "$(colourful charts-saved)" 0.001 || fail "there are no lines in the chart that was saved"
+grep -q '<polyline' "$svg" && tail -1 "$svg" | grep -q '</svg>' || fail "the chart that was saved is no whole SVG"
+press ctrl+e '^messages '
+exr=$(saved -gpr.exr) || exit 1
+"$tessera" compare "$exr" "$work/reference.exr" >"$work/compared" || fail "the saved files cannot be compared"
+error_in_chart() { awk -F, -v pane=$1 -v spp=$spp '$1 == pane && $6 == spp { error = $8 } END { print error }' "$csv"; }
+echo "relMSE in the chart: PT $(error_in_chart 1), G-PR $(error_in_chart 2)"
+awk -v chart="$(error_in_chart 2)" '/floor-free/ { off = chart / $3 - 1 } END { exit !(off != "" && off ^ 2 < 1e-6) }' \
+    "$work/compared" || fail "the chart has another error than: $(cat "$work/compared")"
+more_than "$(error_in_chart 1)" "$(error_in_chart 2)" || fail "PT has no larger error than G-PR"
+press h '^charts off$'
+
+# --- settings: saved, everything changed, and taken back ---
+
+press 1 '^pane 1 buffer reconstruction$'
+press plus '^exposure 0.5$'
+press ctrl+p '^messages '
+settings=$(saved -settings.json) || exit 1
+look_at_rest settings
+press 0 '^exposure 0$'
+press m '^pane 1 method pt$'
+press ctrl+4 '^panes 4$'
+look_at_rest changed
+differ settings changed 0.01
+from=$(next_line)
+choose ctrl+l "${settings##*/}"
+wait_for '^panes 2$' "$from"
+wait_for '^exposure 0.5$' "$from"
+wait_for '^pane 1 method gpr$' "$from"
+wait_for "^pane 1 spp $spp\$" "$from"
+look_at_rest loaded
+same settings loaded
+
+xdotool key ctrl+q
+expect_end "ctrl+q" 0
+echo passed
