@@ -172,8 +172,7 @@ std::string cause_of_worse(const Findings& f) {
 } // namespace
 
 bool is_linear(const Point& point) {
-    const Norm norm = point.settings.reconstruction.norm;
-    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
+    return is_linear(point.settings.reconstruction.norm);
 }
 
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level) {

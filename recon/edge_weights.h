@@ -18,7 +18,8 @@ struct EdgeWeights {
 /// one more estimate of the pixel, which counts with the inverse of its variance. Against the primal this is
 /// V_primal / V_gradient, but nobody should trust a gradient without limit, as rare paths that matter may not have
 /// been seen yet: alpha^2 is the least ratio V_gradient / V_primal that is believed,
-///     w / alpha^2 = 1 / (alpha^2 + k V_gradient / V_primal) .
+///     w / alpha^2 = 1 / (alpha^2 + k V_gradient / V_primal) ,
+/// where V_primal is the geometric mean of those of both pixels.
 /// With one weight for both sides of a gradient, what one pixel gets from it is what the other loses: no light is
 /// lost.
 ///

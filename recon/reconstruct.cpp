@@ -47,8 +47,6 @@ float alpha_of_patches(float alpha, float patch) {
     return alpha / std::sqrt(patch);
 }
 
-} // namespace
-
 /// Solvers go below black next to strong edges: radiance is not negative, unless the primal says so.
 void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     parallel_for(image.height(), [&](int y) {
@@ -57,10 +55,7 @@ void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& p
     });
 }
 
-/// Whether the image is a linear function of primal and gradients, and so as unbiased as they are.
-bool is_linear(Norm norm) {
-    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
-}
+} // namespace
 
 /// The solvers of one size; each is made when it is first asked for.
 struct Reconstructor::Solvers {
@@ -112,6 +107,10 @@ std::optional<Norm> norm_from_name(std::string_view name) {
         if (to_string(norm) == name)
             return norm;
     return {};
+}
+
+bool is_linear(Norm norm) {
+    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
 }
 
 /// All but very direct light and time.

@@ -11,10 +11,10 @@
 
 namespace tessera {
 
-/// mixed: L1 of the gradients, L2 of the primal, which keeps the primal's mean. uniform:
-/// averages of neighbours (average_neighbours; alpha does not matter). weighted: L2, where gradients count the
-/// less the noisier they are (weights_of_gradients); l2 if variances are unknown. The linear ones, none, l2 and
-/// uniform, are as unbiased as what they are given; the others are nowhere below black.
+/// mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours (average_neighbours; alpha does
+/// not matter). weighted: L2, where gradients count the less the noisier they are (weights_of_gradients); l2 if
+/// variances are unknown. All but l1 keep the primal's mean, until what l1, mixed and weighted leave below black
+/// is lifted to it, unless the primal is below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted };
 
 /// All of them, in the order above.
@@ -25,6 +25,9 @@ inline constexpr std::array all_norms = {Norm::none,  Norm::l2,      Norm::l1,
 std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
+
+/// Whether the image is a linear function of primal and gradients, and so as unbiased as they are.
+bool is_linear(Norm norm);
 
 struct ReconstructionSettings {
     Norm norm = Norm::weighted;

@@ -126,10 +126,11 @@ KeptPreferences claim_preferences(const fs::path& file) {
     kept.preferences = read(file, kept.note, condition);
     if (condition == Condition::fine)
         return kept;
-    const fs::path aside = free_name(file.string() + ".broken");
     std::error_code failed;
-    if (condition == Condition::broken)
-        fs::rename(file, aside, failed);
+    const fs::path target = fs::canonical(file, failed); // a link stays one
+    const fs::path aside = free_name(target.string() + ".broken");
+    if (condition == Condition::broken && !failed)
+        fs::rename(target, aside, failed);
     kept.can_be_replaced = condition == Condition::broken && !failed;
     kept.note +=
         kept.can_be_replaced ? "; it is now " + aside.string() : "; it stays as it is, and nothing is remembered";
@@ -139,7 +140,8 @@ KeptPreferences claim_preferences(const fs::path& file) {
 KeptPreferences store_preferences(const fs::path& file, Preferences preferences,
                                   const std::vector<std::string>& opened) {
     KeptPreferences kept = claim_preferences(file);
-    preferences.recent_scenes = std::move(kept.preferences.recent_scenes);
+    if (kept.note.empty()) // other viewers' too
+        preferences.recent_scenes = std::move(kept.preferences.recent_scenes);
     for (const std::string& scene : opened)
         preferences.add_recent(scene);
     kept.preferences = std::move(preferences);

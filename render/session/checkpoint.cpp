@@ -72,11 +72,15 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     return checkpoint;
 }
 
-void restore(const Checkpoint& checkpoint, const Memory& memory) {
+bool fits(const Checkpoint& checkpoint, const Memory& memory) {
     std::size_t size = 0;
     for (std::span<std::byte> piece : memory)
         size += piece.size();
-    if (size != checkpoint.state.size())
+    return size == checkpoint.state.size();
+}
+
+void restore(const Checkpoint& checkpoint, const Memory& memory) {
+    if (!fits(checkpoint, memory))
         throw std::runtime_error("the checkpoint is of another size");
     auto next = checkpoint.state.begin();
     for (std::span<std::byte> piece : memory) {

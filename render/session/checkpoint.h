@@ -20,6 +20,9 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
 /// Throws std::runtime_error that names the file where it is no checkpoint, or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
+/// Whether the memory has the size that it had when the checkpoint was written.
+bool fits(const Checkpoint& checkpoint, const Memory& memory);
+
 /// Fills the memory, which must have the sizes that it had when the checkpoint was written. Throws
 /// std::runtime_error where it has not, and has then written nothing.
 void restore(const Checkpoint& checkpoint, const Memory& memory);

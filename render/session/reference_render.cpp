@@ -111,9 +111,14 @@ void ReferenceRender::write() {
 void ReferenceRender::resume() {
     const std::filesystem::path file = reference_checkpoint(output_);
     const Checkpoint checkpoint = read_checkpoint(file);
-    if (const std::string difference = identity_difference(checkpoint.identity, identity_); !difference.empty())
+    const auto refuse = [&](const std::string& what) {
         throw std::runtime_error(
-            fmt::format("{} is of {}; without that file the reference is begun anew", file.string(), difference));
+            fmt::format("{} is of {}; without that file the reference is begun anew", file.string(), what));
+    };
+    if (const std::string difference = identity_difference(checkpoint.identity, identity_); !difference.empty())
+        refuse(difference);
+    if (!fits(checkpoint, memory()))
+        refuse("another version of the program");
     restore(checkpoint, memory());
     if (spp() > recipe_.spp + 1)
         throw std::runtime_error(

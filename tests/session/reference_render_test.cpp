@@ -1,4 +1,5 @@
 // References in the making: what ends them early changes no bit.
+#include "render/session/checkpoint.h"
 #include "render/session/reference_render.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
@@ -100,6 +101,17 @@ TEST_F(References, AnotherCameraIsAnotherPicture) {
     recipe.settings.max_depth = 3;
     recipe.spp = 2;
     EXPECT_THAT(refusal("a.exr"), HasSubstr("has 4 spp already, and 2 are asked for"));
+}
+
+/// What a version of the program keeps may be of another size than what the next one keeps.
+TEST_F(References, AnotherVersionsCheckpointIsRefused) {
+    run_to("a.exr", 4);
+    const fs::path checkpoint = reference_checkpoint(file("a.exr"));
+    Checkpoint old = read_checkpoint(checkpoint);
+    old.state.resize(old.state.size() - 16);
+    write_checkpoint(checkpoint, old.identity, {std::span(old.state)});
+    EXPECT_THAT(refusal("a.exr"), HasSubstr("a.exr.checkpoint is of another version of the program"));
+    EXPECT_TRUE(fs::exists(checkpoint));
 }
 
 TEST_F(References, TheFileSaysFromWhere) {

@@ -219,6 +219,7 @@ TEST(Remembered, EveryBrokenFileIsKeptAside) {
 TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
+    std::ofstream(options.preferences) << R"({"recent_scenes": ["/a.xml"]})";
     ViewerHarness h({900, 600}, 1, options);
     std::ofstream(options.preferences) << "[1]";
     h.viewer.drop({"/scenes/room.xml"});
@@ -227,7 +228,7 @@ TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     EXPECT_EQ(told(h, "it is now "), 1);
     EXPECT_EQ(first_line(options.preferences.string() + ".broken"), "[1]");
     std::string note;
-    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 1u);
+    EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 2u);
 }
 
 /// Something that cannot be read is in the preferences' place: it is told once, and nothing comes beside it.
