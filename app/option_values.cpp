@@ -2,6 +2,7 @@
 
 #include "app/exit_codes.h"
 
+#include <charconv>
 #include <cstdio>
 #include <optional>
 
@@ -56,11 +57,16 @@ std::vector<Method> parse_methods(const std::string& text) {
 }
 
 SampleChoice parse_sample(const std::string& option, const std::string& text) {
-    int x = 0, y = 0, pass = 0, used = 0;
-    if (std::sscanf(text.c_str(), "%d,%d,%d%n", &x, &y, &pass, &used) != 3 ||
-        used != static_cast<int>(text.size()) || x < 0 || y < 0 || pass < 0)
-        throw BadInput(fmt::format("{} {}: must be X,Y,PASS, such as 120,45,0", option, text));
-    return {0, {x, y}, pass};
+    const char *at = text.data(), *const end = at + text.size();
+    int numbers[3] = {};
+    for (int i = 0; i < 3; ++i) {
+        const auto [rest, error] = std::from_chars(at, end, numbers[i]); // refuses what an int cannot hold
+        const bool ends_well = i == 2 ? rest == end : rest != end && *rest == ',';
+        if (error != std::errc() || numbers[i] < 0 || !ends_well)
+            throw BadInput(fmt::format("{} {}: must be X,Y,PASS, such as 120,45,0", option, text));
+        at = rest + 1;
+    }
+    return {0, {numbers[0], numbers[1]}, numbers[2]};
 }
 
 } // namespace tessera

@@ -199,6 +199,8 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     const int result = run_view(options);
     if (result != view_needs_display)
         return result;
+    if (options.sample)
+        throw BadInput(fmt::format("There is no display to open --inspect {} on", words.sample));
     ContactSheetOptions sheet;
     sheet.scene = source;
     sheet.threads = threads;

@@ -1,6 +1,7 @@
 #include "app/refused_samples.h"
 
 #include "app/setting_options.h"
+#include "ui/render_size.h"
 
 #include <algorithm>
 #include <string_view>
@@ -26,6 +27,8 @@ std::string shell_word(const std::string& text) {
 } // namespace
 
 std::string inspect_command(const SceneSource& source, const Render& render, const RefusedSample& sample) {
+    if (std::max(render.size().x, render.size().y) > most_render_pixels_an_edge)
+        return "";
     const RenderSettings& settings = render.settings();
     RenderSettings usual;
     usual.max_depth = std::min(render.scene()->max_depth(), most_edges);
@@ -48,19 +51,22 @@ void warn_of_refused(const SceneSource& source, const Render& render) {
     const auto first = render.counters().first_refused.list();
     if (first.empty())
         return;
-    fmt::print(stderr, "warning: {}\nThe same scene, size, settings and seed open it in the viewer:\n    {}\n",
-               refused_text(render.counters(), render.settings().seed),
-               inspect_command(source, render, first.front()));
+    const std::string command = inspect_command(source, render, first.front());
+    fmt::print(stderr, "warning: {}\n{}\n", refused_text(render.counters(), render.settings().seed),
+               command.empty()
+                   ? fmt::format("The viewer cannot open it: its pictures have up to {} pixels an edge.",
+                                 most_render_pixels_an_edge)
+                   : "The same scene, size, settings and seed open it in the viewer:\n    " + command);
 }
 
 nlohmann::json refused_json(const SceneSource& source, const Render& render) {
     nlohmann::json list = nlohmann::json::array();
-    for (const RefusedSample& sample : render.counters().first_refused.list())
-        list.push_back({{"x", sample.x},
-                        {"y", sample.y},
-                        {"pass", sample.pass},
-                        {"seed", render.settings().seed},
-                        {"inspect", inspect_command(source, render, sample)}});
+    for (const RefusedSample& sample : render.counters().first_refused.list()) {
+        list.push_back(
+            {{"x", sample.x}, {"y", sample.y}, {"pass", sample.pass}, {"seed", render.settings().seed}});
+        if (const std::string command = inspect_command(source, render, sample); !command.empty())
+            list.back()["inspect"] = command;
+    }
     return list;
 }
 

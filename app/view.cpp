@@ -77,7 +77,7 @@ private:
             if (message.kind == Message::Kind::error)
                 return fail(message.text);
         }
-        if (!viewer_.settled(viewer_.state().pace.spp_limit) || viewer_.inspecting())
+        if (!viewer_.settled(viewer_.state().pace.spp_limit) || viewer_.inspecting() || !viewer_.all_drawn())
             return true;
         try {
             const ScreenPixels screen = read_screen(surface_.pixels());

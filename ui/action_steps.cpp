@@ -61,11 +61,15 @@ void toggle_inspector(ViewerState& state) {
 
 void open_sample_form(ViewerState& state) {
     SampleForm& form = state.sample_form;
-    if (const auto& inspection = state.inspector.inspection) {
-        form.pixel = inspection->pixel;
-        form.pass = inspection->pass;
-    }
     form.seed = state.active().settings.render.seed;
+    if (const auto& sample = state.inspector.sample) {
+        form.pixel = sample->pixel;
+        if (const auto& inspection = state.inspector.inspection)
+            form.pass = inspection->pass;
+        form.pass = sample->pass.value_or(form.pass);
+        if (sample->origin)
+            form.seed = sample->origin->settings.seed;
+    }
     form.show = true;
 }
 

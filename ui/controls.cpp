@@ -28,7 +28,8 @@ void draw_tooltip(const char* text) {
     ImGui::EndTooltip();
 }
 
-// Typed values go through here: "nan" is no number, and infinity is beyond every range.
+// Typed values go through here: "nan" is no number, and infinity is beyond every range. What the user has not
+// touched stays: options and files may go beyond a slider's ends.
 void keep_within(float& value, float before, float least, float most) {
     value = std::isnan(value) ? before : std::clamp(value, least, most);
 }
@@ -104,7 +105,8 @@ bool Controls::slider(const char* id, const char* label_text, int& value, int le
     label(label_text);
     const bool changed =
         ImGui::SliderInt(hidden_label(id).c_str(), &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
-    value = std::clamp(value, least, most);
+    if (changed)
+        value = std::clamp(value, least, most);
     note(id, help);
     return changed;
 }
@@ -113,8 +115,8 @@ bool Controls::slider(const char* id, const char* label_text, float& value, floa
                       const char* format, const char* help) {
     label(label_text);
     const float before = value;
-    ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
-    keep_within(value, before, least, most);
+    if (ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp))
+        keep_within(value, before, least, most);
     note(id, help);
     return value != before;
 }
@@ -123,9 +125,10 @@ bool Controls::log_slider(const char* id, const char* label_text, float& value, 
                           const char* help) {
     label(label_text);
     const float before = value;
-    ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, least == 0 && value == 0 ? "off" : "%.3g",
-                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-    keep_within(value, before, least, most);
+    if (ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most,
+                           least == 0 && value == 0 ? "off" : "%.3g",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+        keep_within(value, before, least, most);
     note(id, help);
     return value != before;
 }

@@ -1,6 +1,7 @@
 #include "ui/inspection_job.h"
 
 #include "render/method/plan_replay.h"
+#include "render/session/thread_priority.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
@@ -31,6 +32,10 @@ void InspectionJob::take(ViewerState& state) {
     if (!outcome)
         return;
     Inspector& inspector = state.inspector;
+    if (inspector.sample != asked_.sample) { // another was chosen since
+        asked_ = {};
+        return;
+    }
     const Found found = outcome->result.value_or(Found{});
     const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked_.sample.slot &&
                          inspector.inspection->pixel == found.inspection->pixel;
@@ -105,6 +110,7 @@ void InspectionJob::update(ViewerState& state, const std::function<void()>& wake
     if (sample.pass && !is_within(sample.pixel, origin->size)) {
         give_up();
         inspector.sample.reset();
+        inspector.inspection.reset(); // where the picture was larger before
         return state.add_message(Message::Kind::error, outside_text(sample.pixel, origin->size));
     }
     const Asked wanted{origin->generation, sample, pass_of(state, *origin, sample)};
@@ -118,8 +124,11 @@ void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const
     const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), origin->size - 1);
     job_.start(
         [origin, pixel, pass = wanted.pass](std::stop_token stop) {
+            work_in_background();
             const PassOrigin& o = *origin;
             const ReusePlan plan = plan_of(o, pass, pixel, stop);
+            if (stop.stop_requested())
+                return Found{};
             return Found{std::make_shared<const Inspection>(
                              inspect(*o.scene, o.camera, o.size, o.settings, plan, pass, pixel)),
                          o.scene->radius()};

@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 /// "sample", if it is a pixel of what a pane shows.
 void add_sample(ordered_json& json, const std::optional<SampleChoice>& sample, const ViewerState& state) {
     const PaneState* pane = sample ? state.pane_in(sample->slot) : nullptr;
-    if (!pane || (sample->origin && !is_on_show(*sample->origin, state)))
+    if (!pane || (sample->origin && !is_on_show(sample->origin->generation, state)))
         return;
     json["sample"] = {{"pane", pane - state.panes.data() + 1}, {"x", sample->pixel.x}, {"y", sample->pixel.y}};
     if (sample->pass)

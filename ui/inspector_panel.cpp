@@ -39,7 +39,7 @@ const char* waiting_text(const Inspector& inspector) {
                                     : "waiting for the first whole pass";
 }
 
-/// `is_elsewhere`: of a request that no pane shows.
+/// `is_elsewhere`: the inspection is of a request that no pane shows, or none any more.
 void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
     static const std::vector<ChoiceItem> directions = {
         {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
@@ -81,9 +81,7 @@ void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerSta
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Path inspector", nullptr, overlay_flags | ImGuiWindowFlags_NoScrollWithMouse)) {
-        draw_top_row(controls, inspector,
-                     inspector.sample && inspector.sample->origin &&
-                         !is_on_show(*inspector.sample->origin, state));
+        draw_top_row(controls, inspector, !is_on_show(inspector.generation, state));
         if (inspector.inspection) {
             const ImVec2 room = ImGui::GetContentRegionAvail();
             const float gap = ImGui::GetStyle().ItemSpacing.x;

@@ -41,9 +41,9 @@ void draw_sets(const PictureFrame& frame, const Inspector& inspector) {
 
 } // namespace
 
-bool is_on_show(const PassOrigin& origin, const ViewerState& state) {
+bool is_on_show(std::uint64_t generation, const ViewerState& state) {
     return std::any_of(state.panes.begin(), state.panes.end(),
-                       [&](const PaneState& pane) { return pane.generation == origin.generation; });
+                       [&](const PaneState& pane) { return pane.generation == generation; });
 }
 
 std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector) {
@@ -77,7 +77,7 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
         draw_base_path(lines, inspector.inspection->path, 0.5f * radius);
     }
     // One of an earlier request lies elsewhere in what the panes show now.
-    if (!inspector.sample->origin || is_on_show(*inspector.sample->origin, state))
+    if (!inspector.sample->origin || is_on_show(inspector.sample->origin->generation, state))
         mark_pixel(frame, inspector.sample->pixel, state.request_size(), colours::overlay_accent);
     list.PopClipRect();
 }

@@ -8,8 +8,8 @@ namespace tessera {
 /// Those of the shifts of an inspection that are shown.
 std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector);
 
-/// Whether a pane still shows the request.
-bool is_on_show(const PassOrigin& origin, const ViewerState& state);
+/// Whether a pane still shows the request of that generation.
+bool is_on_show(std::uint64_t generation, const ViewerState& state);
 
 /// Draws the inspected sample over the picture of its pane: the base path in white, light samples in yellow, and
 /// the shifts that are shown, in the colours of their outcomes, as the pixels that they come from or go to are;

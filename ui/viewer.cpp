@@ -240,7 +240,7 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
 }
 
 double Viewer::next_frame_in() const {
-    if (flying_ || state_.slow_motion.is_playing() || state_.redraw || frames_due_ > 0)
+    if (flying_ || state_.slow_motion.is_playing() || !all_drawn())
         return 0;
     const bool reconstructs =
         std::any_of(state_.panes.begin(), state_.panes.end(), [](const PaneState& p) { return p.reconstructing; });

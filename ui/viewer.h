@@ -103,6 +103,9 @@ public:
     /// Whether every pane shows `spp` samples a pixel of what is now asked for, and their reconstruction.
     bool settled(int spp) const;
 
+    /// Whether the last frame showed all that had come by its end.
+    bool all_drawn() const { return !state_.redraw && frames_due_ == 0; }
+
 private:
     void take_scene();
     void show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin);

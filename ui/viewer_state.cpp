@@ -141,6 +141,8 @@ void ViewerState::add_refused(const std::string& whose, const Counters& counters
     const RefusedSample& first = counters.first_refused.list().front();
     add_message(Message::Kind::note, whose + ": " + refused_text(counters, origin.settings.seed),
                 Message::Origin::scene);
+    if (origin.scene != scene) // replaced by now: it would be kept as long as the new one's messages are
+        return;
     messages.back().sample =
         SampleChoice{slot, {first.x, first.y}, first.pass, std::make_shared<const PassOrigin>(origin)};
 }

@@ -245,8 +245,9 @@ struct ViewerState {
     /// Adds a message; an error opens the list at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
 
-    /// A note of the scene on samples that a render refused, the first of which can be inspected; none, if there
-    /// are none. `whose` begins it; `slot` is of the pane that rendered it, or is to be followed later.
+    /// A note of the scene on samples that a render refused, the first of which can be inspected if the scene is
+    /// still on show; none, if there are none. `whose` begins it; `slot` is of the pane that rendered it, or is to
+    /// be followed later.
     void add_refused(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
 
     /// Takes away the messages of that origin. Closes the list if that leaves no error of some.

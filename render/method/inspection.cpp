@@ -51,10 +51,13 @@ InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2
 }
 
 /// Whether the film refuses what the pixel got: its light, or a difference to that of a neighbour.
-bool is_refused(const InspectedSet& set, glm::ivec2 pixel, Method method) {
+bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
+    // The image's last pixel has no neighbours: with base paths as the primal, nothing is made of what it got.
+    if (settings.method == Method::gpr && settings.primal == PrimalSource::base && pixel == set.pixels.back())
+        return false;
     const auto is_bad = [&](glm::ivec2 p) { return set.index_of(p) >= 0 && !is_finite(set.radiance(p)); };
-    return is_bad(pixel) ||
-           (has_gradients(method) && (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
+    return is_bad(pixel) || (has_gradients(settings.method) &&
+                             (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
 }
 
 } // namespace
@@ -111,7 +114,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
             result.sets.push_back(look_at(pass, inner, pixel, worker));
     });
     for (const InspectedSet& set : result.sets)
-        result.is_refused = result.is_refused || is_refused(set, pixel, settings.method);
+        result.is_refused = result.is_refused || is_refused(set, pixel, settings);
     return result;
 }
 

@@ -7,7 +7,7 @@ namespace tessera {
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                       int pass, glm::ivec2 pixel, std::stop_token stop) {
     ReusePlan plan(size, settings);
-    if (!settings.adapt_tile || !has_tiles_to_cut(settings))
+    if (!settings.adapt_tile || !has_tiles_to_cut(settings) || settings.tile == 1)
         return plan;
     const PixelRect seen = plan.evidence(TileGrid(size, settings, plan, pass).tile_at(pixel));
     Worker worker(scene, settings);

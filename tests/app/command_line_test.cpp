@@ -214,6 +214,13 @@ TEST_F(CommandLine, WithoutADisplayThereIsAPicture) {
     EXPECT_GT(fs::file_size(folder_ / "contact-sheet.png"), 1000u);
 }
 
+TEST_F(CommandLine, WithoutADisplayNoSampleIsOpened) {
+    const Outcome o = run(folder_, "view box.xml --size 48x32 --inspect 1,2,0 --seconds 0.2");
+    EXPECT_EQ(o.exit_code, 2) << o.output;
+    EXPECT_NE(o.output.find("no display to open --inspect 1,2,0"), std::string::npos) << o.output;
+    EXPECT_FALSE(fs::exists(folder_ / "contact-sheet.png"));
+}
+
 TEST_F(CommandLine, InfoTellsWhatIsThere) {
     write("odd.xml", "<scene version=\"3.0.0\">\n<bsdf type='velvet' id='a'/>\n<bsdf type='velvet' id='b'/>\n"
                      "<shape type='cube'><bsdf type='dielectric'/></shape></scene>");

@@ -54,6 +54,12 @@ TEST(InspectCommand, IsForAShell) {
               "--inspect 7,2,5");
 }
 
+TEST(InspectCommand, IsNoneForPicturesThatTheViewerHasNot) {
+    const auto scene = Room().build();
+    const Render render(scene, scene->camera(), {9000, 1}, usual());
+    EXPECT_EQ(inspect_command({"box.xml", {}, {}}, render, sample), "");
+}
+
 /// The Cornell box with a light beyond what floats hold.
 class RefusedSamples : public testing::Test {
 protected:
@@ -125,6 +131,7 @@ TEST_F(RefusedSamples, OptionsOfTheViewerAreChecked) {
         {"--inspect 7,2", "--inspect 7,2: must be X,Y,PASS"},
         {"--inspect 7,2,-1", "must be X,Y,PASS"},
         {"--inspect 7,2,0,9", "must be X,Y,PASS"},
+        {"--inspect 0,0,4294967296", "must be X,Y,PASS"},
         {"--inspect 7,2,0 --size 9000x16", "from 1 to 8192"},
         {"-m gpr,pt,pr,gpt,pt", "up to 4 panes"},
         {"-m bdpt", "bdpt"},

@@ -85,6 +85,13 @@ RenderSettings reconnection() {
     return settings;
 }
 
+/// There is nothing to be learnt: billions of passes take no time.
+TEST(PlanReplayOfSingles, IsThereAtOnce) {
+    const auto scene = half_lit_room();
+    const RenderSettings settings = settings_of(Method::gpr, 1);
+    replay_plan(*scene, scene->camera(), size, settings, 2000000000, {3, 4});
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,
                          testing::Values(settings_of(Method::pt), settings_of(Method::pr),
                                          settings_of(Method::gpt), settings_of(Method::gpr), rooks(),

@@ -64,13 +64,10 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
 }
 
 /// Every sample of a short render, taken again from what names it: those that were refused are found to be so.
-TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
-    RenderSettings settings;
-    settings.method = GetParam();
+void expect_found_again(RenderSettings settings, glm::ivec2 small) {
     settings.max_depth = 6;
     settings.tile = 4;
     const auto scene = blinding_room();
-    constexpr glm::ivec2 small(7, 5);
     std::size_t refused = 0;
     for (settings.seed = 0; refused == 0 && settings.seed < 50; ++settings.seed) {
         Render render(scene, scene->camera(), small, settings);
@@ -91,6 +88,20 @@ TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
         }
     }
     EXPECT_GT(refused, 0u);
+}
+
+TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
+    RenderSettings settings;
+    settings.method = GetParam();
+    expect_found_again(settings, {7, 5});
+}
+
+/// Of the last pixel, which has no neighbours, the film takes what the others share with it in no buffer.
+TEST(RefusedBasePrimal, SamplesAreFoundAgainByPixelPassAndSeed) {
+    RenderSettings settings;
+    settings.method = Method::gpr;
+    settings.primal = PrimalSource::base;
+    expect_found_again(settings, {2, 2});
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, Refused, testing::ValuesIn(all_methods),

@@ -196,6 +196,22 @@ TEST(Actions, TileStepsInAllLinkedPanes) {
     EXPECT_EQ(state.panes[1].settings.render.tile, 1);
 }
 
+TEST(Actions, TheFormBeginsWithTheSampleThatIsLookedAt) {
+    ViewerState state = two_panes();
+    state.active().settings.render.seed = 5;
+    type(state, {Key::i, true, false, 0});
+    EXPECT_TRUE(state.sample_form.show);
+    EXPECT_EQ(state.sample_form.seed, 5u);
+    PassOrigin origin{};
+    origin.settings.seed = 9;
+    state.inspector.choose({0, {3, 4}, 2, std::make_shared<const PassOrigin>(origin)});
+    state.sample_form.show = false;
+    type(state, {Key::i, true, false, 0});
+    EXPECT_EQ(state.sample_form.pixel, glm::ivec2(3, 4));
+    EXPECT_EQ(state.sample_form.pass, 2);
+    EXPECT_EQ(state.sample_form.seed, 9u);
+}
+
 TEST(Actions, TextEntryKeepsItsLetters) {
     ViewerState state = two_panes();
     type(state, key(Key::r), true);

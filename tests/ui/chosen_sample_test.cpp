@@ -5,7 +5,9 @@
 #include "tests/ui/viewer_harness.h"
 #include "ui/script_player.h"
 
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -192,6 +194,30 @@ TEST_F(ChosenSample, OutsideThePictureIsRefused) {
     EXPECT_EQ(newest_message(), "There is no pixel (48, 10) to inspect: the picture has 48 x 36 pixels.");
     EXPECT_FALSE(inspector().sample);
     EXPECT_TRUE(inspector().active); // a click may choose another
+}
+
+TEST_F(ChosenSample, OutsideASmallerPictureLeavesNothing) {
+    rest(2);
+    state().inspect({40, 30}, 0, 0);
+    ASSERT_TRUE(wait_for_sample());
+    state().size = {SizeChoice::Base::custom, 1, {20, 15}};
+    ASSERT_TRUE(wait_until([&] { return !inspector().sample; }));
+    EXPECT_FALSE(inspector().inspection);
+}
+
+TEST_F(ChosenSample, OnePutAsideInTheSameFrameIsNotShown) {
+    rest(2);
+    state().inspect({pane(1).slot, {7, 9}, {}});
+    frame();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it is found out, but not taken
+    state().inspect({pane(1).slot, {3, 4}, {}});
+    frame();
+    EXPECT_FALSE(inspector().inspection);
+    ASSERT_TRUE(wait_for_sample());
+    EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(3, 4));
+    EXPECT_FALSE(viewer.all_drawn()); // only now it is known
+    frames(4);
+    EXPECT_TRUE(viewer.all_drawn());
 }
 
 /// A late pass may take long: what is no longer wanted does not keep others waiting.

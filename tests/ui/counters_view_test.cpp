@@ -236,7 +236,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     EXPECT_EQ(found.pixel, gpr.sample->pixel);
     const glm::vec3 seen = Projection(camera, found.size).project(found.path.front().position);
     EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), found.pixel);
-    EXPECT_FALSE(is_on_show(*gpr.sample->origin, h.state()));
+    EXPECT_FALSE(is_on_show(gpr.sample->origin->generation, h.state()));
     h.frames(3);
     h.save("refused-earlier.png");
 
@@ -268,6 +268,20 @@ TEST(RefusedSamples, OfAReferenceOpen) {
     ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
     EXPECT_TRUE(h.state().inspector.inspection->is_refused);
     EXPECT_EQ(h.state().inspector.sample->origin->settings.seed, 1002u);
+}
+
+TEST(RefusedSamples, OfASceneThatIsGoneKeepNothingOfIt) {
+    ViewerState state;
+    state.scene = viewer_scene();
+    Counters counters;
+    counters.refuse({0, 1, 2});
+    const PassOrigin here{state.scene, state.scene->camera(), {48, 36}, {}};
+    state.add_refused("The reference", counters, 0, here);
+    EXPECT_TRUE(state.messages.back().sample);
+    state.scene = viewer_scene();
+    state.add_refused("The reference", counters, 0, here);
+    ASSERT_EQ(state.messages.size(), 2u);
+    EXPECT_FALSE(state.messages.back().sample);
 }
 
 } // namespace

@@ -128,6 +128,17 @@ TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
     }
 }
 
+TEST_F(SettingsFile, BuffersMayHaveTheirFormerNames) {
+    apply_settings_json(state(),
+                        "{\"panes\": [{\"buffer\": \"failed\"}],"
+                        " \"ranges\": {\"failed\": {\"low\": 0, \"high\": 2}}}",
+                        "old.json");
+    EXPECT_EQ(pane(0).settings.buffer, Buffer::outcomes);
+    ASSERT_EQ(state().ranges.count(Buffer::outcomes), 1u);
+    EXPECT_EQ(state().ranges.at(Buffer::outcomes).high, 2);
+    EXPECT_TRUE(state().messages.empty());
+}
+
 TEST_F(SettingsFile, FieldsThatNobodyKnowsAreTold) {
     apply_settings_json(
         state(), "{\"panes\": [{},\n {\"tile\": 8, \"settings\": {\"tile\": \"4\"}}],\n \"tome\": {\"x\": 1}}",

@@ -104,6 +104,16 @@ TEST_F(PanelTest, LogSlidersReachSmallValuesInTheMiddle) {
     EXPECT_LT(render(0).rr_delta, 1.0f);
 }
 
+TEST_F(PanelTest, ValuesBeyondASlidersEndsStayUntilItIsMoved) {
+    state().panes[0].settings.render.rr_scale = state().panes[1].settings.render.rr_scale = 200;
+    frames(3);
+    ASSERT_TRUE(has("rr_scale"));
+    EXPECT_EQ(render(0).rr_scale, 200);
+    EXPECT_EQ(render(1).rr_scale, 200);
+    click_at("rr_scale", 0.9f);
+    EXPECT_LT(render(1).rr_scale, 200);
+}
+
 TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
     EXPECT_TRUE(has("rr_scale"));
     EXPECT_FALSE(has("rr_delta"));
