@@ -48,8 +48,8 @@ const char* outcome_help(ShiftOutcome outcome) {
 RgbImage outcome_colours(const ReuseMaps& maps) {
     std::array<Rgb, shift_outcome_count> colours;
     std::transform(std::begin(table), std::end(table), colours.begin(), [](const Outcome& outcome) {
-        const ImVec4 c = ImGui::ColorConvertU32ToFloat4(outcome.colour);
-        return Rgb(c.x, c.y, c.z);
+        const auto channel = [&](int shift) { return static_cast<float>(outcome.colour >> shift & 255) / 255; };
+        return Rgb(channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT));
     });
     RgbImage image(maps.counts.width(), maps.counts.height());
     std::transform(maps.counts.begin(), maps.counts.end(), image.begin(), [&](const ReuseCounts& counts) {
