@@ -4,10 +4,12 @@
 #include "tests/support/scene_builder.h"
 #include "ui/imgui_version.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 
+#include <glad/gl.h>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -61,8 +63,12 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
             ADD_FAILURE() << "waited in vain";
             return false;
         }
+        const auto begin = std::chrono::steady_clock::now();
         frame();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        glFinish(); // llvmpipe's threads fall behind, else
+        // As long as the frame took, so that those who work in the background, at a lower priority, get on.
+        std::this_thread::sleep_for(std::max<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin,
+                                                                       std::chrono::milliseconds(2)));
     }
     return true;
 }
