@@ -1,6 +1,7 @@
 #include "app/option_values.h"
 
 #include "app/exit_codes.h"
+#include "ui/inspector.h"
 
 #include <charconv>
 #include <cstdio>

@@ -3,7 +3,6 @@
 #include "recon/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/method/settings.h"
-#include "ui/inspector.h"
 
 #include <string>
 #include <vector>
@@ -11,6 +10,8 @@
 #include <glm/vec2.hpp>
 
 namespace tessera {
+
+struct SampleChoice;
 
 // Values on the command line that stand for more than a word or a number. All throw BadInput that names the
 // option.

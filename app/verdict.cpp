@@ -32,7 +32,7 @@ double significance(double excess, double error, double freedom) {
 /// How far the mean may be from the truth, relative: rounding, and for what is not linear, what is called its
 /// smoothing.
 double tolerance_of(const Point& point) {
-    return is_linear(point) ? 1e-4 : 0.02;
+    return is_linear(point.settings.reconstruction.norm) ? 1e-4 : 0.02;
 }
 
 /// Of the pieces' biases. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the squared
@@ -171,10 +171,6 @@ std::string cause_of_worse(const Findings& f) {
 
 } // namespace
 
-bool is_linear(const Point& point) {
-    return is_linear(point.settings.reconstruction.norm);
-}
-
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level) {
     Findings f;
     Numbers errors, edges;
@@ -207,7 +203,8 @@ Verdict judge(const Findings& findings, const Findings& path_tracing, const Poin
     if (is_biased_by_itself && is_biased(path_tracing, level))
         return {Kind::undecided, fmt::format("{}, but so is PT to its own reference: more samples for that",
                                              bias_text(findings, level))};
-    if (is_biased_by_itself && (is_linear(point) || findings.energy.sigmas > sigmas(level)))
+    if (is_biased_by_itself &&
+        (is_linear(point.settings.reconstruction.norm) || findings.energy.sigmas > sigmas(level)))
         return {Kind::fails, bias_text(findings, level)};
     if (findings.low > 1)
         return {Kind::worse, cause_of_worse(findings)};

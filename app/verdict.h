@@ -44,9 +44,6 @@ struct Verdict {
 /// `level`: the probability of a wrong interval. Both results must have runs with artefacts.
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level);
 
-/// Whether the point's picture is a linear function of the samples, and so has to be right in the mean.
-bool is_linear(const Point& point);
-
 /// `path_tracing`: what was found of PT on the same scene. Where that looks biased to references that are made by
 /// PT, rare light is missing in one of them, and nobody's bias can be told. `level`: the probability of calling
 /// something wrong that is not.

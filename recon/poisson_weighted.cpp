@@ -236,6 +236,26 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
     return iterations;
 }
 
+/// Start and steps have the mean of the primal but for rounding, which sums up over steps and warm starts: what is
+/// missing is added to the correction. For the same image in every pixel that is the exact optimum.
+void WeightedSolver::keep_mean(const RgbImage& primal, const RgbImage& start, const ParallelFor& parallel_for) {
+    std::vector<Channels> rows(primal.height());
+    parallel_for(primal.height(), [&](int y) {
+        for (int x = 0; x < primal.width(); ++x) {
+            const glm::dvec3 reached = glm::dvec3(start(x, y)) + glm::dvec3(correction_(x, y));
+            const glm::dvec3 missing = glm::dvec3(primal(x, y)) - reached;
+            for (int c = 0; c < 3; ++c)
+                rows[y][c] += missing[c];
+        }
+    });
+    const Channels sum = total(rows);
+    const Rgb mean = Rgb(sum[0], sum[1], sum[2]) / static_cast<float>(primal.size());
+    parallel_for(primal.height(), [&](int y) {
+        for (int x = 0; x < primal.width(); ++x)
+            correction_(x, y) += mean;
+    });
+}
+
 int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
                           const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
                           std::stop_token stop) {
@@ -252,6 +272,8 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
         forget();
         return 0;
     }
+    if (!correction_.empty()) // else numbers were too large
+        keep_mean(problem.primal, image, parallel_for);
     for (std::size_t i = 0; i < correction_.size(); ++i)
         image.data()[i] += correction_.data()[i];
     return steps + 1;

@@ -44,6 +44,7 @@ private:
                              const ParallelFor& parallel_for);
     int descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
                 const ParallelFor& parallel_for, std::stop_token stop);
+    void keep_mean(const RgbImage& primal, const RgbImage& start, const ParallelFor& parallel_for);
 
     PoissonSolver solver_;
     RgbImage correction_;   ///< the answer without the start; empty: there is none

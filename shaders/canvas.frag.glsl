@@ -1,5 +1,6 @@
 // Shows an image of radiance (exposure, then a tone curve), of gradients and differences (+/- colours), or of numbers
-// (false colours) in a pane, or what has colours already. Before this text stand constants that say which (CanvasShader):
+// (false colours) in a pane, or what has colours already. Before this text stand constants that say which
+// (CanvasShader):
 //     int colour_map      0: radiance, or one of those below
 //     int sampling        0: the image's pixel that the pane's lies in, or one of those below
 //     bool is_difference  to a second image

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <imgui.h>
@@ -157,39 +159,44 @@ bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Valu
     return false;
 }
 
-bool Controls::number(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
+/// Of ImGuiDataType.
+template <class Value>
+constexpr int data_type() {
+    if constexpr (std::is_same_v<Value, double>)
+        return ImGuiDataType_Double;
+    else
+        return std::is_same_v<Value, int> ? ImGuiDataType_S32 : ImGuiDataType_U64;
+}
+
+template <class Value>
+bool Controls::typed_number(const char* id, const char* label_text, Value& value, Value least, Value most,
+                            const char* help) {
+    constexpr bool is_real = std::is_floating_point_v<Value>;
     label(label_text);
-    int draft = draft_of(id, value);
-    const bool changed = ImGui::InputInt(hidden_label(id).c_str(), &draft, 1, 16);
-    const bool stepped = changed && !ImGui::GetIO().WantTextInput; // by its buttons
-    draft = std::clamp(draft, least, most);
+    Value draft = draft_of(id, value);
+    const Value step = 1, large_step = is_real ? 10 : 16;
+    const bool changed =
+        ImGui::InputScalar(hidden_label(id).c_str(), data_type<Value>(), &draft, &step, &large_step,
+                           is_real ? "%.6g" : nullptr, is_real ? ImGuiInputTextFlags_CharsScientific : 0);
+    const bool stepped = changed && !ImGui::GetIO().WantTextInput;   // by its buttons
+    draft = draft == draft ? std::clamp(draft, least, most) : value; // "nan" can be typed
     const bool taken = take_draft(id, draft, stepped, value);
     note(id, help);
     return taken;
+}
+
+bool Controls::number(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
+    return typed_number(id, label_text, value, least, most, help);
 }
 
 bool Controls::number(const char* id, const char* label_text, double& value, double least, double most,
                       const char* help) {
-    label(label_text);
-    double draft = draft_of(id, value);
-    const bool changed = ImGui::InputDouble(hidden_label(id).c_str(), &draft, 1, 10, "%.6g");
-    const bool stepped = changed && !ImGui::GetIO().WantTextInput;
-    draft = std::isnan(draft) ? value : std::clamp(draft, least, most);
-    const bool taken = take_draft(id, draft, stepped, value);
-    note(id, help);
-    return taken;
+    return typed_number(id, label_text, value, least, most, help);
 }
 
 bool Controls::number(const char* id, const char* label_text, std::uint64_t& value, const char* help) {
-    label(label_text);
-    std::uint64_t draft = draft_of(id, value);
-    const std::uint64_t step = 1, large_step = 16;
-    const bool changed =
-        ImGui::InputScalar(hidden_label(id).c_str(), ImGuiDataType_U64, &draft, &step, &large_step);
-    const bool stepped = changed && !ImGui::GetIO().WantTextInput;
-    const bool taken = take_draft(id, draft, stepped, value);
-    note(id, help);
-    return taken;
+    constexpr std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+    return typed_number(id, label_text, value, least, most, help);
 }
 
 bool Controls::text(const char* id, const char* label_text, std::string& value, const char* hint,

@@ -79,6 +79,8 @@ private:
     const Value& draft_of(const char* id, const Value& value) const;
     template <class Value>
     bool take_draft(const char* id, const Value& draft, bool at_once, Value& value);
+    template <class Value>
+    bool typed_number(const char* id, const char* label, Value& value, Value least, Value most, const char* help);
 
     std::map<std::string, ControlRect, std::less<>> rects_;
     std::string hovered_;

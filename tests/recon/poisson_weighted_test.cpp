@@ -98,7 +98,7 @@ TEST(PoissonWeighted, WarmStartsFollowTheirData) {
             weights = weights_of_gradients(images, alpha);
             solver.solve(problem_of(images, alpha), weights, {}, image);
             EXPECT_LE(glm::length(mean_color(image) - mean_color(images.primal)),
-                      5e-4 * glm::length(mean_color(image))); // each step rounds
+                      1e-4 * glm::length(mean_color(image)));
         }
         EXPECT_LE(relative_rms_difference(image, solve(problem_of(images, alpha), weights, exact)), 0.01) << alpha;
     }

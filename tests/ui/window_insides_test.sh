@@ -102,7 +102,7 @@ press h '^charts off$'
 
 # --- settings: saved, everything changed, and taken back ---
 
-press 1 '^pane 1 buffer reconstruction$'
+press 2 '^pane 1 buffer primal$' # as reconstructions go on from the last one, and are not the same to the bit
 press plus '^exposure 0.5$'
 press ctrl+p '^messages '
 settings=$(saved -settings.json) || exit 1
@@ -119,8 +119,7 @@ wait_for '^exposure 0.5$' "$from"
 wait_for '^pane 1 method gpr$' "$from"
 wait_for "^pane 1 spp $spp\$" "$from"
 look_at_rest loaded
-# Not to the last bit: weighted reconstructions go on from the last one, and so depend on which samples they saw.
-more_than 0.002 "$(distance settings loaded "$picture")" || fail "the settings give another picture"
+same settings loaded
 
 xdotool key ctrl+q
 expect_end "ctrl+q" 0
