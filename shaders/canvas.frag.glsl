@@ -2,7 +2,7 @@
 // (false colours) in a pane, or what has colours already. Before this text stand constants that say which
 // (CanvasShader):
 //     int colour_map      0: radiance, or one of those below
-//     int sampling        0: the image's pixel that the pane's lies in, or one of those below
+//     int sampling        0: the image's pixel that the pane's lies in, or `averaged`
 //     bool is_difference  to a second image
 
 uniform sampler2D image;
@@ -25,8 +25,7 @@ const int signed_difference = 1; // gradients: the luminance's sign becomes a hu
 const int false_colour = 2;      // numbers: red alone counts
 const int direction = 3;         // -1 to 1 in each channel
 const int own = 4;               // display colours
-const int averaged = 1;     // of all pixels of the image that the pane's covers
-const int interpolated = 2; // between the image's pixels
+const int averaged = 1; // of all pixels of the image that the pane's covers
 const int gamma_curve = 1;
 const int filmic_curve = 2;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
@@ -144,14 +143,7 @@ vec3 sampled(vec2 pixel, vec2 where, inout Oddities odd) {
         vec2 from = (pixel - 0.5 - image_origin) * to_image;
         return average(from, from + to_image, size, odd);
     }
-    vec3 value;
-    if (sampling == interpolated) {
-        value = texture(image, where).rgb;
-        if (is_difference)
-            value -= texture(subtrahend, where).rgb;
-    } else {
-        value = fetched(where * vec2(size), size);
-    }
+    vec3 value = fetched(where * vec2(size), size);
     look(value, odd);
     return exposed(value);
 }

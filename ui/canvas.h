@@ -32,7 +32,7 @@ struct CanvasView {
     ColourMap colour_map = ColourMap::radiance;
     Tone tone{};
     ValueRange range{};         ///< of false colours
-    bool coarse = false;        ///< interpolate between the image's pixels
+    bool coarse = false;        ///< interpolate between the display colours of the image's pixels
     bool mark_negative = false; ///< radiance below zero, in any channel
 
     bool operator==(const CanvasView&) const = default;
@@ -58,14 +58,16 @@ private:
 /// renderers go through all branches of a shader at every pixel.
 class CanvasShader {
 public:
-    /// Fills the framebuffer drawn into with `image`, less `subtrahend` if there is one (of any size; it is
-    /// stretched). Without an image, with the background.
+    /// Fills the framebuffer drawn into with the background.
+    static void clear();
+
+    /// Draws `image` over it, less `subtrahend` if there is one (of any size; it is stretched), as one that is not
+    /// coarse.
     void draw(const GlTexture& image, const CanvasView& view, const GlTexture* subtrahend = nullptr) const;
 
 private:
-    /// What the pane's pixels are made of: the image's pixel that each lies in, all those that it covers, or what
-    /// is between them.
-    enum class Sampling { nearest, averaged, interpolated };
+    /// What the pane's pixels are made of: the image's pixel that each lies in, or all those that it covers.
+    enum class Sampling { nearest, averaged };
     /// What a program is made for; all else are numbers that it is given.
     struct Kind {
         ColourMap colour_map;
@@ -103,7 +105,11 @@ private:
         int subtrahend_serial;
         bool operator==(const Drawn&) const = default;
     };
+    void draw_stretched(const CanvasShader& shader, const GlTexture& image, const CanvasView& view,
+                        const GlTexture* subtrahend);
+
     Framebuffer framebuffer_;
+    Framebuffer coarse_;         // of a coarse image's size
     std::optional<Drawn> drawn_; // what the framebuffer holds
     int drawings_ = 0;
 };

@@ -31,11 +31,17 @@ protected:
     /// The image over the whole of a pane.
     CanvasView filling(glm::ivec2 pane_size) const { return {pane_size, {0, 0}, glm::vec2(pane_size)}; }
 
+    ScreenPixels pixels() const {
+        const DrawInto canvas(canvas_.framebuffer());
+        return read_screen(canvas_.framebuffer().size());
+    }
+    ScreenPixels drawn(const CanvasView& view) {
+        canvas_.draw(shader_, image_, view);
+        return pixels();
+    }
     Colour pixel(int x, int y) const {
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas_.framebuffer().name());
-        const ScreenPixels pixels = read_screen(canvas_.framebuffer().size());
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        const std::uint8_t* p = pixels.at(x, y);
+        const ScreenPixels all = pixels();
+        const std::uint8_t* p = all.at(x, y);
         return {p[0], p[1], p[2]};
     }
     void expect_colour(int x, int y, Colour expected, int tolerance = 1) const {

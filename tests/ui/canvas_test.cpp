@@ -115,8 +115,8 @@ TEST_F(CanvasTest, EnlargedPixelsAreSquaresUnlessCoarse) {
     view.coarse = true;
     canvas_.draw(shader_, image_, view);
     const Colour left = pixel(9, 2), right = pixel(10, 2);
-    EXPECT_GT(left[0], srgb(0.3f));
-    EXPECT_LT(right[0], srgb(0.7f));
+    EXPECT_NEAR(left[0], 255 * 0.45, 2); // halfway between their centres, in steps of a tenth
+    EXPECT_NEAR(right[0], 255 * 0.55, 2);
 }
 
 TEST_F(CanvasTest, BackgroundSurroundsTheImage) {
@@ -129,6 +129,20 @@ TEST_F(CanvasTest, BackgroundSurroundsTheImage) {
     expect_colour(8, 6, {255, 255, 255});
     EXPECT_EQ(pixel(9, 6), background);
     EXPECT_EQ(pixel(8, 7), background);
+}
+
+TEST_F(CanvasTest, ACoarseImageLiesWhereASharpOneDoes) {
+    RgbImage image(3, 2, Rgb(1));
+    image(2, 1) = Rgb(0.5f);
+    image_.show(image);
+    for (const glm::vec2 origin : {glm::vec2(5, 3), glm::vec2(-4, -2), glm::vec2(14, 6)}) { // beyond borders, too
+        CanvasView view{{20, 10}, origin, {9, 6}};
+        const ScreenPixels sharp = drawn(view);
+        view.coarse = true;
+        const ScreenPixels coarse = drawn(view);
+        for (std::size_t i = 0; i < sharp.rgb.size(); ++i)
+            EXPECT_NEAR(sharp.rgb[i], coarse.rgb[i], 70) << i; // 255 and 188 are mixed, the background is not
+    }
 }
 
 TEST_F(CanvasTest, DrawsAgainOnlyWhenSomethingChanged) {
