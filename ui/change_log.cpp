@@ -4,6 +4,7 @@
 #include "ui/words.h"
 
 #include <cstdio>
+#include <filesystem>
 
 namespace tessera {
 
@@ -70,6 +71,8 @@ Values describe(const ViewerState& state) {
         values["inspection"] = std::string(short_name(found->method)) + " pixel " +
                                std::to_string(found->pixel.x) + " " + std::to_string(found->pixel.y) + " pass " +
                                std::to_string(found->pass) + (found->is_refused ? " refused" : "");
+    const auto& reference = state.companions.reference;
+    values["reference"] = reference ? std::filesystem::path(reference->name).filename().string() : "none";
     values["slow motion"] = text(state.slow_motion.active);
     if (state.slow_motion.active && state.slow_motion.tile)
         values["slow motion at"] = "tile " + std::to_string(state.slow_motion.tile->tile.x0) + " " +

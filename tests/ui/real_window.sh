@@ -140,5 +140,5 @@ distance() {
 
 more_than() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > b) }'; }
 
-# The file whose name ends so.
-saved() { ls "$work"/*"$1" 2>/dev/null || fail "nothing was saved: $1"; }
+# The file whose name ends so, or as this pattern.
+saved() { ls "$work"/*$1 2>/dev/null || fail "nothing was saved: $1"; }

@@ -100,6 +100,21 @@ awk -v chart="$(error_in_chart 2)" '/floor-free/ { off = chart / $3 - 1 } END { 
 more_than "$(error_in_chart 1)" "$(error_in_chart 2)" || fail "PT has no larger error than G-PR"
 press h '^charts off$'
 
+# --- a reference made in the background: written, and opened ---
+
+press ctrl+m '^control reference.make '
+click reference.spp
+xdotool key ctrl+a
+xdotool type 32
+from=$(next_line)
+click reference.make
+wait_for '^reference .*-64x48-.*\.exr$' "$from"
+click reference.close
+made=$(saved -64x48-d*.exr) || exit 1
+"$tessera" compare "$made" "$work/reference.exr" >"$work/compared" || fail "what was made cannot be compared"
+awk '/floor-free/ { seen = $3 < 0.01 } END { exit !seen }' "$work/compared" ||
+    fail "the reference that was made is another picture: $(cat "$work/compared")"
+
 # --- settings: saved, everything changed, and taken back ---
 
 press 2 '^pane 1 buffer primal$' # as reconstructions go on from the last one, and are not the same to the bit
