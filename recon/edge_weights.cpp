@@ -17,12 +17,12 @@ constexpr float gradient_share = 0.5f, primal_share = 0.2f; // of the own varian
 
 constexpr float largest_variance = 1e30f; // sums of some dozens stay finite
 
-/// The mean of values over the squares of edge 2 radius + 1 around each pixel, as far as something is measured
-/// there: not in the last `columns` and `rows`, where the means are 0, too.
-Image<float> mean_around(const Image<float>& values, int radius, int columns, int rows,
-                         const ParallelFor& parallel_for) {
+/// Each value blended with the mean over the square of edge 2 radius + 1 around its pixel, as far as something is
+/// measured there: not in the last `columns` and `rows`, where the result is 0, too.
+Image<float> blended(const Image<float>& values, float own_share, int radius, int columns, int rows,
+                     const ParallelFor& parallel_for) {
     const int width = values.width() - columns, height = values.height() - rows;
-    Image<float> means(values.width(), values.height());
+    Image<float> blend(values.width(), values.height());
     parallel_for(height, [&](int y) {
         std::vector<float> sums(static_cast<std::size_t>(width)); // sums of the columns of the squares
         const int top = std::max(y - radius, 0), bottom = std::min(y + radius, height - 1);
@@ -34,19 +34,9 @@ Image<float> mean_around(const Image<float>& values, int radius, int columns, in
             float sum = 0;
             for (int i = left; i <= right; ++i)
                 sum += sums[i];
-            means(x, y) = sum / static_cast<float>((right - left + 1) * (bottom - top + 1));
+            const float mean = sum / static_cast<float>((right - left + 1) * (bottom - top + 1));
+            blend(x, y) = own_share * std::min(values(x, y), largest_variance) + (1 - own_share) * mean;
         }
-    });
-    return means;
-}
-
-/// Each value blended with the mean around it.
-Image<float> blended(const Image<float>& values, float own_share, int radius, int columns, int rows,
-                     const ParallelFor& parallel_for) {
-    Image<float> blend = mean_around(values, radius, columns, rows, parallel_for);
-    parallel_for(values.height() - rows, [&](int y) {
-        for (int x = 0; x < values.width() - columns; ++x)
-            blend(x, y) = own_share * std::min(values(x, y), largest_variance) + (1 - own_share) * blend(x, y);
     });
     return blend;
 }

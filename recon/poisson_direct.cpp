@@ -192,8 +192,8 @@ void PoissonSolver::rows_to_spectrum(const RowSource& source, int group, Scratch
 }
 
 void PoissonSolver::write_spectra(ComplexLanes spectra, int channel, int group) {
-    const int size = dct_.size();
-    for (int k = 0; k < size; k += lanes) {
+    const int size = dct_.size(), padded_size = columns_.blocks() * column_block;
+    for (int k = 0; k < padded_size; k += lanes) { // what is beyond is 0 anew: it may have become NaN
         for (int half = 0; half < 2; ++half) {
             Lanes tile[lanes] = {};
             for (int i = 0; i < std::min(lanes, size - k); ++i)

@@ -186,8 +186,9 @@ void WeightedSolver::make_room() {
             *kept = RgbImage(solver_.width(), solver_.height());
 }
 
-/// By as much as brings the answer nearest to the optimum: a line search in each channel.
-void WeightedSolver::try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
+/// By as much as brings the answer nearest to the optimum: a line search in each channel. False: there is nothing
+/// to be tried, as after a black image.
+bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
                                          const ParallelFor& parallel_for) {
     const auto [rc, cc] = apply(weights, problem.alpha, correction_, residual_, applied_, parallel_for);
     Rgb length(0);
@@ -199,9 +200,10 @@ void WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
             residual_(x, y) -= length * applied_(x, y);
         }
     });
+    return total(cc) > 0;
 }
 
-/// Adds steps to the correction; returns their number. What is not finite empties all that is kept.
+/// Adds steps to the correction; returns the number of inner solves. What is not finite empties all that is kept.
 int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
                             const ParallelFor& parallel_for, std::stop_token stop) {
     Channels rz_before{}, step{};
@@ -213,12 +215,12 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
         const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
         if (!std::isfinite(total(rz) + total(wz))) {
             correction_ = direction_ = applied_step_ = {};
-            return i;
+            return i + 1;
         }
         if (i == 0)
             first = total(rz);
         if (!(total(rz) > rounding * first))
-            return i; // solved, as far as floats can tell
+            return i + 1; // solved, as far as floats can tell
         Channels turn{};
         for (int c = 0; c < 3; ++c) {
             turn[c] = step[c] > 0 ? rz[c] / rz_before[c] : 0;
@@ -236,13 +238,14 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
     return iterations;
 }
 
-/// Start and steps have the mean of the primal but for rounding, which sums up over steps and warm starts: what is
-/// missing is added to the correction. For the same image in every pixel that is the exact optimum.
-void WeightedSolver::keep_mean(const RgbImage& primal, const RgbImage& start, const ParallelFor& parallel_for) {
+/// Adds the correction to the start, and to the correction what is missing of the primal's mean: start and steps
+/// keep that but for rounding, which sums up over steps and warm starts. A takes the same colour in every pixel to
+/// alpha^2 times that, so that this much of the optimum is known exactly.
+void WeightedSolver::add_correction(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     std::vector<Channels> rows(primal.height());
     parallel_for(primal.height(), [&](int y) {
         for (int x = 0; x < primal.width(); ++x) {
-            const glm::dvec3 reached = glm::dvec3(start(x, y)) + glm::dvec3(correction_(x, y));
+            const glm::dvec3 reached = glm::dvec3(image(x, y)) + glm::dvec3(correction_(x, y));
             const glm::dvec3 missing = glm::dvec3(primal(x, y)) - reached;
             for (int c = 0; c < 3; ++c)
                 rows[y][c] += missing[c];
@@ -251,21 +254,22 @@ void WeightedSolver::keep_mean(const RgbImage& primal, const RgbImage& start, co
     const Channels sum = total(rows);
     const Rgb mean = Rgb(sum[0], sum[1], sum[2]) / static_cast<float>(primal.size());
     parallel_for(primal.height(), [&](int y) {
-        for (int x = 0; x < primal.width(); ++x)
+        for (int x = 0; x < primal.width(); ++x) {
             correction_(x, y) += mean;
+            image(x, y) += correction_(x, y);
+        }
     });
 }
 
 int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
                           const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
                           std::stop_token stop) {
-    const bool is_warm = !correction_.empty();
+    const bool has_last = !correction_.empty();
     make_room();
     const float alpha = std::max(problem.alpha, least_alpha);
     solver_.solve(PoissonProblem{problem.primal, problem.dx, problem.dy, alpha}, image, parallel_for);
     residual(problem, weights, image, residual_, parallel_for);
-    if (is_warm)
-        try_last_correction(problem, weights, parallel_for);
+    const bool is_warm = has_last && try_last_correction(problem, weights, parallel_for);
     const int steps = descend(problem, weights, is_warm ? settings.warm_iterations : settings.cold_iterations,
                               parallel_for, stop);
     if (stop.stop_requested()) {
@@ -273,9 +277,7 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
         return 0;
     }
     if (!correction_.empty()) // else numbers were too large
-        keep_mean(problem.primal, image, parallel_for);
-    for (std::size_t i = 0; i < correction_.size(); ++i)
-        image.data()[i] += correction_.data()[i];
+        add_correction(problem.primal, image, parallel_for);
     return steps + 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -112,6 +113,20 @@ TEST(PoissonSolver, ServesManyProblemsOfItsSize) {
         const Inputs inputs(61, 45, 77);
         solver.solve(inputs.problem(alpha), image);
         EXPECT_LE(relative_difference(image, solve_sparse(inputs.problem(alpha))), 1e-5);
+    }
+}
+
+/// Of any width: some do not fill whole vectors of the transforms.
+TEST(PoissonSolver, WhatIsNotFiniteLeavesNoTrace) {
+    for (int width = 60; width < 110; ++width) {
+        const Inputs good(width, 20);
+        Inputs bad = good;
+        bad.primal(7, 5) = Rgb(std::numeric_limits<float>::infinity());
+        PoissonSolver solver(width, 20);
+        RgbImage image;
+        solver.solve(bad.problem(0.2f), image);
+        solver.solve(good.problem(0.2f), image);
+        EXPECT_EQ(relative_difference(image, solve(good.problem(0.2f))), 0) << width;
     }
 }
 

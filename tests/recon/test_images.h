@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -57,11 +58,14 @@ inline glm::dvec3 mean_color(const RgbImage& image) {
     return sum / static_cast<double>(image.size());
 }
 
+/// Absolute, of all channels; NaN counts as infinite, so that no test takes it for nothing.
 inline double largest(const RgbImage& image) {
     double result = 0;
     for (const Rgb& c : image)
-        for (int channel = 0; channel < 3; ++channel)
-            result = std::max(result, std::abs(static_cast<double>(c[channel])));
+        for (int channel = 0; channel < 3; ++channel) {
+            const double value = std::abs(static_cast<double>(c[channel]));
+            result = std::max(result, std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
+        }
     return result;
 }
 
