@@ -49,7 +49,7 @@ def own_cases(folder: Path) -> list[Case]:
     for path in sorted((HERE / "scenes").glob("*.xml")):
         if path.name == "stage.xml":
             continue
-        # Tessera reads no <include>: the stage is put in for both.
+        # The stage is put in for both: includes are not what is compared here.
         text = re.sub(r'<include filename="stage.xml"\s*/>', lambda _: inside, path.read_text())
         (folder / path.name).write_text(text)
         cases.append(Case(path.stem, folder / path.name, text, folder))
