@@ -249,7 +249,7 @@ TEST_F(PanelTest, KeysFlyAndRunActions) {
     EXPECT_EQ(viewer.next_frame_in(), 0);
     viewer.keyboard().release(Key::w);
     frames(2);
-    EXPECT_GT(viewer.next_frame_in(), 1);
+    EXPECT_TRUE(wait_until([&] { return viewer.next_frame_in() > 1; })); // once the picture from there has come
     EXPECT_FALSE(state().camera.camera() == home);
     type(Key::home);
     EXPECT_TRUE(state().camera.camera() == home);
