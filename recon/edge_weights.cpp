@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 namespace tessera {
 
 namespace {
@@ -16,6 +18,31 @@ constexpr int gradient_radius = 1, primal_radius = 2;
 constexpr float gradient_share = 0.5f, primal_share = 0.2f; // of the own variance against the mean around
 
 constexpr float largest_variance = 1e30f; // sums of some dozens stay finite
+
+/// Variances where nobody has measured them, from how much the values differ in the square of 3x3 pixels around
+/// each: the sample variance, summed over the channels. What the picture itself varies by counts as noise. Like
+/// those that are measured, they are 0 in the last `columns` and `rows`.
+Image<float> variances_from_neighbours(const RgbImage& values, int columns, int rows,
+                                       const ParallelFor& parallel_for) {
+    const int width = values.width() - columns, height = values.height() - rows;
+    Image<float> variances(values.width(), values.height());
+    parallel_for(height, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            glm::dvec3 sum(0);
+            double squares = 0, n = 0;
+            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+                for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i, ++n) {
+                    const glm::dvec3 value(values(i, j));
+                    sum += value;
+                    squares += glm::dot(value, value);
+                }
+            const double spread = squares - glm::dot(sum, sum) / n; // below 0 by rounding alone
+            if (n > 1)
+                variances(x, y) = std::clamp(static_cast<float>(spread / (n - 1)), 0.0f, largest_variance);
+        }
+    });
+    return variances;
+}
 
 /// Each value blended with the mean over the square of edge 2 radius + 1 around its pixel, as far as something is
 /// measured there: not in the last `columns` and `rows`, where the result is 0, too.
@@ -53,9 +80,16 @@ float weight(float alpha, float gradient_variance, float one_primal_variance, fl
 
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     const int width = images.primal.width(), height = images.primal.height();
-    const Image<float> primal = blended(images.primal_variance, primal_share, primal_radius, 0, 0, parallel_for);
-    const Image<float> dx = blended(images.dx_variance, gradient_share, gradient_radius, 1, 0, parallel_for);
-    const Image<float> dy = blended(images.dy_variance, gradient_share, gradient_radius, 0, 1, parallel_for);
+    const bool is_measured = images.has_variances();
+    const auto noise = [&](const RgbImage& values, const Image<float>& measured, float own_share, int radius,
+                           int columns, int rows) {
+        const Image<float> around =
+            is_measured ? Image<float>() : variances_from_neighbours(values, columns, rows, parallel_for);
+        return blended(is_measured ? measured : around, own_share, radius, columns, rows, parallel_for);
+    };
+    const Image<float> primal = noise(images.primal, images.primal_variance, primal_share, primal_radius, 0, 0);
+    const Image<float> dx = noise(images.dx, images.dx_variance, gradient_share, gradient_radius, 1, 0);
+    const Image<float> dy = noise(images.dy, images.dy_variance, gradient_share, gradient_radius, 0, 1);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
     parallel_for(height, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)

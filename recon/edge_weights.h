@@ -11,8 +11,9 @@ struct EdgeWeights {
     Image<float> x, y;
 };
 
-/// Weights from the variances V of `images`, which has them, for a primal of weight alpha^2. Where nothing is
-/// noisy, they are 1.
+/// Weights from the variances V of `images`, for a primal of weight alpha^2. Where nothing is noisy, they are 1.
+/// If it has no variances, as after a single sample, they are taken from how much each value differs from its
+/// neighbours.
 ///
 /// Image-space control variates [Rousselle 2016]: a pixel's neighbour, with the gradient between the two added, is
 /// one more estimate of the pixel, which counts with the inverse of its variance. Against the primal this is

@@ -16,11 +16,11 @@ struct GradientImages {
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
-    /// it,
-    /// >= 1; 1: every pixel has its own.
+    /// it; >= 1, where 1 means that every pixel has its own.
     float patch = 1;
 
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
+    /// All three.
     bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };
 

@@ -34,13 +34,6 @@ void add(RgbImage& sum, const RgbImage& image) {
         sum.data()[i] += image.data()[i];
 }
 
-/// What can be done with what is there.
-Norm norm_for(const GradientImages& images, Norm wanted) {
-    if (!images.has_gradients())
-        return Norm::none;
-    return wanted == Norm::weighted && !images.has_variances() ? Norm::l2 : wanted;
-}
-
 /// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
 /// smoothed over the squares. Tried out on tiles of 6 pixels: alpha 0.2 leaves blobs, 0.1 and 0.07 are level.
 float alpha_of_patches(float alpha, float patch) {
@@ -121,7 +114,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         solvers_ = std::make_unique<Solvers>(width, height);
     PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
     Reconstruction result;
-    switch (norm_for(images, settings.norm)) {
+    switch (images.has_gradients() ? settings.norm : Norm::none) {
     case Norm::none:
         result.image = images.primal;
         break;
@@ -159,7 +152,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
     Reconstruction result = solve(images, settings, parallel_for, stop);
-    if (!is_linear(norm_for(images, settings.norm)))
+    if (images.has_gradients() && !is_linear(settings.norm))
         lift_to_black(images.primal, result.image, parallel_for);
     if (!result.image.empty())
         add(result.image, images.very_direct);

@@ -12,9 +12,9 @@
 namespace tessera {
 
 /// mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours (average_neighbours; alpha does
-/// not matter). weighted: L2, where gradients count the less the noisier they are (weights_of_gradients); l2 if
-/// variances are unknown. All but l1 keep the primal's mean, until what l1, mixed and weighted leave below black
-/// is lifted to it, unless the primal is below, too.
+/// not matter). weighted: L2, where gradients count the less the noisier they are (weights_of_gradients). All but
+/// l1 keep the primal's mean, until what l1, mixed and weighted leave below black is lifted to it, unless the
+/// primal is below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted };
 
 /// All of them, in the order above.

@@ -74,8 +74,8 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
         reference_.cancel();
         state.add_message(Message::Kind::note, "Reading " + reference_file_ + " was given up.");
     }
-    const auto outcome =
-        reference_.poll(); // before the next one starts: that can be given up for a frame at least
+    // Before the next one starts: that can be given up for a frame at least.
+    const auto outcome = reference_.poll();
     if (std::string file = in_full(std::exchange(state.reference_file, {})); !file.empty())
         start_reference(std::move(file), wake);
     state.reference_read = reference_.running() ? std::optional(share_read_->load()) : std::nullopt;
