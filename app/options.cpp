@@ -93,8 +93,10 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
     command.add_flag("--per-channel", options.per_channel,
                      "l1 and mixed: absolute values of each channel, not lengths of colours");
-    command.add_flag("--buffers", options.buffers,
-                     "primal, dx, dy, direct and the variances as layers of the EXR file, too");
+    command.add_flag(
+        "--buffers", options.buffers,
+        "primal, dx, dy, direct, the variances, and shares of what was reused, of each outcome of the "
+        "shifts and of survival in the roulette as layers of the EXR file, too");
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

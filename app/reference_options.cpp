@@ -32,7 +32,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     command.add_option("--spp", recipe.spp, "samples a pixel, of both halves together; one more if odd")
         ->check(CLI::Range(2, 100000000))
         ->capture_default_str();
-    command.add_option("--recon", words.norms, "none, l2, l1 or mixed, where there are gradients (default l2)");
+    command.add_option("--recon", words.norms, "norm as for render, where there are gradients (default l2)");
     command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
