@@ -33,7 +33,25 @@ sed -i 's/<scone/<scene/' "$scene"
 from=$(next_line)
 press F5 '^scenes shown 3$'
 wait_for '^messages 0$' "$from"
-press k '^messages 1$'
+
+# --- files dropped on the window: a reference, another scene with a blank in its name, and what is neither ---
+
+drop() { "$(dirname "$assets")/tests/ui/drop_files.py" "$window" "$@" || fail "cannot be dropped: $*"; }
+window=$(xdotool search --name "^Tessera - $scene\$")
+"$tessera" render "$scene" --size 64x48 --spp 4 -o "$work/reference.exr" >"$work/made" 2>&1 || fail "$(cat "$work/made")"
+from=$(next_line)
+drop "$work/reference.exr"
+wait_for '^reference reference.exr$' "$from"
+cp "$assets/cornell-box.xml" "$work/an other.xml"
+drop "$work/an other.xml"
+wait_for '^scenes shown 4$' "$from"
+xdotool search --name "^Tessera - $work/an other.xml\$" >/dev/null || fail "another scene is open"
+from=$(next_line)
+drop "$work/made"
+wait_for '^messages ' "$from"
+drop "$scene"
+wait_for '^scenes shown 5$' "$from"
+press k '^messages '
 grep -q to_world "$work/box-camera.json" || fail "no camera was saved"
 xdotool key ctrl+q
 expect_end "ctrl+q" 0
