@@ -16,6 +16,7 @@
 #include "app/sweep.h"
 #include "app/view.h"
 #include "ui/script.h"
+#include "ui/words.h"
 
 #include <algorithm>
 #include <string>
@@ -118,7 +119,8 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     CLI::App& command = *app.add_subcommand("view", "explore a scene in a window");
     add_scene(command, words, false);
     add_settings(command, words);
-    command.add_option("--spp", words.spp, "samples a pixel after which to rest")->check(CLI::Range(1, 100000000));
+    command.add_option("--spp", words.spp, "samples a pixel after which to rest")
+        ->check(CLI::Range(1, ranges::most_spp));
     CLI::Option* panes = command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
                              ->check(CLI::IsMember({1, 2, 4}))
                              ->capture_default_str();
@@ -169,8 +171,8 @@ SizeChoice size_of(const Words& words) {
     if (words.size.empty())
         return {has_sample ? SizeChoice::Base::scene : SizeChoice::Base::pane};
     const glm::ivec2 size = parse_size("--size", words.size);
-    if (has_sample && std::max(size.x, size.y) > most_render_pixels_an_edge)
-        throw BadInput(fmt::format("--size {}: with --inspect, width and height must be from 1 to {}", words.size,
+    if (std::max(size.x, size.y) > most_render_pixels_an_edge)
+        throw BadInput(fmt::format("--size {}: in the viewer, width and height must be from 1 to {}", words.size,
                                    most_render_pixels_an_edge));
     return {SizeChoice::Base::custom, 1, size};
 }

@@ -29,10 +29,17 @@ double significance(double excess, double error, double freedom) {
     return error > 0 ? sigmas(student_tail(excess / error, freedom)) : sigmas(0);
 }
 
+constexpr double factor_level = 0.05; // the probability of an interval that is wrong
+
 /// How far the mean may be from the truth, relative: rounding, and for what is not linear, what is called its
 /// smoothing.
-double tolerance_of(const Point& point) {
-    return is_linear(point.settings.reconstruction.norm) ? 1e-4 : 0.02;
+struct Tolerance {
+    double energy, pieces;
+};
+
+Tolerance tolerance_of(const Point& point) {
+    constexpr Tolerance linear{1e-4, 1e-4}, smoothing{0.02, 0.1};
+    return is_linear(point.settings.reconstruction.norm) ? linear : smoothing;
 }
 
 /// Of the pieces' biases. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the squared
@@ -110,7 +117,7 @@ Numbers without(Numbers values, std::size_t i) {
 
 /// The error is that of the ratio's logarithm: from how it changes when one seed after the other is left out of
 /// both, and from the references' noise, which all errors share.
-void find_factor(const Result& result, const Result& pt, double reference_error, double level, Findings& f) {
+void find_factor(const Result& result, const Result& pt, double reference_error, Findings& f) {
     const auto error = [](const Measurement& m) { return m.artefacts->error.relative_mse; };
     const auto seconds = [](const Measurement& m) { return m.cpu_seconds; };
     const Numbers e = of_runs(result, error), t = of_runs(result, seconds);
@@ -124,7 +131,7 @@ void find_factor(const Result& result, const Result& pt, double reference_error,
             std::log(cost_of(without(e, i), without(t, i)) / cost_of(without(e_pt, i), without(t_pt, i))));
     const double of_seeds = jackknife_error(logs);
     const double of_reference = reference_error * (1 / mean_of(e) - 1 / mean_of(e_pt));
-    const double reach = student_t(level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
+    const double reach = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
     if (!std::isfinite(reach))
         return;
     f.factor = cost_of(e, t) / cost_of(e_pt, t_pt);
@@ -171,7 +178,7 @@ std::string cause_of_worse(const Findings& f) {
 
 } // namespace
 
-Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level) {
+Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference) {
     Findings f;
     Numbers errors, edges;
     for (const Measurement& run : result.runs) {
@@ -182,20 +189,20 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
         if (run.tiles)
             edges.push_back(run.tiles->edges);
     }
-    const double tolerance = tolerance_of(result.point);
+    const Tolerance tolerance = tolerance_of(result.point);
     f.cost = cost_of_sample(result) / cost_of_sample(path_tracing);
     f.error = mean_of(errors);
     f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);
-    f.energy = energy_of(result, reference, tolerance);
-    f.squared_bias = squared_bias_of(result, reference, tolerance);
+    f.energy = energy_of(result, reference, tolerance.energy);
+    f.squared_bias = squared_bias_of(result, reference, tolerance.pieces);
     find_spikes(result, f);
     f.tile_edges = edges.empty() ? none : mean_of(edges);
     f.tile_edges_error = edges.empty() ? none : standard_error_of(edges);
-    find_factor(result, path_tracing, reference.squared_error_error, level, f);
+    find_factor(result, path_tracing, reference.squared_error_error, f);
     return f;
 }
 
-Verdict judge(const Findings& findings, const Findings& path_tracing, const Point& point, double level) {
+Verdict judge(const Findings& findings, const Findings& path_tracing, double level) {
     using Kind = Verdict::Kind;
     if (findings.bad_pixels > 0)
         return {Kind::fails, fmt::format("not finite: {} pixels", findings.bad_pixels)};
@@ -203,8 +210,7 @@ Verdict judge(const Findings& findings, const Findings& path_tracing, const Poin
     if (is_biased_by_itself && is_biased(path_tracing, level))
         return {Kind::undecided, fmt::format("{}, but so is PT to its own reference: more samples for that",
                                              bias_text(findings, level))};
-    if (is_biased_by_itself &&
-        (is_linear(point.settings.reconstruction.norm) || findings.energy.sigmas > sigmas(level)))
+    if (is_biased_by_itself)
         return {Kind::fails, bias_text(findings, level)};
     if (findings.low > 1)
         return {Kind::worse, cause_of_worse(findings)};

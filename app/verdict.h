@@ -30,8 +30,8 @@ struct Findings {
     double error_error = 0; ///< its standard error, references' noise included
     double cost = 0;        ///< of a sample: CPU seconds, over those of PT
     Counters counters;      ///< of all runs together
-    /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its confidence interval; none
-    /// of them a number where either error is not certain.
+    /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its interval of 95 %; none of
+    /// them a number where either error is not certain.
     double factor = 0, low = 0, high = 0;
 };
 
@@ -41,13 +41,13 @@ struct Verdict {
     std::string cause; ///< empty for ok; of what is worse, what of it is cost, and where shifts fail
 };
 
-/// `level`: the probability of a wrong interval. Both results must have runs with artefacts.
-Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference, double level);
+/// Both results must have runs with artefacts.
+Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference);
 
 /// `path_tracing`: what was found of PT on the same scene. Where that looks biased to references that are made by
 /// PT, rare light is missing in one of them, and nobody's bias can be told. `level`: the probability of calling
-/// something wrong that is not.
-Verdict judge(const Findings& findings, const Findings& path_tracing, const Point& point, double level);
+/// a mean wrong that is not.
+Verdict judge(const Findings& findings, const Findings& path_tracing, double level);
 
 /// "ok", "worse than PT", "fails", "undecided".
 std::string to_string(Verdict::Kind kind);

@@ -38,7 +38,7 @@ Image<float> variances_from_neighbours(const RgbImage& values, int columns, int 
                 }
             const double spread = squares - glm::dot(sum, sum) / n; // below 0 by rounding alone
             if (n > 1)
-                variances(x, y) = std::clamp(static_cast<float>(spread / (n - 1)), 0.0f, largest_variance);
+                variances(x, y) = static_cast<float>(std::clamp(spread / (n - 1), 0.0, double(largest_variance)));
         }
     });
     return variances;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -63,6 +64,7 @@ struct Reconstructor::Solvers {
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
+    bool has_variances = false; ///< the last images that were weighted
 };
 
 Reconstructor::Reconstructor() = default;
@@ -133,10 +135,12 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, stop);
         break;
     case Norm::weighted: {
+        WeightedSolver& solver = solvers_->made(solvers_->weighted);
+        if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
+            solver.forget(); // weights from neighbours are unlike those from samples
         problem.alpha = alpha_of_patches(settings.alpha, images.patch);
         const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
-        result.iterations =
-            solvers_->made(solvers_->weighted).solve(problem, weights, {}, result.image, parallel_for, stop);
+        result.iterations = solver.solve(problem, weights, {}, result.image, parallel_for, stop);
         break;
     }
     }

@@ -77,7 +77,8 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
                                    "How the picture is made from primal and gradients (screened Poisson).");
     settings.norm = static_cast<Norm>(index);
     ImGui::BeginDisabled(settings.norm == Norm::none || settings.norm == Norm::uniform);
-    changed |= controls.log_slider("alpha", "Alpha", settings.alpha, ranges::alpha.low(), ranges::alpha.high(),
+    changed |= controls.log_slider("alpha", "Alpha", settings.alpha, ranges::alpha_slider.low(),
+                                   ranges::alpha_slider.high(),
                                    "Weight of the primal against the gradients (no unit). Small: gradients alone "
                                    "decide on all but the mean, as far as they are trusted.");
     ImGui::EndDisabled();

@@ -43,8 +43,8 @@ struct Range {
 namespace ranges {
 inline constexpr int most_spp = 1 << 24;
 inline constexpr double most_seconds = 1e7;
-inline constexpr Range alpha{0.001, 10}, exposure{-10, 10}, gamma{1, 4}, spp_limit{0, most_spp},
-    reference_spp{2, most_spp}, seconds_limit{0, most_seconds};
+inline constexpr Range alpha{1e-4, 1e3}, alpha_slider{0.001, 10}, exposure{-10, 10}, gamma{1, 4},
+    spp_limit{0, most_spp}, reference_spp{2, most_spp}, seconds_limit{0, most_seconds};
 } // namespace ranges
 
 } // namespace tessera

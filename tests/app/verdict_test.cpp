@@ -63,9 +63,9 @@ public:
     }
 
     Findings findings(const Result& result) {
-        return find(result, pt_, measure_reference_noise(halves_[0], halves_[1]), level);
+        return find(result, pt_, measure_reference_noise(halves_[0], halves_[1]));
     }
-    Verdict verdict(const Result& result) { return judge(findings(result), findings(pt_), result.point, level); }
+    Verdict verdict(const Result& result) { return judge(findings(result), findings(pt_), level); }
     Verdict verdict(const Mean& mean, double deviation, Norm norm = Norm::none) {
         return verdict(result(mean, deviation, Method::gpr, norm));
     }
@@ -129,6 +129,17 @@ TEST(Verdict, ABiasThatKeepsTheEnergyIsFound) {
     const Verdict v = suite.verdict(wavy, 0.3);
     EXPECT_EQ(v.kind, Verdict::Kind::fails);
     EXPECT_THAT(v.cause, HasSubstr("biased by "));
+}
+
+TEST(Verdict, SmoothingMayNotMoveMuchOfTheLight) {
+    Suite suite;
+    const auto wavy = [](float by) -> Mean {
+        return [by](int x, int y) { return truth(x, y) * (x / 8 % 2 ? 1 + by : 1 - by); };
+    };
+    EXPECT_EQ(suite.verdict(wavy(0.03f), 0.2, Norm::weighted).kind, Verdict::Kind::ok);
+    const Verdict v = suite.verdict(wavy(0.2f), 0.2, Norm::weighted);
+    EXPECT_EQ(v.kind, Verdict::Kind::fails);
+    EXPECT_THAT(v.cause, HasSubstr("biased by 2"));
 }
 
 TEST(Verdict, LightThatTheReferenceLacksCondemnsNobody) {

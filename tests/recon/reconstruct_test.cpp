@@ -79,6 +79,16 @@ TEST(Reconstruct, WithoutVariancesGradientsUnlikeTheirNeighboursCountLess) {
               0.5 * relative_rms_difference(image(Norm::l2), plane));
 }
 
+TEST(Reconstruct, TheFirstVariancesEndAWarmStart) {
+    const GradientImages second = noisy_images(40, 30);
+    GradientImages first = noisy_images(40, 30, 1, 4);
+    first.primal_variance = first.dx_variance = first.dy_variance = {};
+    Reconstructor reconstructor;
+    reconstructor.reconstruct(first, {Norm::weighted, 0.2f});
+    const RgbImage image = reconstructor.reconstruct(second, {Norm::weighted, 0.2f}).image;
+    EXPECT_EQ(relative_difference(image, reconstruct(second, {Norm::weighted, 0.2f}).image), 0);
+}
+
 /// A dark window frame, known well, beside panes known badly: it takes none of their noise, and nothing is below
 /// black.
 TEST(Reconstruct, DarkPixelsBesideNoisyOnesStayDark) {
@@ -121,15 +131,20 @@ TEST(Reconstruct, L2TellsItsResidual) {
 }
 
 TEST(Reconstruct, TheUnitOfRadianceDoesNotMatter) {
-    const GradientImages images = noisy_images(50, 41);
-    for (const Norm norm : solved) {
-        const RgbImage expected = reconstruct(images, {norm, 0.2f}).image;
-        for (const float scale : {1e-4f, 1e4f}) {
-            RgbImage image = reconstruct(noisy_images(50, 41, scale), {norm, 0.2f}).image;
+    for (const bool has_variances : {true, false}) {
+        const auto image_in = [&](float scale, Norm norm) {
+            GradientImages images = noisy_images(50, 41, scale);
+            if (!has_variances)
+                images.primal_variance = images.dx_variance = images.dy_variance = {};
+            RgbImage image = reconstruct(images, {norm, 0.2f}).image;
             for (Rgb& c : image)
                 c /= scale;
-            EXPECT_LE(relative_difference(image, expected), 1e-4) << to_string(norm) << " " << scale;
-        }
+            return image;
+        };
+        for (const Norm norm : solved)
+            for (const float scale : {1e-4f, 1e4f})
+                EXPECT_LE(relative_difference(image_in(scale, norm), image_in(1, norm)), 1e-4)
+                    << to_string(norm) << " " << scale << " " << has_variances;
     }
 }
 
@@ -144,6 +159,8 @@ TEST(Reconstruct, OddInputsGiveFiniteImages) {
             images.dx_variance(0, 0) = spike == 0 ? 0 : std::numeric_limits<float>::max();
             for (const Norm norm : solved)
                 EXPECT_TRUE(std::isfinite(largest(reconstruct(images, {norm, 0.2f}).image)));
+            images.primal_variance = {};
+            EXPECT_TRUE(std::isfinite(largest(reconstruct(images, {Norm::weighted, 0.2f}).image)));
         }
     }
 }

@@ -1,6 +1,7 @@
 // The viewer under random input, for TESSERA_RANDOM_SECONDS (5): nothing may break, and afterwards all works as
 // before. TESSERA_RANDOM_SEED repeats a run, as far as threads let it. For the sanitizers: random_run.sh.
 
+#include "render/load/exr.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/actions.h"
 #include "ui/imgui_version.h"
@@ -37,7 +38,8 @@ public:
         write("broken.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"");
         write("settings.json", "{\"panes\": [{\"method\": \"gpr\", \"settings\": {\"tile\": \"9\"}}]}");
         write("broken.json", "{\"panes\": [{\"method\": \"gpr\", \"settings\": {\"tile\": \"99\"}}]}");
-        write("picture.exr", "no picture");
+        write("broken.exr", "no picture");
+        write_exr(folder_ / "picture.exr", {{{"", RgbImage(48, 36, Rgb(0.5f))}}, {}});
         write("empty", "");
     }
     ~Files() {
@@ -47,7 +49,7 @@ public:
 
     fs::path any(std::mt19937& random) const {
         const char* names[] = {"scene.xml",   "broken.xml", "settings.json", "broken.json",
-                               "picture.exr", "empty",      "not there.xml"};
+                               "picture.exr", "broken.exr", "empty",         "not there.xml"};
         std::vector<fs::path> all(std::begin(names), std::end(names));
         for (const auto& entry : fs::directory_iterator(folder_)) // what the viewer has saved itself
             all.push_back(entry.path().filename());
@@ -72,6 +74,9 @@ ViewerOptions options_for(const Files& files) {
             return viewer_scene();
         };
         return {file.string(), {file, {}, {}}, loader};
+    };
+    options.write_exr = [](const fs::path& file, const SavedPicture& picture) {
+        write_exr(file, {{{"", picture.snapshot->images->primal}}, {}});
     };
     return options;
 }
@@ -165,9 +170,14 @@ protected:
         } else if (one_in(40)) {
             note("the viewer anew");
             harness_.reset();
-            harness_ = std::make_unique<ViewerHarness>(glm::ivec2(900, 600), 1.0f, options_for(files_));
+            harness_ = new_viewer();
             harness_->load_scene();
         }
+    }
+
+    /// With threads beside each other in a pass, for the sanitizer that watches them.
+    std::unique_ptr<ViewerHarness> new_viewer() const {
+        return std::make_unique<ViewerHarness>(glm::ivec2(900, 600), 1.0f, options_for(files_), 3);
     }
 
     void check() {
@@ -209,7 +219,7 @@ TEST_F(RandomInput, BreaksNothing) {
     const double seconds = number_from("TESSERA_RANDOM_SECONDS", 5);
     fmt::print("TESSERA_RANDOM_SEED={}\n", seed);
     random_.seed(seed);
-    harness_ = std::make_unique<ViewerHarness>(glm::ivec2(900, 600), 1.0f, options_for(files_));
+    harness_ = new_viewer();
     harness_->load_scene();
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {

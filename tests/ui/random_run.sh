@@ -14,6 +14,7 @@ cmake --build "$folder" --target random_input_test
 # Mesa's own threads are not built with the sanitizer, and so do without.
 export LP_NUM_THREADS=0
 export TSAN_OPTIONS="suppressions=$root/tests/tsan.supp halt_on_error=1"
+export UBSAN_OPTIONS="halt_on_error=1 print_stacktrace=1"
 export LSAN_OPTIONS="suppressions=$here/lsan.supp"
 export TESSERA_RANDOM_SECONDS="$2"
 exec "$folder/tests/ui/random_input_test"

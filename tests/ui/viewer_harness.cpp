@@ -39,8 +39,9 @@ SceneOrigin scene_in(const std::filesystem::path& file) {
         file.string(), {file, {}, {}}, [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); }};
 }
 
-ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options)
-    : context(size), gui(scale), scale_(scale), session(most_panes, 1), viewer(session, std::move(options)) {}
+ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options, int threads)
+    : context(size), gui(scale), scale_(scale), session(most_panes, threads), viewer(session, std::move(options)) {
+}
 
 void ViewerHarness::frame(float seconds) {
     state().display_scale = scale_;

@@ -21,7 +21,9 @@ SceneOrigin scene_in(const std::filesystem::path& file);
 /// The viewer drawn in memory, driven by synthetic input.
 class ViewerHarness {
 public:
-    explicit ViewerHarness(glm::ivec2 size = {1280, 720}, float scale = 1, ViewerOptions options = two_panes());
+    /// @param threads  that render: 1 is the session's own
+    explicit ViewerHarness(glm::ivec2 size = {1280, 720}, float scale = 1, ViewerOptions options = two_panes(),
+                           int threads = 1);
 
     /// PT and G-PR, of small size.
     static ViewerOptions two_panes();
