@@ -44,6 +44,10 @@ std::array<ScreenRect, 2> side_rects(const PictureFrame& frame, const ViewerStat
     return {{{frame.rect.min, {middle, frame.rect.max.y}}, {{middle, frame.rect.min.y}, frame.rect.max}}};
 }
 
+std::string pane_id(int index) {
+    return "pane" + std::to_string(index);
+}
+
 const PaneImage& image_of(const Showing& showing, const PaneTools& tools) {
     return tools.images[static_cast<std::size_t>(showing.pane)];
 }
@@ -58,8 +62,8 @@ CanvasView view_of(const Showing& showing, const PictureFrame& frame, const Pane
 
 } // namespace
 
-void PaneView::draw(int index, const ScreenRect& where, PaneTools& tools) {
-    const std::string id = "pane" + std::to_string(index);
+void PaneView::take_input(int index, const ScreenRect& where, PaneTools& tools) {
+    const std::string id = pane_id(index);
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     const float pad = std::floor(ImGui::GetFontSize() * 0.3f);
@@ -67,16 +71,19 @@ void PaneView::draw(int index, const ScreenRect& where, PaneTools& tools) {
     ImGui::Begin(id.c_str(), nullptr, pane_flags);
     ImGui::PopStyleVar();
     draw_pane_header(id, tools.controls, tools.state.panes[static_cast<std::size_t>(index)]);
-    draw_picture(index, id, tools);
-    draw_status(id, index, tools.state, tools.images, tools.controls);
+    frame_ = place_picture(index, id, tools);
+    use_mouse(index, frame_, tools);
     ImGui::End();
 }
 
-void PaneView::draw_picture(int index, const std::string& id, PaneTools& tools) {
-    PictureFrame frame = place_picture(index, id, tools);
-    use_mouse(index, frame, tools);
-    draw_renditions(index, frame, tools);
-    draw_overlays(index, id, frame, tools);
+void PaneView::draw(int index, PaneTools& tools) {
+    const std::string id = pane_id(index);
+    ImGui::Begin(id.c_str(), nullptr, pane_flags); // goes on where it was left
+    frame_.placement = tools.state.view.place(tools.state.request_size(), frame_.pixels);
+    draw_renditions(index, frame_, tools);
+    draw_overlays(index, id, frame_, tools);
+    draw_status(id, index, tools.state, tools.images, tools.controls);
+    ImGui::End();
 }
 
 /// Takes the room that the pane has for its picture, as an item.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/pane_legends.h"
+#include "ui/picture_frame.h"
 
 #include <string>
 
@@ -10,8 +11,11 @@ namespace tessera {
 /// what it shows.
 class PaneView {
 public:
-    /// Changes the state by the controls, and by the mouse over the picture.
-    void draw(int index, const ScreenRect& where, PaneTools& tools);
+    /// Draws the strip, and changes the state by its controls and by the mouse over the picture. All panes do so
+    /// before any draws its picture: what the mouse does over one, all show in the same frame.
+    void take_input(int index, const ScreenRect& where, PaneTools& tools);
+    /// Draws the rest.
+    void draw(int index, PaneTools& tools);
 
     const Canvas& canvas() const { return canvas_; } ///< of the whole picture, or what is left of a wipe's line
 
@@ -23,7 +27,6 @@ private:
         bool is_camera() const { return !wipe && !range; }
     };
 
-    void draw_picture(int index, const std::string& id, PaneTools& tools);
     PictureFrame place_picture(int index, const std::string& id, PaneTools& tools);
     static void frame_tile(int index, const PictureFrame& frame, ViewerState& state);
     void use_mouse(int index, PictureFrame& frame, PaneTools& tools);
@@ -41,6 +44,7 @@ private:
     Canvas right_canvas_; // beyond a wipe's line
     Canvas magnifier_canvas_;
     PaneLegends legends_;
+    PictureFrame frame_; // of this frame
     Grip grip_;
 };
 

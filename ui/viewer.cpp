@@ -199,11 +199,15 @@ void Viewer::draw_panes(const ScreenRect& where) {
         state_.cursor.reset();
     PaneTools tools{shader_, images_, controls_, state_};
     const int alone = state_.alone ? state_.active_pane : -1;
-    for (int i = 0; i < panes; ++i) {
-        if (alone < 0 || alone == i)
-            pane_views_[static_cast<std::size_t>(i)].draw(i, alone < 0 ? pane_rect(where, i, panes) : where,
-                                                          tools);
-    }
+    const auto each = [&](auto&& act) {
+        for (int i = 0; i < panes; ++i) {
+            if (alone < 0 || alone == i)
+                act(pane_views_[static_cast<std::size_t>(i)], i);
+        }
+    };
+    each(
+        [&](PaneView& view, int i) { view.take_input(i, alone < 0 ? pane_rect(where, i, panes) : where, tools); });
+    each([&](PaneView& view, int i) { view.draw(i, tools); });
 }
 
 /// Of the panel below the pictures; 0: there is none. At most half the room that there is.

@@ -39,6 +39,30 @@ TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
+// What the mouse does over the last pane, the first, which is drawn before it, shows in the same frame.
+TEST_F(Panes, MoveTogetherWithinOneFrame) {
+    const auto first_pane = [&] {
+        const ScreenPixels pixels = screen();
+        const ControlRect rect = place("pane0.picture");
+        std::vector<std::uint8_t> inside;
+        for (int y = static_cast<int>(rect.min.y) + 1; y < static_cast<int>(rect.max.y) - 1; ++y)
+            for (int x = static_cast<int>(rect.min.x) + 1; x < static_cast<int>(rect.max.x) - 1; ++x)
+                inside.push_back(pixels.at(x, y)[0]);
+        return inside;
+    };
+    move_to(place("pane1.picture").center());
+    modifiers(true, false);
+    frames(3);
+    const auto before = first_pane();
+    send_mouse_wheel(4);
+    frame();
+    const auto at_once = first_pane();
+    frame();
+    EXPECT_NE(at_once, before);
+    EXPECT_EQ(at_once, first_pane());
+    modifiers(false, false);
+}
+
 TEST_F(Panes, TheActivePaneStaysWhenOthersGo) {
     click("pane1.picture");
     type(Key::digit1, true);
