@@ -116,7 +116,8 @@ std::string settings_section(const Experiment& experiment) {
     std::string html = "<h2>Settings and machine</h2>\n<table>\n";
     html += row("program", fmt::format("tessera {}{}", program_identity(),
                                        options.takes_any_build ? ", some runs maybe by another build" : ""));
-    html += row("processor", cpu_model());
+    html += row("machine", machine_text());
+    html += row("written on", today());
     html += row("threads", s.threads > 0 ? std::to_string(s.threads)
                                          : fmt::format("{} (all)", std::thread::hardware_concurrency()));
     html += row("each render", to_string(options.effort));

@@ -2,10 +2,13 @@
 
 #include "render/checksum.h"
 
+#include <ctime>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 namespace tessera {
 
@@ -15,6 +18,21 @@ std::string cpu_model() {
         if (const std::size_t colon = line.find(": "); line.rfind("model name", 0) == 0 && colon != line.npos)
             return line.substr(colon + 2);
     return "unknown";
+}
+
+std::string machine_text() {
+    std::string text = fmt::format("{}, {} hardware threads", cpu_model(), std::thread::hardware_concurrency());
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    if (pages > 0 && page > 0)
+        text += fmt::format(", {:.0f} GB", static_cast<double>(pages) * static_cast<double>(page) * 1e-9);
+    return text;
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return fmt::format("{:04}-{:02}-{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday);
 }
 
 const std::string& program_identity() {
