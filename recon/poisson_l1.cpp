@@ -124,7 +124,7 @@ float typical_value(const RgbImage& image) {
 L1Solver::L1Solver(int width, int height) : solver_(width, height) {}
 
 int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, RgbImage& image,
-                    const ParallelFor& parallel_for, std::stop_token stop) {
+                    const ParallelFor& parallel_for, const SolveWatch& watch) {
     const float scale = typical_value(problem.primal);
     const bool warm = threshold_ > 0;
     if (!warm)
@@ -146,7 +146,7 @@ int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, R
     float last = warm ? threshold_ : threshold;
     threshold_ = 0; // if stopped, q is of no use
     for (int i = 0; i < iterations; ++i) {
-        if (stop.stop_requested())
+        if (!watch.goes_on(i, iterations))
             return 0;
         const bool settling = i + settling_iterations >= iterations;
         const float next =

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "recon/poisson_direct.h"
-
-#include <stop_token>
+#include "recon/solve_watch.h"
 
 namespace tessera {
 
@@ -41,7 +40,7 @@ public:
     /// stopped, which is looked at between them. The same bits for any parallel_for. Allocates images in the first
     /// call only.
     int solve(const PoissonProblem& problem, const L1Settings& settings, RgbImage& image,
-              const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+              const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
     /// The next solve starts from nothing: right for data unlike the last.
     void forget() { threshold_ = 0; }

@@ -205,11 +205,11 @@ bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
 
 /// Adds steps to the correction; returns the number of inner solves. What is not finite empties all that is kept.
 int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
-                            const ParallelFor& parallel_for, std::stop_token stop) {
+                            const ParallelFor& parallel_for, const SolveWatch& watch) {
     Channels rz_before{}, step{};
     double first = 0;
     for (int i = 0; i < iterations; ++i) {
-        if (stop.stop_requested())
+        if (!watch.goes_on(i, iterations))
             return i;
         solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
         const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
@@ -263,7 +263,7 @@ void WeightedSolver::add_correction(const RgbImage& primal, RgbImage& image, con
 
 int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weights,
                           const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
-                          std::stop_token stop) {
+                          const SolveWatch& watch) {
     const bool has_last = !correction_.empty();
     make_room();
     const float alpha = std::max(problem.alpha, least_alpha);
@@ -271,8 +271,8 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
     residual(problem, weights, image, residual_, parallel_for);
     const bool is_warm = has_last && try_last_correction(problem, weights, parallel_for);
     const int steps = descend(problem, weights, is_warm ? settings.warm_iterations : settings.cold_iterations,
-                              parallel_for, stop);
-    if (stop.stop_requested()) {
+                              parallel_for, watch);
+    if (watch.is_stopped()) {
         forget();
         return 0;
     }

@@ -2,8 +2,7 @@
 
 #include "recon/edge_weights.h"
 #include "recon/poisson_direct.h"
-
-#include <stop_token>
+#include "recon/solve_watch.h"
 
 namespace tessera {
 
@@ -33,7 +32,7 @@ public:
     /// stopped, which is looked at between them. The same bits for any parallel_for. Where numbers are too large
     /// for floats, the answer is the start.
     int solve(const PoissonProblem& problem, const EdgeWeights& weights, const WeightedSettings& settings,
-              RgbImage& image, const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+              RgbImage& image, const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
     /// The next solve starts from nothing: right for data unlike the last.
     void forget() { correction_ = {}; }
@@ -43,7 +42,7 @@ private:
     bool try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
                              const ParallelFor& parallel_for);
     int descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
-                const ParallelFor& parallel_for, std::stop_token stop);
+                const ParallelFor& parallel_for, const SolveWatch& watch);
     void add_correction(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for);
 
     PoissonSolver solver_;

@@ -110,7 +110,7 @@ bool is_linear(Norm norm) {
 
 /// All but very direct light and time.
 Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
-                                    const ParallelFor& parallel_for, std::stop_token stop) {
+                                    const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = images.primal.width(), height = images.primal.height();
     if (!solvers_ || solvers_->width != width || solvers_->height != height)
         solvers_ = std::make_unique<Solvers>(width, height);
@@ -128,11 +128,11 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     case Norm::l1:
     case Norm::mixed: {
         const L1Settings l1{.square_primal = settings.norm == Norm::mixed, .joint_colour = settings.joint_colour};
-        result.iterations = solvers_->made(solvers_->l1).solve(problem, l1, result.image, parallel_for, stop);
+        result.iterations = solvers_->made(solvers_->l1).solve(problem, l1, result.image, parallel_for, watch);
         break;
     }
     case Norm::uniform:
-        result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, stop);
+        result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, watch);
         break;
     case Norm::weighted: {
         WeightedSolver& solver = solvers_->made(solvers_->weighted);
@@ -140,22 +140,22 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
             solver.forget(); // weights from neighbours are unlike those from samples
         problem.alpha = alpha_of_patches(settings.alpha, images.patch);
         const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
-        result.iterations = solver.solve(problem, weights, {}, result.image, parallel_for, stop);
+        result.iterations = solver.solve(problem, weights, {}, result.image, parallel_for, watch);
         break;
     }
     }
-    if (stop.stop_requested())
+    if (watch.is_stopped())
         result.image = {};
     return result;
 }
 
 Reconstruction Reconstructor::reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                                          const ParallelFor& parallel_for, std::stop_token stop) {
+                                          const ParallelFor& parallel_for, const SolveWatch& watch) {
     const auto start = std::chrono::steady_clock::now();
     check_sizes(images);
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    Reconstruction result = solve(images, settings, parallel_for, stop);
+    Reconstruction result = solve(images, settings, parallel_for, watch);
     if (images.has_gradients() && !is_linear(settings.norm))
         lift_to_black(images.primal, result.image, parallel_for);
     if (!result.image.empty())
@@ -165,8 +165,8 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
 }
 
 Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                           const ParallelFor& parallel_for, std::stop_token stop) {
-    return Reconstructor().reconstruct(images, settings, parallel_for, stop);
+                           const ParallelFor& parallel_for, const SolveWatch& watch) {
+    return Reconstructor().reconstruct(images, settings, parallel_for, watch);
 }
 
 } // namespace tessera

@@ -2,11 +2,11 @@
 
 #include "recon/gradient_images.h"
 #include "recon/parallel.h"
+#include "recon/solve_watch.h"
 
 #include <array>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string_view>
 
 namespace tessera {
@@ -55,7 +55,7 @@ public:
     /// where they last ended (a warm start), which is right if it had the same scene and view and a few samples
     /// less.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                               const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+                               const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
     /// The next image starts from nothing.
     void forget();
@@ -63,7 +63,7 @@ public:
 private:
     struct Solvers;
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
-                         const ParallelFor& parallel_for, std::stop_token stop);
+                         const ParallelFor& parallel_for, const SolveWatch& watch);
 
     std::unique_ptr<Solvers> solvers_; ///< for the size of the last image
 };
@@ -72,6 +72,6 @@ private:
 /// allow (screened Poisson), plus very direct light. Without gradients, or with Norm::none, it is the primal
 /// plus very direct light.
 Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                           const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+                           const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
 } // namespace tessera

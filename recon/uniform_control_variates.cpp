@@ -5,14 +5,14 @@
 namespace tessera {
 
 int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
-                       const ParallelFor& parallel_for, std::stop_token stop) {
+                       const ParallelFor& parallel_for, const SolveWatch& watch) {
     constexpr float share = 0.2f; // of each of four neighbours and the pixel itself
     const int width = problem.primal.width(), height = problem.primal.height();
     const PoissonProblem gradients{problem.primal, problem.dx, problem.dy, 0};
     image = problem.primal;
     RgbImage next(width, height);
     for (int i = 0; i < iterations; ++i) {
-        if (stop.stop_requested())
+        if (!watch.goes_on(i, iterations))
             return 0;
         parallel_for(height, [&](int y) {
             poisson_defect(gradients, image, y, 0, width, &next.row(y)->x);

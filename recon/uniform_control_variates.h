@@ -1,8 +1,7 @@
 #pragma once
 
 #include "recon/poisson_problem.h"
-
-#include <stop_token>
+#include "recon/solve_watch.h"
 
 namespace tessera {
 
@@ -16,6 +15,6 @@ namespace tessera {
 /// Writes the answer to `image`, which is none of the problem's, whose alpha does not matter. Returns
 /// `iterations`, or 0 if stopped, which is looked at between them.
 int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
-                       const ParallelFor& parallel_for = serial_for, std::stop_token stop = {});
+                       const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
 } // namespace tessera

@@ -2,9 +2,12 @@
 #include "tests/recon/test_images.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -171,6 +174,24 @@ TEST(Reconstruct, StopsWhenAsked) {
     const GradientImages images = noisy_images(20, 20);
     for (const Norm norm : solved)
         EXPECT_TRUE(reconstruct(images, {norm, 0.2f}, serial_for, source.get_token()).image.empty());
+}
+
+TEST(Reconstruct, TellsHowFarItIs) {
+    const GradientImages images = noisy_images(20, 20);
+    for (const Norm norm : {Norm::l1, Norm::mixed, Norm::weighted, Norm::uniform}) {
+        std::atomic<float> share = 0;
+        std::vector<float> seen;
+        const ParallelFor watched = [&](int count, const std::function<void(int)>& work) {
+            seen.push_back(share);
+            serial_for(count, work);
+        };
+        reconstruct(images, {norm, 0.2f}, watched, {{}, &share});
+        EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end())) << to_string(norm);
+        EXPECT_GT(std::set<float>(seen.begin(), seen.end()).size(), 10u) << to_string(norm);
+        EXPECT_EQ(seen.front(), 0) << to_string(norm);
+        EXPECT_GT(seen.back(), 0.9f) << to_string(norm);
+        EXPECT_LT(seen.back(), 1) << to_string(norm);
+    }
 }
 
 TEST(Reconstruct, RefusesWhatMakesNoSense) {
