@@ -153,7 +153,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return "";
     if (!companions.reference)
         return "No reference: drop an EXR file on the window";
-    if (family(buffer) == BufferFamily::reference || !snapshot || !snapshot->images || snapshot->coarse ||
+    if (family(buffer) == BufferFamily::reference || !snapshot || !snapshot->images || snapshot->coarse() ||
         same_size(snapshot->images->primal, companions.reference->image))
         return "";
     const RgbImage& r = companions.reference->image;

@@ -12,7 +12,7 @@ namespace {
 /// The picture on show at the end, if it is one: not the primal that stands in for a reconstruction under way.
 std::shared_ptr<const void> final_source(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
-    if (!s || s->coarse || s->generation != pane.generation)
+    if (!s || s->coarse() || s->generation != pane.generation)
         return nullptr;
     std::shared_ptr<const void> source = picture_source(*s, Buffer::reconstruction);
     return has_gradients(s->settings.method) && source != s->reconstruction ? nullptr : source;
@@ -86,7 +86,7 @@ void ChartJob::note_shifts(const PaneState& pane, PaneChart& chart) {
         chart.shifts.clear();
     chart.shift_generation = pane.generation;
     const Snapshot* s = pane.snapshot.get();
-    if (!s || s->coarse || s->generation != pane.generation || s->counters.shift_attempts() == 0)
+    if (!s || s->coarse() || s->generation != pane.generation || s->counters.shift_attempts() == 0)
         return;
     const auto& points = chart.shifts.points();
     if (!points.empty() && points.back().spp == s->spp)

@@ -80,7 +80,7 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
         return std::make_shared<const PassOrigin>(PassOrigin{
             state.scene, state.camera.camera(), state.request_size(), pane.settings.render, {}, pane.generation});
     const Snapshot* s = pane.snapshot.get();
-    if (!s || s->generation != pane.generation || s->coarse || s->spp < 1)
+    if (!s || s->generation != pane.generation || s->coarse() || s->spp < 1)
         return nullptr;
     const glm::ivec2 size(s->images->primal.width(), s->images->primal.height());
     return std::make_shared<const PassOrigin>(

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <thread>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -75,11 +76,11 @@ public:
     void run(Viewer& viewer, const FrameHooks& hooks) override {
         const DrawInto drawing(target_);
         auto last = std::chrono::steady_clock::now();
-        double frame_seconds = 0;
+        double took = 0;
         while (!viewer.state().quit && !(hooks.ends && hooks.ends())) {
             const auto now = std::chrono::steady_clock::now();
             if (hooks.before)
-                hooks.before(frame_seconds);
+                hooks.before(took);
             viewer.state().display_scale = std::max(scale_, ViewerState::least_ui_scale);
             gui_->set_look(viewer.state().ui_scale(), viewer.state().theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
@@ -89,7 +90,8 @@ public:
             if (hooks.after && !hooks.after())
                 return;
             glFinish(); // there is nothing to show it to that would wait for it
-            frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
+            took = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
+            std::this_thread::sleep_for(std::chrono::duration<double>(frame_seconds - took)); // as a window does
             sleep(frames_ < 3 ? 0 : std::min(viewer.next_frame_in(), 0.5));
             ++frames_;
         }

@@ -21,7 +21,7 @@ void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& 
     const Snapshot& from = snapshot ? *snapshot : none;
     std::shared_ptr<const void> source = picture_source(from, buffer);
     std::shared_ptr<const void> companion = companion_source(companions, buffer);
-    coarse_ = from.coarse && source;
+    coarse_ = from.coarse() && source;
     if (source == source_ && companion == companion_ && buffer == buffer_)
         return;
     source_ = std::move(source);

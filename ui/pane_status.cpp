@@ -25,7 +25,7 @@ bool is_done(const Snapshot& snapshot, const Pace& pace) {
 /// Of the request that is out; null: none yet.
 const Snapshot* snapshot_of_request(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
-    return s && s->generation == pane.generation && !s->coarse ? s : nullptr;
+    return s && s->generation == pane.generation && !s->coarse() ? s : nullptr;
 }
 
 /// Whatever the others do.
@@ -51,10 +51,13 @@ std::string reconstruction_text(const Snapshot& snapshot) {
     return text;
 }
 
-/// "reconstructing pass 12, 1.3 s (Esc ends it)".
+/// "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a share before the first step.
 std::string under_way_text(const ReconstructionUnderWay& now) {
-    char text[96];
-    std::snprintf(text, sizeof text, "reconstructing pass %d, %.1f s (Esc ends it)", now.spp, now.seconds);
+    char share[16] = "", text[96];
+    if (now.share > 0)
+        std::snprintf(share, sizeof share, " %.0f %%,", 100.0 * static_cast<double>(now.share));
+    std::snprintf(text, sizeof text, "reconstructing pass %d,%s %.1f s (Esc ends it)", now.spp, share,
+                  now.seconds);
     return text;
 }
 
@@ -63,6 +66,7 @@ std::string under_way_text(const ReconstructionUnderWay& now) {
 std::string status_text(const ViewerState& state, int index) {
     const PaneState& pane = state.panes[static_cast<std::size_t>(index)];
     std::string line(paper_name(pane.settings.render.method));
+    const bool reconstructs_long = state.reconstructs_long(pane);
     const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
     // What it does comes first: a narrow pane cuts the end off.
     if (pane.failed)
@@ -77,6 +81,8 @@ std::string status_text(const ViewerState& state, int index) {
         line += "   " + waiting;
     if (!is_answered)
         return line;
+    if (reconstructs_long)
+        line += "   " + under_way_text(*pane.reconstructing);
     const Snapshot& snapshot = *pane.snapshot;
     const double rate =
         snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
@@ -84,11 +90,9 @@ std::string status_text(const ViewerState& state, int index) {
     std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
                   rate * 1e-6);
     line += text;
-    if (state.reconstructs_long(pane))
-        line += "   " + under_way_text(*pane.reconstructing);
-    else if (snapshot.coarse)
+    if (snapshot.coarse())
         line += "   first look";
-    else if (snapshot.reconstruction && has_gradients(snapshot.settings.method))
+    else if (!reconstructs_long && snapshot.reconstruction && has_gradients(snapshot.settings.method))
         line += "   " + reconstruction_text(snapshot);
     if (snapshot.counters.refused_samples > 0)
         line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";

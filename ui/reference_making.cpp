@@ -38,7 +38,7 @@ std::optional<double> estimated_seconds(const ViewerState& state) {
     const Snapshot* best = nullptr;
     for (const PaneState& pane : state.panes) {
         const Snapshot* s = pane.snapshot.get();
-        if (!s || s->coarse || s->spp == 0)
+        if (!s || s->coarse() || s->spp == 0)
             continue;
         if (!best || s->settings.method == state.reference_making.method)
             best = s;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -23,6 +24,25 @@ constexpr double patience = 600; // seconds that a script waits
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// How far a pane's pictures are behind its camera.
+class CameraLag {
+public:
+    /// Before every frame. Adds to `behind` when the last one has shown the first picture of a camera.
+    void look(const PaneState& pane, std::vector<double>& behind) {
+        asked_.try_emplace(pane.generation, std::exchange(last_, now())); // by the last frame's input
+        const std::uint64_t shown = pane.snapshot ? pane.snapshot->generation : 0;
+        if (shown == std::exchange(shown_, shown))
+            return;
+        if (const auto asked = asked_.find(shown); asked != asked_.end())
+            behind.push_back(now() - asked->second);
+    }
+
+private:
+    std::map<std::uint64_t, double> asked_; // when the pane first asked for a generation
+    double last_ = now();                   // when the last frame began
+    std::uint64_t shown_ = 0;
+};
 
 } // namespace
 
@@ -158,7 +178,7 @@ bool ScriptPlayer::have_samples(int spp) const {
     const ViewerState& state = viewer_.state();
     for (const PaneState& pane : state.panes) {
         const Snapshot* snapshot = pane.snapshot.get();
-        if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse ||
+        if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse() ||
             snapshot->spp < spp)
             return false;
         if (has_gradients(snapshot->settings.method) && snapshot->reconstruction_spp < spp)
@@ -184,21 +204,28 @@ void ScriptPlayer::start_key(const ScriptStep& step) {
 
 void ScriptPlayer::start_frames(const ScriptStep& step) {
     const auto times = std::make_shared<FrameTimes>();
+    const auto lag = std::make_shared<CameraLag>();
     times->label = step.arguments[1];
     const int count = static_cast<int>(number(step.arguments[0]));
     const bool orbits = step.word == "orbit";
     const std::string pane = "pane" + std::to_string(viewer_.state().active_pane) + ".picture";
     const glm::vec2 middle = orbits ? point_on(pane) : glm::vec2(0);
     for (int i = 0; i <= count; ++i) {
-        actions_.push_back([this, times, orbits, middle, i, count] {
+        actions_.push_back([this, times, lag, orbits, middle, i, count] {
             if (i > 0) // this frame's predecessor is measured
                 times->seconds.push_back(last_frame_);
             if (orbits) {
+                const ViewerState& state = viewer_.state();
+                lag->look(state.panes[static_cast<std::size_t>(state.active_pane)], times->behind);
                 mouse_ = middle + glm::vec2(i % 2 ? i : -i, 0) * (60.0f / static_cast<float>(count));
                 button_ = i > 0 && i < count;
             }
-            if (i == count)
+            if (i == 0)
+                times->period = now();
+            if (i == count) {
+                times->period = now() - times->period;
                 outside_.print(times->text());
+            }
             return true;
         });
     }

@@ -27,7 +27,7 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
     std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
     const Sent& sent = sent_of(state.panes[pane]);
-    if (snapshot == nullptr || snapshot->coarse || snapshot->generation == told ||
+    if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == told ||
         snapshot->generation != sent.generation)
         return;
     if (snapshot->counters.first_refused.list().empty())

@@ -54,7 +54,7 @@ void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
     SlowMotion& slow = state.slow_motion;
     const PaneState& pane = state.active(); // see choose
     const auto snapshot = pane.snapshot;
-    if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse || snapshot->spp < 1)
+    if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse() || snapshot->spp < 1)
         return;
     const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
     slow.sample->pixel = glm::clamp(slow.sample->pixel, glm::ivec2(0), size - 1); // the picture may have shrunk

@@ -8,6 +8,8 @@
 
 namespace tessera {
 
+constexpr double frame_seconds = 1.0 / 60; ///< at least, from one frame to the next
+
 class Viewer;
 
 /// What is done around each frame.

@@ -258,7 +258,7 @@ bool Viewer::settled(int spp) const {
         return false;
     return std::all_of(state_.panes.begin(), state_.panes.end(), [&](const PaneState& pane) {
         const Snapshot* snapshot = pane.snapshot.get();
-        if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse ||
+        if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse() ||
             snapshot->spp < spp)
             return false;
         const bool reconstructs = has_gradients(snapshot->settings.method);

@@ -133,7 +133,7 @@ void Viewer::save_exr() {
     const PaneState& pane = state_.active();
     if (!options_.write_exr)
         return state_.add_message(Message::Kind::error, "EXR files cannot be written here.");
-    if (!pane.snapshot || pane.snapshot->coarse)
+    if (!pane.snapshot || pane.snapshot->coarse())
         return state_.add_message(Message::Kind::error, no_picture_yet);
     save([write = options_.write_exr,
           file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),

@@ -21,7 +21,6 @@ namespace tessera {
 
 namespace {
 
-constexpr double frame_seconds = 1.0 / 60;
 constexpr int frames_after_input = 3; // Dear ImGui settles sizes and popups a frame or two later
 constexpr double longest_sleep = 1.0; // a lost wake-up shows no longer than this
 
@@ -267,6 +266,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         took = glfwGetTime() - now;
     }
     viewer_ = nullptr;
+    glfwHideWindow(window_); // what is on its way in the background may take a pass to end
 }
 
 } // namespace

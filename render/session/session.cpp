@@ -14,7 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto publish_interval = std::chrono::milliseconds(200);
-constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
 
 } // namespace
 
@@ -91,7 +90,8 @@ std::optional<ReconstructionUnderWay> Session::reconstructing(int pane_index) co
     if (pane.solving_spp == 0)
         return std::nullopt;
     return ReconstructionUnderWay{pane.solving_spp,
-                                  std::chrono::duration<double>(Clock::now() - pane.solving_since).count()};
+                                  std::chrono::duration<double>(Clock::now() - pane.solving_since).count(),
+                                  pane.solving_share};
 }
 
 void Session::give_up_reconstruction(int pane_index) {
@@ -152,15 +152,16 @@ std::vector<std::string> Session::take_messages() {
 }
 
 /// The pane whose turn it is, of those with work to do: first those that have shown nothing of their request yet,
-/// the one served longest ago before the others; then the one that has had the least of what the pace shares out.
-/// A pane that began later than the others so catches up with them. Null: none. Needs the lock.
+/// then those that have had but looks, the one served longest ago before the others; then the one that has had the
+/// least of what the pace shares out. A pane that began later than the others so catches up with them. Null: none.
+/// Needs the lock.
 Session::Pane* Session::next_pane() {
     Pane* next = nullptr;
     const auto order = [&](const Pane& p) {
         const double had = p.is_fresh()                      ? 0
                            : pace_.equal == Pace::Equal::spp ? p.render->spp()
                                                              : p.render->seconds();
-        return std::tuple(!p.is_fresh(), had, p.served);
+        return std::tuple(!p.lacks_look(), !p.is_fresh(), had, p.served);
     };
     for (const auto& pane : panes_) {
         if (pane->wants_pass(pace_, paused_) && (!next || order(*pane) < order(*next)))
@@ -225,13 +226,16 @@ void Session::render_pass(Pane& pane, std::stop_token session_stop) {
     try {
         if (pane.render_generation != generation) {
             pane.render.reset(); // there are never two films
-            render_coarse(pane, request, generation, session_stop);
-            if (stop.stop_requested())
-                return; // dragged on: a film would be for nothing
+            if (pane.looks.divisor(generation, request.size) > 0) {
+                // A first look is not stopped by a newer request: while a camera is dragged, each frame makes one,
+                // and a picture somewhat late is better than none.
+                look(pane, request, generation, pane.looks.is_first(generation) ? session_stop : stop);
+                return; // the other panes are next
+            }
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
             pane.render_generation = generation;
             pane.published_spp = 0;
-            return; // the other panes' first looks come next
+            return; // the other panes' looks come first, and there may be a pause
         }
         if (!pane.render->pass(pool_, stop))
             return;
@@ -253,16 +257,6 @@ void Session::report(std::string message) {
         messages_.push_back(std::move(message));
     }
     tell();
-}
-
-/// A first look: one sample a pixel of a small image, there at once. It is not stopped by a newer request: while a
-/// camera is dragged, each frame makes one, and a picture somewhat late is better than none.
-void Session::render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
-                            std::stop_token session_stop) {
-    const glm::ivec2 size = (request.size + coarse_divisor - 1) / coarse_divisor;
-    Render coarse(request.scene, request.camera, size, request.settings);
-    if (coarse.pass(pool_, session_stop))
-        publish(pane, coarse, generation, true);
 }
 
 /// Nothing more to do for this generation.

@@ -41,6 +41,7 @@ struct RenderRequest {
 struct ReconstructionUnderWay {
     int spp = 0;        ///< of the snapshot that it is made from
     double seconds = 0; ///< that it has taken so far
+    float share = 0;    ///< of its steps that are done, [0, 1]
 };
 
 /// Renders the panes of a viewer in the background: passes of the panes in turn, so that each has had about the
@@ -95,11 +96,12 @@ private:
     void render_pass(Pane& pane, std::stop_token session_stop);
     void tell();
     void report(std::string message);
-    void render_coarse(Pane& pane, const RenderRequest& request, std::uint64_t generation,
-                       std::stop_token session_stop);
+    void look(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
+    double look_budget() const;
     void give_up(Pane& pane, std::uint64_t generation);
     void count_step(Pane& pane, std::uint64_t generation);
-    void publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse);
+    static std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor);
+    void publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot);
     void publish_passes(Pane& pane);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                               std::stop_token stop);

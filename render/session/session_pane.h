@@ -1,8 +1,10 @@
 #pragma once
 
+#include "render/session/first_looks.h"
 #include "render/session/render.h"
 #include "render/session/session.h"
 
+#include <atomic>
 #include <chrono>
 
 namespace tessera {
@@ -23,9 +25,11 @@ struct Session::Pane {
     ReconstructionSettings reconstructed_with;
     int solving_spp = 0; // of the snapshot that is being reconstructed; 0: none is
     std::chrono::steady_clock::time_point solving_since;
+    std::atomic<float> solving_share = 0;         // of its steps; needs no lock
     std::weak_ptr<const GradientImages> given_up; // nothing is to be made from these
 
     // Used by the render thread alone.
+    FirstLooks looks;
     std::unique_ptr<Render> render;
     std::uint64_t render_generation = 0;
     int published_spp = 0;
@@ -43,6 +47,7 @@ struct Session::Pane {
     }
 
     bool is_fresh() const { return render_generation != generation; } ///< nothing of its request is rendered yet
+    bool lacks_look() const { return is_fresh() && looks.is_first(generation); }
 
     bool is_at_limit(const Pace& pace) const {
         return !is_fresh() && ((pace.spp_limit > 0 && render->spp() >= pace.spp_limit) ||
@@ -61,23 +66,23 @@ struct Session::Pane {
     // Used by the reconstruction thread alone: where the solver stands, and with what.
     Reconstructor reconstructor;
     std::uint64_t solved_generation = 0;
-    bool solved_coarse = false;
+    int solved_divisor = 0;
     ReconstructionSettings solved_with;
 
     /// Of a request that has been replaced, only a first look is worth it.
     bool needs_reconstruction() const {
-        return latest && (latest->coarse || latest->generation == generation) &&
+        return latest && (latest->coarse() || latest->generation == generation) &&
                (latest->images != reconstructed || !(reconstructed_with == reconstruction)) &&
                latest->images != given_up.lock();
     }
 
     /// Starts warm from the last snapshot of the same render, and else anew.
     Reconstructor& solver_for(const Snapshot& snapshot, const ReconstructionSettings& settings) {
-        if (solved_generation != snapshot.generation || solved_coarse != snapshot.coarse ||
+        if (solved_generation != snapshot.generation || solved_divisor != snapshot.divisor ||
             solved_with != settings)
             reconstructor.forget();
         solved_generation = snapshot.generation;
-        solved_coarse = snapshot.coarse;
+        solved_divisor = snapshot.divisor;
         solved_with = settings;
         return reconstructor;
     }

@@ -8,11 +8,10 @@
 
 namespace tessera {
 
-void Session::publish(Pane& pane, const Render& render, std::uint64_t generation, bool coarse) {
-    const auto snapshot = std::make_shared<Snapshot>();
-    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before
+std::shared_ptr<Snapshot> Session::snapshot_of(const Render& render, std::uint64_t generation, int divisor) {
+    auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = generation;
-    snapshot->coarse = coarse;
+    snapshot->divisor = divisor;
     snapshot->spp = render.spp();
     snapshot->seconds = render.seconds();
     snapshot->cpu_seconds = render.cpu_seconds();
@@ -24,11 +23,21 @@ void Session::publish(Pane& pane, const Render& render, std::uint64_t generation
     snapshot->images = std::make_shared<GradientImages>(render.images());
     if (ReuseMaps maps = render.reuse_maps(); !maps.empty())
         snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));
+    return snapshot;
+}
+
+/// One without a reconstruction gets that of the render's snapshot before, until there is a newer one.
+void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
+    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before, given up without the lock
+    std::shared_ptr<const GradientImages> reconstructed;
     {
         const std::lock_guard lock(mutex_);
-        if (!pane.request.scene || (pane.generation != generation && !coarse))
+        if (!pane.request.scene || (pane.generation != snapshot->generation && !snapshot->coarse()))
             return;
-        if (pane.latest && pane.latest->generation == generation && !pane.latest->coarse) {
+        if (snapshot->reconstruction) {
+            reconstructed = std::exchange(pane.reconstructed, snapshot->images);
+            pane.reconstructed_with = snapshot->reconstructed_with;
+        } else if (pane.latest && pane.latest->generation == snapshot->generation && !pane.latest->coarse()) {
             snapshot->reconstruction = pane.latest->reconstruction;
             snapshot->reconstructed_with = pane.latest->reconstructed_with;
             snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
@@ -55,7 +64,7 @@ void Session::tell() {
 /// later passes: the render itself has lost nothing.
 void Session::publish_passes(Pane& pane) {
     try {
-        publish(pane, *pane.render, pane.render_generation, false);
+        publish(pane, snapshot_of(*pane.render, pane.render_generation, 1));
     } catch (const std::exception& error) {
         report(fmt::format("pass {} is not shown: {}", pane.render->spp(), error.what()));
     }

@@ -34,6 +34,7 @@ void Session::reconstruct_loop(std::stop_token stop) {
             solve_stop = pane->solve_stop.get_token();
             pane->solving_spp = snapshot->spp;
             pane->solving_since = std::chrono::steady_clock::now();
+            pane->solving_share = 0;
         }
         reconstruct_snapshot(*pane, *snapshot, settings, solve_stop);
     }
@@ -46,7 +47,8 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
     std::shared_ptr<const Snapshot> latest;
     std::string failure;
     try {
-        *result = pane.solver_for(snapshot, settings).reconstruct(*snapshot.images, settings, serial_for, stop);
+        *result = pane.solver_for(snapshot, settings)
+                      .reconstruct(*snapshot.images, settings, serial_for, {stop, &pane.solving_share});
     } catch (const std::exception& error) {
         failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, error.what());
     }
@@ -55,7 +57,7 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
         pane.solving_spp = 0;
         // A newer picture of another size or request has no use for this one.
         if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
-            pane.latest->coarse != snapshot.coarse)
+            pane.latest->divisor != snapshot.divisor)
             return;
         std::swap(pane.reconstructed, reconstructed);
         pane.reconstructed_with = settings;

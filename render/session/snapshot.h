@@ -18,7 +18,7 @@ class Scene;
 /// What a pane shows: the state of a render after a whole number of passes. Immutable once published.
 struct Snapshot {
     std::uint64_t generation = 0; ///< of the request that it answers
-    bool coarse = false;          ///< a first look at a fraction of the size asked for
+    int divisor = 1;              ///< of the size asked for; more than 1 in a first look (FirstLooks)
     int spp = 0;                  ///< samples a pixel
     double seconds = 0;           ///< wall time spent on this pane's passes
     double cpu_seconds = 0;       ///< CPU time of all workers for these passes
@@ -35,6 +35,8 @@ struct Snapshot {
     ReconstructionSettings reconstructed_with; ///< what it was asked for with
     int reconstruction_spp = 0;                ///< the samples a pixel that it stands on, ...
     double reconstruction_seconds = 0;         ///< ... and the wall time spent on these
+
+    bool coarse() const { return divisor > 1; }
 };
 
 } // namespace tessera

@@ -34,7 +34,7 @@ void measure(const std::shared_ptr<const Scene>& scene, Norm norm, double second
     while (seconds_since(start) < seconds) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         const auto snapshot = session.latest(0);
-        if (!snapshot || snapshot->coarse)
+        if (!snapshot || snapshot->coarse())
             continue;
         published.emplace(snapshot->spp, seconds_since(start));
         if (snapshot->reconstruction_spp > reconstructed) {

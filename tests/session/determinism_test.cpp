@@ -128,7 +128,7 @@ TEST_P(Determinism, SessionGivesTheBitsOfAHeadlessRender) {
     for (int pane = 0; pane < 2; ++pane)
         session.submit(pane, {s, s->camera(), size, settings_for(GetParam())});
     std::shared_ptr<const Snapshot> snapshot;
-    for (int i = 0; i < 2000 && (!snapshot || snapshot->coarse || snapshot->spp < passes); ++i) {
+    for (int i = 0; i < 2000 && (!snapshot || snapshot->coarse() || snapshot->spp < passes); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         snapshot = session.latest(1);
     }

@@ -2,6 +2,7 @@
 #include "render/session/session.h"
 #include "tests/support/scene_builder.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -50,17 +51,55 @@ TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
     ASSERT_TRUE(eventually([&] { return session.latest(0) != nullptr; }));
     const auto first = session.latest(0);
     EXPECT_EQ(first->generation, generation);
-    EXPECT_TRUE(first->coarse);
+    EXPECT_TRUE(first->coarse());
     EXPECT_EQ(first->images->primal.width(), 50);
     ASSERT_TRUE(eventually([&] {
         const auto s = session.latest(0);
         return s->spp == 2 && s->reconstruction_spp == 2;
     }));
     const auto last = session.latest(0);
-    EXPECT_FALSE(last->coarse);
+    EXPECT_FALSE(last->coarse());
     EXPECT_EQ(last->images->primal.width(), 200);
     EXPECT_EQ(last->reconstruction->image.width(), 200);
     EXPECT_GE(published, 3);
+}
+
+TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
+    std::mutex mutex;
+    std::vector<std::pair<std::uint64_t, int>> seen; // generation and divisor of each snapshot
+    std::atomic<Session*> all{nullptr};
+    Session session(1, 2, [&] {
+        const std::lock_guard lock(mutex); // first: two threads publish
+        Session* of = all;
+        if (const auto s = of ? of->latest(0) : nullptr) {
+            if (seen.empty() || seen.back() != std::pair(s->generation, s->divisor))
+                seen.emplace_back(s->generation, s->divisor);
+        }
+    });
+    all = &session;
+    session.set_pace(until(1));
+    std::uint64_t last = 0;
+    RenderRequest r = request(Method::gpr, {320, 240});
+    r.settings.light_samples = 16; // so that looks take long
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t looks = 0; looks < 3 && std::chrono::steady_clock::now() - begin < 60s;) {
+        last = session.submit(0, r); // as a camera that is dragged without rest
+        std::this_thread::sleep_for(5ms);
+        const std::lock_guard lock(mutex);
+        looks = seen.size();
+    }
+    ASSERT_TRUE(eventually([&] { return session.latest(0)->generation == last && !session.latest(0)->coarse(); }));
+    const std::lock_guard lock(mutex);
+    ASSERT_GE(seen.size(), 3u);
+    std::vector<int> of_last;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (seen[i].first == last)
+            of_last.push_back(seen[i].second);
+        else
+            EXPECT_GT(seen[i].second, 1) << i; // whole pictures of old cameras: nobody's wish
+    }
+    EXPECT_GE(of_last.size(), 2u);
+    EXPECT_TRUE(std::is_sorted(of_last.rbegin(), of_last.rend())) << "each is finer than the one before";
 }
 
 TEST(Session, NewestRequestWinsInAStorm) {
@@ -79,7 +118,7 @@ TEST(Session, NewestRequestWinsInAStorm) {
     }
     ASSERT_TRUE(eventually([&] {
         const auto s = session.latest(1);
-        return s && s->generation == newest && !s->coarse;
+        return s && s->generation == newest && !s->coarse();
     }));
     EXPECT_EQ(session.latest(1)->settings.seed, 199u);
     EXPECT_TRUE(session.take_messages().empty());
@@ -101,7 +140,7 @@ TEST(Session, PausePublishesAndStops) {
 /// Whether the whole picture on show is reconstructed so.
 bool is_made_with(const Session& session, Norm norm) {
     const auto s = session.latest(0);
-    return s && !s->coarse && s->reconstruction && s->reconstructed_with.norm == norm;
+    return s && !s->coarse() && s->reconstruction && s->reconstructed_with.norm == norm;
 }
 
 /// Renders one pass, so large that L1 takes half a second of it on an idle machine.
@@ -206,7 +245,7 @@ TEST(Session, StepsOnePassWhilePausedAndBeyondALimit) {
     const auto both_at = [&](int spp) {
         return eventually([&] {
             return session.latest(0) && session.latest(1) && session.latest(0)->spp == spp &&
-                   session.latest(1)->spp == spp && !session.latest(1)->coarse;
+                   session.latest(1)->spp == spp && !session.latest(1)->coarse();
         });
     };
     ASSERT_TRUE(both_at(2));
@@ -247,7 +286,7 @@ TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
     }));
     EXPECT_NE(messages[0].find("tile is 99"), std::string::npos) << messages[0];
     session.submit(0, request(Method::gpr, {16, 16}));
-    EXPECT_TRUE(eventually([&] { return session.latest(0) && !session.latest(0)->coarse; }));
+    EXPECT_TRUE(eventually([&] { return session.latest(0) && !session.latest(0)->coarse(); }));
 }
 
 TEST(Session, AFailedRenderSaysSoUntilTheNextRequest) {

@@ -130,7 +130,7 @@ TEST_F(ChosenSample, NeedsNoPicture) {
     ASSERT_TRUE(wait_until([&] { return state().scene != nullptr; }));
     state().inspect(pixel, pass, seed);
     expect_that_of_the_render();
-    EXPECT_TRUE(!pane(1).snapshot || pane(1).snapshot->coarse);
+    EXPECT_TRUE(!pane(1).snapshot || pane(1).snapshot->coarse());
 }
 
 struct SampleOfAnOption : ChosenSample {

@@ -29,10 +29,10 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     reconstruction->iterations = 1;
     EXPECT_NE(status_text(state, 0).find("pass 11, 1 step in"), std::string::npos);
     const auto says = [&](const char* word) { return status_text(state, 0).find(word) != std::string::npos; };
-    pane.reconstructing = {12, 0.2};
+    pane.reconstructing = {12, 0.2, 0.06f};
     EXPECT_FALSE(says("reconstructing"));
-    pane.reconstructing = {12, 1.34};
-    EXPECT_TRUE(says("Mrays/s   reconstructing pass 12, 1.3 s (Esc ends it)"));
+    pane.reconstructing = {12, 1.34, 0.4f};
+    EXPECT_TRUE(says("G-PR   reconstructing pass 12, 40 %, 1.3 s (Esc ends it)   12 spp"));
     EXPECT_FALSE(says("pass 11"));
     state.paused = true;
     EXPECT_TRUE(says("paused"));

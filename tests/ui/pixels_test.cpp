@@ -84,7 +84,7 @@ TEST(PixelNumbers, FitIntoSevenCharacters) {
 // A quarter of the size, but the pixels are those of the picture asked for.
 TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
     auto coarse = std::make_shared<Snapshot>(*pane(1).snapshot);
-    coarse->coarse = true;
+    coarse->divisor = 4;
     coarse->reconstruction = nullptr;
     auto images = std::make_shared<GradientImages>();
     images->primal = RgbImage(12, 9, Rgb(0.5f));

@@ -86,14 +86,18 @@ TEST(NamedSettings, SetPanesAndViewer) {
 }
 
 TEST(FrameTimes, Quantiles) {
-    FrameTimes times{"idle", {}};
-    EXPECT_EQ(times.quantile(0.5), 0);
+    FrameTimes times{"idle", {}, 2, {}};
+    EXPECT_EQ(quantile(times.seconds, 0.5), 0);
     for (int i = 100; i > 0; --i)
         times.seconds.push_back(i * 1e-3);
-    EXPECT_DOUBLE_EQ(times.quantile(0.5), 0.050);
-    EXPECT_DOUBLE_EQ(times.quantile(0.99), 0.099);
-    EXPECT_DOUBLE_EQ(times.quantile(1), 0.100);
+    EXPECT_DOUBLE_EQ(quantile(times.seconds, 0.5), 0.050);
+    EXPECT_DOUBLE_EQ(quantile(times.seconds, 0.99), 0.099);
+    EXPECT_DOUBLE_EQ(quantile(times.seconds, 1), 0.100);
     EXPECT_EQ(times.text(), "frames idle: 100, median 50.0 ms, 99th percentile 99.0 ms");
+    times.behind = {0.03, 0.01, 0.02};
+    times.seconds = {0.5, 0.5, 0.5};
+    EXPECT_EQ(times.text(), "frames idle: 3, median 500.0 ms, 99th percentile 500.0 ms; 3 pictures, 1.5 a second, "
+                            "behind the camera by a median of 20.0 ms");
 }
 
 } // namespace

@@ -85,7 +85,7 @@ void ViewerHarness::finish_saving() {
 void ViewerHarness::load_scene() {
     viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
     wait_until([&] {
-        return pane(0).snapshot && pane(1).snapshot && !pane(0).snapshot->coarse && !pane(1).snapshot->coarse;
+        return pane(0).snapshot && pane(1).snapshot && !pane(0).snapshot->coarse() && !pane(1).snapshot->coarse();
     });
     frames(2);
 }

@@ -157,7 +157,7 @@ TEST(Viewer, SurvivesBeingOnePixelLarge) {
     EXPECT_EQ(h.state().request_size(), before);
     h.wait_until([&] {
         return h.pane(0).snapshot->generation == h.pane(0).generation && h.pane(0).snapshot->spp > 3 &&
-               !h.pane(0).snapshot->coarse;
+               !h.pane(0).snapshot->coarse();
     });
     h.frames(2);
     EXPECT_GT(h.brightness("pane0.picture"), 20);
