@@ -16,7 +16,10 @@ Snapshot snapshot_of(Method method) {
     if (has_gradients(method)) {
         images->dx = RgbImage(4, 3, Rgb(1));
         images->dy = RgbImage(4, 3, Rgb(2));
+        images->dx_variance = Image<float>(4, 3, 11);
+        images->dy_variance = Image<float>(4, 3, 12);
     }
+    images->primal_variance = Image<float>(4, 3, 10);
     Snapshot snapshot;
     snapshot.settings.method = method;
     snapshot.images = images;
@@ -44,6 +47,10 @@ TEST(Buffer, PictureOfEach) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.75f); // with the very direct light
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::dx), 1);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::dy), 2);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::very_direct), 0.25f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal_variance), 10);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::dx_variance), 11);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::dy_variance), 12);
 }
 
 TEST(Buffer, PrimalStandsInForTheReconstruction) {

@@ -73,6 +73,40 @@ TEST_F(Tiles, MarksTheSetOfThePixelUnderTheMouse) {
     EXPECT_EQ(colour(after, outside), colour(before, outside));
 }
 
+/// Pixels that share their paths have one colour, those of another pattern another.
+TEST_F(Tiles, RooksOfAPatternHaveOneColour) {
+    state().panes[1].settings.render.method = Method::pr;
+    state().panes[1].settings.render.pattern = Pattern::rooks;
+    state().panes[1].settings.render.tile = 3;
+    state().panes[1].settings.buffer = Buffer::survival; // false colours
+    state().ranges[Buffer::survival] = {2, 3, false};    // of which there is but the lowest: all pixels are alike
+    state().set_view(ImageView(4, {0.5f, 0.5f}));
+    frames(2);
+    wait_until([&] { return viewer.settled(3); });
+    type(Key::x);
+    frames(2);
+    save("tiles-rooks-colours.png");
+    const ScreenPixels shown = screen();
+    const Snapshot& snapshot = *pane(1).snapshot;
+    TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
+    const PixelRect tile = grid.tile_at({24, 18});
+    std::vector<int> columns;
+    grid.shuffle_columns(tile, columns);
+    std::vector<glm::vec3> colours;
+    for (int pattern = 0; pattern < 3; ++pattern) {
+        std::vector<glm::vec3> of_pattern;
+        grid.for_each_rook(tile, columns, pattern, [&](int x, int y) {
+            of_pattern.push_back(colour(shown, (corner(1, {x, y}) + corner(1, {x + 1, y + 1})) * 0.5f));
+        });
+        ASSERT_EQ(of_pattern.size(), 3u);
+        EXPECT_EQ(of_pattern[1], of_pattern[0]) << pattern;
+        EXPECT_EQ(of_pattern[2], of_pattern[0]) << pattern;
+        for (const glm::vec3& other : colours)
+            EXPECT_GT(glm::distance(of_pattern[0], other), 30) << pattern;
+        colours.push_back(of_pattern[0]);
+    }
+}
+
 TEST_F(Tiles, RooksAndSmallTilesAndZoom) {
     state().panes[1].settings.render.method = Method::pr;
     state().panes[1].settings.render.pattern = Pattern::rooks;
