@@ -133,6 +133,7 @@ TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
     EXPECT_EQ(shared(), range);
     save("variances.png");
     state().restart = true;
+    frame(); // in which it is asked for: what is on show until then has settled long since
     wait_for_settled();
     EXPECT_NE(shared(), ValueRange());
 }
