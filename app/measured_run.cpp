@@ -52,9 +52,7 @@ void MeasuredRun::pass() {
 }
 
 void MeasuredRun::measure(int halvings) {
-    const ParallelFor parallel_for = [this](int count, const std::function<void(int)>& body) {
-        pool_.parallel_for(count, [&body](int i, int) { body(i); });
-    };
+    const ParallelFor parallel_for = pool_.loops();
     const GradientImages buffers = render_.images();
     for (std::size_t i = 0; i < reconstructions_.size(); ++i) {
         const double cpu = process_cpu_seconds();

@@ -35,9 +35,7 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
 ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats) {
     ExrFile file;
-    const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
-        pool.parallel_for(count, [&body](int i, int) { body(i); });
-    };
+    const ParallelFor parallel_for = pool.loops();
     for (Norm norm : wanted.norms) {
         const double cpu = process_cpu_seconds();
         Reconstruction r = reconstruct(images, {norm, wanted.alpha, !wanted.per_channel}, parallel_for);

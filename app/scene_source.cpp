@@ -25,9 +25,7 @@ void check_scene_file(const std::filesystem::path& file) {
 }
 
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
-    const ParallelFor parallel_for = [&pool](int count, const std::function<void(int)>& body) {
-        pool.parallel_for(count, [&body](int i, int) { body(i); });
-    };
+    const ParallelFor parallel_for = pool.loops();
     const double cpu_at_start = process_cpu_seconds();
     std::optional<Camera> camera;
     if (!source.camera.empty())

@@ -28,14 +28,10 @@ void Session::look(Pane& pane, const RenderRequest& request, std::uint64_t gener
         const std::lock_guard lock(mutex_);
         snapshot->reconstructed_with = pane.reconstruction;
     }
-    auto made = std::make_shared<Reconstruction>(reconstruct(
-        *snapshot->images, snapshot->reconstructed_with,
-        [&](int count, const std::function<void(int)>& body) {
-            pool_.parallel_for(count, [&](int i, int) { body(i); });
-        },
-        stop));
+    auto made = std::make_shared<Reconstruction>(
+        reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.loops(), stop));
     if (made->image.empty())
-        return;
+        return; // stopped
     snapshot->reconstruction = std::move(made);
     snapshot->reconstruction_spp = snapshot->spp;
     snapshot->reconstruction_seconds = snapshot->seconds;

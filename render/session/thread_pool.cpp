@@ -83,4 +83,10 @@ void ThreadPool::work(int worker, Priority priority) {
     }
 }
 
+ParallelFor ThreadPool::loops() {
+    return [this](int count, const std::function<void(int)>& body) {
+        parallel_for(count, [&body](int i, int) { body(i); });
+    };
+}
+
 } // namespace tessera

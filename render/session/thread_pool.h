@@ -1,5 +1,7 @@
 #pragma once
 
+#include "recon/parallel.h"
+
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -29,6 +31,9 @@ public:
     /// asked for, iterations not yet begun are left out. The first exception thrown by a body is thrown again
     /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
     void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
+
+    /// The same for those who need not know the worker: solvers, loaders. The pool must live as long.
+    ParallelFor loops();
 
 private:
     struct Loop;

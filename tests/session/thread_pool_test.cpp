@@ -66,4 +66,14 @@ TEST(ThreadPool, LoopsOfSeveralCallersTakeTurns) {
     EXPECT_EQ(sum, 4 * 200 * 7);
 }
 
+TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
+    ThreadPool pool(3);
+    const ParallelFor loops = pool.loops();
+    std::vector<std::atomic<int>> runs(100);
+    loops(100, [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
+    for (const auto& count : runs)
+        EXPECT_EQ(count, 1);
+    EXPECT_THROW(loops(10, [](int) { throw std::runtime_error("no"); }), std::runtime_error);
+}
+
 } // namespace tessera::test
