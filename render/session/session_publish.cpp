@@ -45,8 +45,8 @@ void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
         }
         std::swap(pane.latest, latest);
     }
+    tell(); // first: the other thread may take this one's core
     reconstruct_wake_.notify_one();
-    tell();
 }
 
 /// Calls on_publish. It is not to end a thread of the session, whatever goes wrong there.
