@@ -13,10 +13,10 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     CLI::App& command = *app.add_subcommand("reference", "a reference for others to be compared with");
     command.footer(
         "A reference is two independent renders of the scene, with two seeds, which become the layers half1 and "
-        "half2, and their mean, the plain RGB. From the difference of the halves its own error is known, and is "
-        "printed and written to the header; what a biased reconstruction (l1, mixed, weighted) does to both alike "
-        "is not in "
-        "it. The header has the scene's checksums, too, by which others refuse it for another scene.\n"
+        "half2, and their mean, the plain RGB. From the difference of the halves its own error is known: that of "
+        "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
+        "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The header has the "
+        "scene's checksums, too, by which others refuse it for another scene.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;

@@ -17,8 +17,8 @@ namespace tessera {
 ///     Z_l(width-1) - Z_l(width) = (G_l(width, width) - G_l(width-1, width)) s_l .
 /// G_l is a product of hyperbolic cosines in theta, 2 cosh(theta) = 2 + mu, which leaves (M = extended, N = width)
 ///     s_l / jump_l = (e^theta + 1) (1 - e^(-2 M theta)) / ((1 + e^(-(2M-2N-1) theta)) (1 - e^(-2 N theta))) ,
-/// a number between 1 and (mu + 3) M / N: nothing is blown up. The transform of this ratio is a matrix K with s =
-/// K jump,
+/// a number between 1 and (mu + 3) M / N: nothing is blown up. The transform of this ratio is a matrix K with
+/// s = K jump,
 ///     K(y, y') = t(y - y') + t(y + y' + 1),  t(j) = 1/(2h) sum_l e_l (s_l / jump_l) cos(pi l j / h),
 /// e_0 = 1, e_l = 2: a circular convolution of t with the jumps mirrored at the lower border.
 class BorderSource {

@@ -16,8 +16,8 @@ namespace tessera {
 ///
 /// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. A row's Dx^T Dx, the second difference
 /// with free ends, has the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)) for eigenvectors, with eigenvalues
-/// lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform (DCT-II) of
-/// rows,
+/// lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform
+/// (DCT-II) of rows,
 ///     (alpha^2 + Dy^T Dy) I + I Dx^T Dx = b   becomes, for the columns u_k of I C and b_k of b C,
 ///     (alpha^2 + lambda_k + Dy^T Dy) u_k = b_k :
 /// one tridiagonal equation for each k. So: transform the rows, solve down the columns, transform back. Rows are

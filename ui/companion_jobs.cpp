@@ -102,6 +102,7 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
                 return difference(*reference->scene, checksums_of(scene->description(), camera));
             },
             wake);
+        return; // for a frame at least nothing is said of it
     }
     if (const auto outcome = check_.poll(); outcome && outcome->result && !outcome->result->empty())
         state.add_message(Message::Kind::error,

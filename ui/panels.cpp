@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/core.h>
 #include <imgui.h>
 
 namespace tessera {
@@ -110,19 +111,31 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     controls.note("messages", "Shows or hides the messages (F2).");
 }
 
-void draw_message(const Message& message, int index, Controls& controls, ViewerState& state) {
+/// Opens the samples that a message is about, one after the other.
+void draw_inspect_button(Message& message, int index, Controls& controls, ViewerState& state) {
+    const std::size_t count = message.samples.size();
+    const SampleChoice& next = message.samples[message.next_sample];
+    const std::string label =
+        count == 1 ? "Inspect" : fmt::format("Inspect {} of {}", message.next_sample + 1, count);
+    const std::string help =
+        fmt::format("Opens the sample of pixel ({}, {}) in the path inspector.{}", next.pixel.x, next.pixel.y,
+                    count == 1 ? "" : " Then the button goes on to the next one; F2 shows it again.");
+    if (controls.button(("inspect_message" + std::to_string(index)).c_str(), label.c_str(), help.c_str())) {
+        state.inspect(next);
+        message.next_sample = (message.next_sample + 1) % count;
+    }
+    ImGui::SameLine();
+}
+
+void draw_message(Message& message, int index, Controls& controls, ViewerState& state) {
     const bool error = message.kind == Message::Kind::error;
     const char* icon = error ? icons().warning : icons().note;
     ImGui::PushStyleColor(ImGuiCol_Text, error ? colours::error : colours::dim_text);
     ImGui::TextUnformatted(*icon ? icon : error ? "error" : "note");
     ImGui::PopStyleColor();
     ImGui::SameLine();
-    if (message.sample) {
-        const std::string id = "inspect_message" + std::to_string(index);
-        if (controls.button(id.c_str(), "Inspect", "Opens this sample in the path inspector."))
-            state.inspect(*message.sample);
-        ImGui::SameLine();
-    }
+    if (!message.samples.empty())
+        draw_inspect_button(message, index, controls, state);
     ImGui::PushFont(mono_font());
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(message.text.c_str());
@@ -204,7 +217,7 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
         // The buttons stay where they are while the list is scrolled.
         ImGui::BeginChild("list");
         int index = 0;
-        for (const Message& message : state.messages)
+        for (Message& message : state.messages)
             draw_message(message, index++, controls, state);
         if (std::exchange(state.scroll_to_newest, false))
             ImGui::SetScrollHereY(1.0f);

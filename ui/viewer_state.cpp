@@ -128,7 +128,7 @@ glm::ivec2 ViewerState::fitting_size() const {
 void ViewerState::add_message(Message::Kind kind, std::string text, Message::Origin origin) {
     if (messages.size() >= most_messages)
         messages.erase(messages.begin());
-    messages.push_back({kind, std::move(text), origin, {}});
+    messages.push_back({kind, std::move(text), origin});
     redraw = true;
     if (kind == Message::Kind::error)
         show_messages = scroll_to_newest = true;
@@ -138,13 +138,13 @@ void ViewerState::add_refused(const std::string& whose, const Counters& counters
                               const PassOrigin& origin) {
     if (counters.first_refused.list().empty())
         return;
-    const RefusedSample& first = counters.first_refused.list().front();
     add_message(Message::Kind::note, whose + ": " + refused_text(counters, origin.settings.seed),
                 Message::Origin::scene);
     if (origin.scene != scene) // replaced by now: it would be kept as long as the new one's messages are
         return;
-    messages.back().sample =
-        SampleChoice{slot, {first.x, first.y}, first.pass, std::make_shared<const PassOrigin>(origin)};
+    const auto kept = std::make_shared<const PassOrigin>(origin);
+    for (const RefusedSample& refused : counters.first_refused.list())
+        messages.back().samples.push_back({slot, {refused.x, refused.y}, refused.pass, kept});
 }
 
 void ViewerState::drop_messages(Message::Origin origin) {

@@ -95,7 +95,8 @@ struct Message {
     Kind kind;
     std::string text;
     Origin origin = Origin::viewer;
-    std::optional<SampleChoice> sample{}; ///< that it is about
+    std::vector<SampleChoice> samples{}; ///< that it is about, which can be inspected
+    std::size_t next_sample = 0;         ///< of these: the one that its button opens
 };
 
 /// PT, G-PT, PR and G-PR, or fewer of them: what so many panes start with.
@@ -245,9 +246,9 @@ struct ViewerState {
     /// Adds a message; an error opens the list at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
 
-    /// A note of the scene on samples that a render refused, the first of which can be inspected if the scene is
-    /// still on show; none, if there are none. `whose` begins it; `slot` is of the pane that rendered it, or is to
-    /// be followed later.
+    /// A note of the scene on samples that a render refused, the first few of which can be inspected if the scene
+    /// is still on show; none, if there are none. `whose` begins it; `slot` is of the pane that rendered it, or is
+    /// to be followed later.
     void add_refused(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
 
     /// Takes away the messages of that origin. Closes the list if that leaves no error of some.

@@ -6,18 +6,18 @@
 
 namespace tessera {
 
-/// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each pixel
-/// m
+/// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
+/// pixel m
 ///   sum over base paths k in T and their light paths x of  c_m(x) / R(x),  R(x) = sum over n in T of r_n(x)
 /// where c_m and r_m are value and density of x shifted to m: the balance heuristic over all pixels of T
 /// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. A method is a choice of T; differences between pixels of one T are
 /// gradients.
 class PathReuse {
 public:
-    /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this share
-    /// of
-    ///                          the even weight 1/|T| if no new edge were blocked is shared out with a probability
-    ///                          in proportion to it [after Bekaert 2002]; 0: all are
+    /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this
+    ///                          share of the even weight 1/|T| if no new edge were blocked is shared
+    ///                          out with a probability in proportion to it [after Bekaert 2002];
+    ///                          0: all are
     PathReuse(const Tracer& tracer, const ShiftSettings& settings, float weight_threshold)
         : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold), shift_(tracer, settings) {}
 
@@ -25,11 +25,11 @@ public:
     /// @param set  the base paths of T, one a pixel, at most most_lanes; they must stay until the next begin()
     void begin(std::span<const BasePath* const> set);
 
-    /// @param base    the path whose light is shared out, an index into the set
-    /// @param scale   factor on what is shared: one over the probability that this path is reused; 0: it is not,
-    /// and
-    ///                only the light that is never shifted is added, to the base's own pixel
-    /// @param radiance one a pixel of T; what the path brings is added
+    /// @param base      the path whose light is shared out, an index into the set
+    /// @param scale     factor on what is shared: one over the probability that this path is reused; 0: it is
+    ///                  not, and only the light that is never shifted is added, to the base's own
+    ///                  pixel
+    /// @param radiance  one a pixel of T; what the path brings is added
     void share(int base, float scale, std::span<Rgb> radiance);
 
     /// What of a path's radiance is shifted to others, ...

@@ -22,6 +22,15 @@ FloorFreeError error_of(const ReferenceImage& reference) {
     return measure_reference_error(reference.halves[0], reference.halves[1]);
 }
 
+RgbImage variance_of(const ReferenceImage& reference) {
+    RgbImage variance = reference.halves[0];
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+        const Rgb half = 0.5f * (variance.data()[i] - reference.halves[1].data()[i]);
+        variance.data()[i] = half * half;
+    }
+    return variance;
+}
+
 RgbImage mean_of(const RgbImage& a, const RgbImage& b) {
     RgbImage mean = a;
     for (std::size_t i = 0; i < mean.size(); ++i)
@@ -44,6 +53,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
     ExrFile file{{{"", reference.mean}}, {}};
     for (std::size_t i = 0; i < 2; ++i)
         file.layers.push_back({half_names[i], reference.halves[i]});
+    file.layers.push_back({"variance", variance_of(reference)});
     file.attributes = {{"tessera:version", TESSERA_VERSION},
                        {"tessera:settings", reference.settings},
                        {"tessera:camera", reference.camera},

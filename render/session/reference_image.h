@@ -27,14 +27,18 @@ struct ReferenceImage {
 /// Of the mean.
 FloorFreeError error_of(const ReferenceImage& reference);
 
+/// Of the mean, in each pixel and channel: ((h1 - h2) / 2)^2 [radiance^2], which is unbiased where the halves are
+/// independent, but has one degree of freedom: look at it blurred, or its mean.
+RgbImage variance_of(const ReferenceImage& reference);
+
 /// The mean of two images of one size.
 RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 
 /// Of the halves' pixels.
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
-/// An EXR file: the mean as plain RGB, the layers half1 and half2, and in its header the mean's error and the
-/// scene's checksums. Throws std::runtime_error that names the file.
+/// An EXR file: the mean as plain RGB, the layers half1, half2 and variance (see above), and in its header the
+/// mean's error and the scene's checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
 /// Whether the file is one of these. Throws std::runtime_error that names a file that is no EXR.

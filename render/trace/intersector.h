@@ -39,9 +39,9 @@ struct Segment {
 class Intersector {
 public:
     Intersector();
-    /// @param opacities one a shape: the share of light (luminance) that meets it; null: all does. May be empty:
-    /// all
-    ///                  shapes are opaque.
+    /// @param opacities  one a shape: the share of light (luminance) that meets it; null: all does. May be
+    ///                   empty: all shapes are opaque.
+    ///
     /// Meshes and textures must stay where they are for as long as this lives.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
     ~Intersector();

@@ -91,6 +91,19 @@ TEST_F(References, KnowTheirErrorOnTheWay) {
     EXPECT_EQ(error_of(render.finish()).relative_mse, late.relative_mse);
 }
 
+TEST_F(References, TheFileHasAVarianceForEachPixel) {
+    const ReferenceImage whole = complete("a.exr");
+    const ExrFile file = read_exr(folder.path() / "a.exr");
+    const RgbImage& variance = *find_layer(file, "variance");
+    ASSERT_EQ(variance.size(), whole.mean.size());
+    double relative = 0; // as in recon/metrics.h, from the file's layers alone
+    for (std::size_t i = 0; i < variance.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            relative += variance.data()[i][c] /
+                        (static_cast<double>(whole.mean.data()[i][c]) * whole.mean.data()[i][c] + 0.001) / 3;
+    EXPECT_NEAR(relative / static_cast<double>(variance.size()) / error_of(whole).relative_mse, 1, 1e-4);
+}
+
 TEST_F(References, AnotherCameraIsAnotherPicture) {
     run_to("a.exr", 4);
     subject.camera.fov *= 0.9f;

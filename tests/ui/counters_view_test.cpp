@@ -1,16 +1,13 @@
-// What a render has counted, as it is seen in the viewer: maps, panel, message.
+// What a render has counted, as it is seen in the viewer: maps and panel.
 
 #include "tests/support/scene_builder.h"
-#include "tests/ui/current_folder.h"
 #include "tests/ui/panes_fixture.h"
 #include "ui/false_colours.h"
-#include "ui/path_overlay.h"
 #include "ui/statistics.h"
 #include "ui/theme.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tessera::test {
 namespace {
@@ -172,116 +169,6 @@ TEST(StatisticsPanel, IsHarmlessBeforeAnyScene) {
         h.frames(2);
     }
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-}
-
-/// A room with a sphere of which no light is finite.
-std::shared_ptr<const Scene> broken_scene() {
-    SceneBuilder room;
-    const int white = room.diffuse(Rgb(0.75f));
-    room.room({white, white, white, white, white});
-    room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
-    room.sphere({0.3f, -0.55f, 0.1f}, 0.45f, room.diffuse(Rgb(std::numeric_limits<float>::quiet_NaN())));
-    room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
-    return room.build();
-}
-
-TEST(RefusedSamples, AreReportedOnceARequest) {
-    ViewerHarness h;
-    h.state().pace.spp_limit = 3;
-    h.state().show_statistics = true;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
-    h.wait_until([&] { return h.viewer.settled(3); });
-    h.frames(3);
-    const auto told = [&](const std::string& method) {
-        return std::count_if(h.state().messages.begin(), h.state().messages.end(), [&](const Message& m) {
-            return m.text.rfind(method + ": ", 0) == 0 && m.text.find("pass 0, pixel (") != std::string::npos &&
-                   m.text.find("seed 0") != std::string::npos;
-        });
-    };
-    EXPECT_EQ(told("PT"), 1);
-    EXPECT_EQ(told("G-PR"), 1);
-    EXPECT_EQ(h.state().messages.size(), 2u);
-    EXPECT_TRUE(h.has("statistics.refused"));
-    h.type(Key::f2);
-    h.save("refused.png");
-    h.state().restart = true;
-    h.frame();
-    h.wait_until([&] { return h.viewer.settled(3); });
-    h.frames(3);
-    EXPECT_EQ(told("G-PR"), 2);
-}
-
-TEST(RefusedSamples, OpenAsTheyWere) {
-    ViewerHarness h;
-    h.state().pace.spp_limit = 2;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
-    h.wait_until([&] { return h.viewer.settled(2) && h.state().messages.size() == 2; });
-    const Message gpr = *std::find_if(h.state().messages.begin(), h.state().messages.end(),
-                                      [](const Message& m) { return m.text.rfind("G-PR", 0) == 0; });
-    const Camera camera = h.state().camera.camera();
-    // Another method and another view, of the same scene: the message stays.
-    h.state().panes[1].settings.render.method = Method::pr;
-    h.state().panes[1].settings.render.seed = 5;
-    h.state().camera.dolly(-3);
-    h.frames(2);
-    h.wait_until([&] { return h.viewer.settled(2); });
-    h.state().messages = {gpr};
-    h.state().show_messages = true;
-    h.frames(2);
-    h.click("inspect_message0");
-    ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
-    const Inspection& found = *h.state().inspector.inspection;
-    EXPECT_EQ(found.method, Method::gpr);
-    EXPECT_TRUE(found.is_refused);
-    EXPECT_EQ(found.pixel, gpr.sample->pixel);
-    const glm::vec3 seen = Projection(camera, found.size).project(found.path.front().position);
-    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), found.pixel);
-    EXPECT_FALSE(is_on_show(gpr.sample->origin->generation, h.state()));
-    h.frames(3);
-    h.save("refused-earlier.png");
-
-    // And when the scene is another.
-    h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
-    h.wait_until([&] { return h.viewer.settled(2); });
-    h.frames(5);
-    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
-    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-}
-
-TEST(RefusedSamples, OfAReferenceOpen) {
-    const CurrentFolder folder;
-    ViewerHarness h;
-    h.state().pace.spp_limit = 1;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
-    h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
-    h.state().reference_making.spp = 2;
-    h.state().reference_making.start = true;
-    const auto told = [&] { return h.state().messages.size() > 4; }; // of both halves, and the end
-    ASSERT_TRUE(h.wait_until(told));
-    h.state().messages.erase(h.state().messages.begin(), h.state().messages.begin() + 2);
-    const Message& second = h.state().messages[1];
-    EXPECT_EQ(second.text.rfind("The reference: ", 0), 0u) << second.text;
-    EXPECT_NE(second.text.find("seed 1002"), std::string::npos) << second.text;
-    h.state().show_messages = true;
-    h.frames(2);
-    h.click("inspect_message1");
-    ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
-    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
-    EXPECT_EQ(h.state().inspector.sample->origin->settings.seed, 1002u);
-}
-
-TEST(RefusedSamples, OfASceneThatIsGoneKeepNothingOfIt) {
-    ViewerState state;
-    state.scene = viewer_scene();
-    Counters counters;
-    counters.refuse({0, 1, 2});
-    const PassOrigin here{state.scene, state.scene->camera(), {48, 36}, {}};
-    state.add_refused("The reference", counters, 0, here);
-    EXPECT_TRUE(state.messages.back().sample);
-    state.scene = viewer_scene();
-    state.add_refused("The reference", counters, 0, here);
-    ASSERT_EQ(state.messages.size(), 2u);
-    EXPECT_FALSE(state.messages.back().sample);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ TEST_F(Explained, EveryControlHasATooltip) {
                       &ViewerState::show_messages, &ViewerState::show_help})
         state().*show = true;
     state().add_message(Message::Kind::note, "a note");
-    state().messages.back().sample = SampleChoice{};
+    state().messages.back().samples = {SampleChoice{}};
     state().size.base = SizeChoice::Base::custom;
     state().tone.curve = Tone::Curve::gamma;
     state().active_pane = 0;

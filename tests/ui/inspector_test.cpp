@@ -237,7 +237,7 @@ TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
 }
 
 TEST_F(PathInspector, OpensTheSampleOfAMessage) {
-    Message message{Message::Kind::note, "a bad sample", Message::Origin::viewer, SampleChoice{1, {7, 9}, 1}};
+    Message message{Message::Kind::note, "a bad sample", Message::Origin::viewer, {SampleChoice{1, {7, 9}, 1}}};
     state().messages.push_back(message);
     type(Key::f2);
     const std::string button = "inspect_message" + std::to_string(state().messages.size() - 1);
