@@ -34,8 +34,9 @@ Pace until(int spp) {
     return {Pace::Equal::time, spp, 0};
 }
 
+/// Within two minutes: other tests run beside, on machines that others use as well.
 bool eventually(const std::function<bool()>& holds) {
-    for (int i = 0; i < 4000; ++i) {
+    for (const auto end = std::chrono::steady_clock::now() + 2min; std::chrono::steady_clock::now() < end;) {
         if (holds())
             return true;
         std::this_thread::sleep_for(5ms);
@@ -82,7 +83,7 @@ TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
     RenderRequest r = request(Method::gpr, {320, 240});
     r.settings.light_samples = 4; // so that looks take long
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t looks = 0; looks < 3 && std::chrono::steady_clock::now() - begin < 60s;) {
+    for (std::size_t looks = 0; looks < 3 && std::chrono::steady_clock::now() - begin < 2min;) {
         last = session.submit(0, r); // as a camera that is dragged without rest
         std::this_thread::sleep_for(5ms);
         const std::lock_guard lock(mutex);
@@ -150,7 +151,9 @@ bool is_made_with(const Session& session, Norm norm) {
 bool shows_a_large_primal(Session& session) {
     session.set_pace(until(1));
     session.set_reconstruction(0, {Norm::none});
-    session.submit(0, request(Method::gpt, {1280, 720}));
+    RenderRequest large = request(Method::gpt, {1280, 720});
+    large.settings.max_depth = 1;
+    session.submit(0, large);
     return eventually([&] { return is_made_with(session, Norm::none); });
 }
 

@@ -19,7 +19,7 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     options.panes.resize(1);
     options.panes[0].render.method = Method::gpt;
     options.panes[0].reconstruction.norm = Norm::none;
-    options.max_depth = 2;
+    options.max_depth = 1;
     options.size = {SizeChoice::Base::custom, 1, {1280, 720}};
     options.spp_limit = 1;
     ViewerHarness h({900, 600}, 1, options);

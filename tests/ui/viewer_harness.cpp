@@ -58,7 +58,7 @@ void ViewerHarness::frames(int count) {
 }
 
 bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) {
             ADD_FAILURE() << "waited in vain";
