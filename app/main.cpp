@@ -1,4 +1,4 @@
-#include "app/exit_codes.h"
+#include "app/cli/terminal.h"
 #include "app/options.h"
 
 #include <exception>

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -64,6 +67,64 @@ inline RgbImage grey(const Image<float>& numbers) {
     for (std::size_t i = 0; i < image.size(); ++i)
         image.data()[i] = Rgb(numbers.data()[i]);
     return image;
+}
+
+/// What a gradient-domain method measures, as means over the samples taken; all images of one size.
+/// A method without gradients leaves dx and dy empty.
+struct GradientImages {
+    RgbImage primal;      ///< radiance without what is in very_direct
+    RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and means nothing
+    RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
+    RgbImage very_direct; ///< emission seen by the camera itself; added after the reconstruction
+
+    /// Variances of these means, summed over the channels; empty if they are unknown.
+    Image<float> primal_variance{}, dx_variance{}, dy_variance{};
+
+    /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
+    /// it; >= 1, where 1 means that every pixel has its own.
+    float patch = 1;
+
+    bool has_gradients() const { return !dx.empty() && !dy.empty(); }
+    /// All three.
+    bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
+};
+
+/// A rectangle of pixels: first column and row, and one past the last.
+struct PixelRect {
+    int x0, y0, x1, y1;
+
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+    PixelRect clipped(glm::ivec2 size) const {
+        return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
+    }
+    /// With one more column and row, where the image of that size has them: the neighbours to which forward
+    /// gradients lead.
+    PixelRect with_halo(glm::ivec2 size) const { return PixelRect{x0, y0, x1 + 1, y1 + 1}.clipped(size); }
+    bool operator==(const PixelRect&) const = default;
+    bool contains(glm::ivec2 p) const { return p.x >= x0 && p.y >= y0 && p.x < x1 && p.y < y1; }
+};
+
+/// Calls `visit(square)` for the squares of a given edge that fill a rectangle, row by row; the last ones are cut
+/// off.
+template <class Visit>
+void for_each_square(PixelRect rect, int edge, Visit&& visit) {
+    for (int y = rect.y0; y < rect.y1; y += edge)
+        for (int x = rect.x0; x < rect.x1; x += edge)
+            visit(PixelRect{x, y, std::min(x + edge, rect.x1), std::min(y + edge, rect.y1)});
+}
+
+/// From the CIE's X, Y and Z of 1931 to linear sRGB [IEC 61966-2-1]; colours outside have negative components.
+inline Rgb rgb_of_xyz(glm::vec3 xyz) {
+    const glm::mat3 columns(3.240970f, -0.969244f, 0.055630f, -1.537383f, 1.875968f, -0.203977f, -0.498611f,
+                            0.041555f, 1.056972f);
+    return columns * xyz;
+}
+
+/// The curve of sRGB [IEC 61966-2-1], from code 0 to 1 to linear.
+inline float srgb_to_linear(float code) {
+    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
 } // namespace tessera

@@ -1,10 +1,106 @@
 #pragma once
 
-#include "recon/lane_fft.h"
-
+#include <cstring>
 #include <vector>
 
 namespace tessera {
+
+/// Numbers that are worked on together: what a vector register of the processor holds.
+#ifdef __AVX__
+inline constexpr int lanes = 8;
+#else
+inline constexpr int lanes = 4;
+#endif
+
+/// `lanes` floats with the arithmetic of one: a vector type of GCC and Clang, which compiles for any processor.
+using Lanes = float __attribute__((vector_size(lanes * sizeof(float))));
+
+/// `lanes` values from `from` on, aligned as floats are.
+inline Lanes load(const float* from) {
+    Lanes value;
+    std::memcpy(&value, from, sizeof(value));
+    return value;
+}
+
+inline void store(float* to, const Lanes& value) {
+    std::memcpy(to, &value, sizeof(value));
+}
+
+/// Transposes rows[l][j] into rows[j][l].
+#ifdef __AVX__
+inline void transpose(Lanes (&rows)[lanes]) {
+    Lanes pairs[lanes];
+    for (int i = 0; i < lanes; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    Lanes quads[lanes];
+    for (int i = 0; i < lanes; i += 4) {
+        for (int j = 0; j < 2; ++j) {
+            const Lanes &a = pairs[i + j], &b = pairs[i + j + 2];
+            quads[i + 2 * j] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+            quads[i + 2 * j + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(quads[i], quads[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(quads[i], quads[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+#else
+inline void transpose(Lanes (&rows)[lanes]) {
+    const Lanes low01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+    const Lanes low23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+    const Lanes high01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    const Lanes high23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+    rows[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+    rows[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+    rows[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+    rows[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+}
+#endif
+
+/// `lanes` complex sequences side by side: element n of sequence l is at [n * lanes + l], real and imaginary parts
+/// apart.
+struct ComplexLanes {
+    float* re;
+    float* im;
+};
+
+/// Discrete Fourier transforms F[k] = sum_n f[n] exp(-2 pi i k n / size) of `lanes` sequences at a time, for sizes
+/// without prime factors above 5.
+///
+/// The Stockham form of the mixed-radix FFT [Van Loan 1992, 1.7] reads and writes runs of contiguous elements and
+/// needs no reordering. A batch of sequences is no more than a longer run, so every loop vectorises.
+class LaneFft {
+public:
+    explicit LaneFft(int size);
+
+    int size() const { return size_; }
+
+    /// Transforms `data`; both arguments hold size() * lanes values and are overwritten. Returns the one of the
+    /// two that holds the result. With re and im of both exchanged it is the inverse transform times size().
+    ComplexLanes transform(ComplexLanes data, ComplexLanes scratch) const;
+
+private:
+    /// One pass: `groups` butterflies of `radix` points, each over a run of `run` contiguous values.
+    struct Pass {
+        int radix;
+        int groups;
+        int run;
+        int first_twiddle; ///< into twiddles_: (cos, sin) for each group and each output but the first
+    };
+
+    int size_;
+    std::vector<Pass> passes_;
+    std::vector<float> twiddles_;
+};
+
+/// Whether a size is a product of 2, 3 and 5.
+bool is_smooth(int size);
+
+/// The smallest product of 2, 3 and 5 that is not below `size` (>= 1).
+int next_smooth(int size);
 
 /// Cosine transforms (DCT-II) X[k] = sum_x f[x] cos(pi k (2 x + 1) / (2 size)) of 2 * lanes real lines at a time,
 /// for sizes without prime factors above 5: the lines of `re` and those of `im` of a ComplexLanes.

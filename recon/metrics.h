@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -66,5 +69,10 @@ Image<double> floor_free_errors(const RgbImage& image, const RgbImage& reference
 Image<double> reference_errors(const RgbImage& reference1, const RgbImage& reference2);
 /// The mean of one of them, and its standard error.
 FloorFreeError mean_of_blocks(const Image<double>& errors);
+
+/// The exponent b of y ~ x^b, the slope of a line in a log-log chart, by least squares of the logarithms: -1 for
+/// an error that falls as noise does. Left out are points that have no place there. Not a number for fewer than
+/// two places along x.
+double log_log_slope(std::span<const glm::dvec2> points);
 
 } // namespace tessera

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "recon/parallel.h"
 #include "recon/poisson_direct.h"
-#include "recon/solve_watch.h"
 
 namespace tessera {
 

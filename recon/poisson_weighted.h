@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/edge_weights.h"
+#include "recon/parallel.h"
 #include "recon/poisson_direct.h"
-#include "recon/solve_watch.h"
 
 namespace tessera {
 

@@ -1,8 +1,9 @@
-#include "render/load/bsdf_plugins.h"
-
 #include "render/load/bsdf_readers.h"
-#include "render/load/plugin_table.h"
-#include "render/load/texture_plugins.h"
+#include "render/load/plugins.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 
 namespace tessera {
 
@@ -64,6 +65,73 @@ int default_material(LoadContext& context, bool gives_light) {
     if (is_new)
         context.scene.materials.push_back({"default", DiffuseMaterial{Rgb(gives_light ? 0.0f : 0.5f)}, false});
     return entry->second;
+}
+
+float index_parameter(Properties& p, std::string_view name, std::string_view fallback) {
+    const auto element = p.take(name);
+    if (!element)
+        return *refraction_index(fallback);
+    if (element->tag() != "string") {
+        const float value = p.number(name, 1);
+        if (!(value > 0))
+            element->fail("an index of refraction must be above 0", "value");
+        return value;
+    }
+    const std::string material = element->required("value");
+    const auto index = refraction_index(material);
+    if (!index)
+        element->fail("the index of refraction of '" + material + "' is not known", "value");
+    return *index;
+}
+
+ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
+    const bool given = p.has("eta") || p.has("k");
+    const std::string fallback = context.old_syntax ? "Cu" : "none"; // for what is not given
+    const std::string material = p.text("material", fallback);
+    auto index = metal_index(material);
+    if (!index) {
+        p.note(*p.take("material"), "the metal '" + material + "' is not known and replaced by 'none', a mirror");
+        index = metal_index("none");
+    }
+    const float outside = index_parameter(p, "ext_eta", context.old_syntax ? "air" : "vacuum");
+    if (!given && material == "none")
+        return *index;
+    index->eta = p.color("eta", index->eta) / outside;
+    index->k = p.color("k", index->k) / outside;
+    return *index;
+}
+
+Texture alpha_parameter(LoadContext& context, Properties& p) {
+    if (p.has("alpha_u") || p.has("alpha_v")) {
+        const Texture across = texture_parameter(context, p, "alpha_u", Rgb(0.1f));
+        const Texture along = texture_parameter(context, p, "alpha_v", Rgb(0.1f));
+        if (!across.is_constant() || !along.is_constant()) {
+            p.note("the anisotropic roughness is replaced by 'alpha_u'");
+            return across;
+        }
+        const float u = std::get<Rgb>(across.kind).r, v = std::get<Rgb>(along.kind).r;
+        if (u < 0 || v < 0)
+            p.element().fail("'alpha_u' and 'alpha_v' must not be negative");
+        if (u != v)
+            p.note("the anisotropic roughness is replaced by its geometric mean");
+        return Rgb(std::sqrt(u * v));
+    }
+    const Texture alpha = texture_parameter(context, p, "alpha", Rgb(0.1f));
+    const Rgb* constant = std::get_if<Rgb>(&alpha.kind);
+    if (constant && constant->r < 0)
+        p.take("alpha")->fail("'alpha' must not be negative", "value");
+    return alpha;
+}
+
+MicrofacetDistribution distribution_parameter(Properties& p) {
+    std::string name = p.text("distribution", "beckmann");
+    for (char& c : name) // either case of letters will do
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (name == "ggx")
+        return MicrofacetDistribution::ggx;
+    if (name != "beckmann")
+        p.note(*p.take("distribution"), "the distribution '" + name + "' is replaced by 'beckmann'");
+    return MicrofacetDistribution::beckmann;
 }
 
 } // namespace tessera

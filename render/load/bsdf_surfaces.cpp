@@ -1,12 +1,12 @@
-// The plugins that say themselves how a surface scatters.
-#include "render/load/bsdf_parameters.h"
 #include "render/load/bsdf_readers.h"
-#include "render/load/texture_plugins.h"
+#include "render/load/plugins.h"
 
 #include <algorithm>
 #include <memory>
 
 namespace tessera {
+
+// The plugins that say themselves how a surface scatters.
 
 namespace {
 

@@ -1,8 +1,5 @@
-#include "render/load/colors.h"
-
-#include "render/load/numbers.h"
+#include "render/io/text.h"
 #include "render/load/properties.h"
-#include "render/load/spectra.h"
 
 #include <algorithm>
 #include <charconv>
@@ -126,10 +123,6 @@ Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNot
 }
 
 } // namespace
-
-float srgb_to_linear(float code) {
-    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
-}
 
 bool is_color(const XmlElement& element) {
     static constexpr std::string_view tags[] = {"rgb",       "srgb",  "spectrum", "color",

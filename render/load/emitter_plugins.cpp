@@ -1,8 +1,4 @@
-#include "render/load/emitter_plugins.h"
-
-#include "render/load/plugin_table.h"
-#include "render/load/sky_plugins.h"
-#include "render/load/texture_plugins.h"
+#include "render/load/plugins.h"
 
 #include <glm/geometric.hpp>
 

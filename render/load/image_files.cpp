@@ -1,10 +1,9 @@
 #include "render/load/image_files.h"
 
-#include "render/load/exr.h"
-#include "render/load/mesh_files.h"
+#include "render/io/exr.h"
+#include "render/io/files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -14,10 +13,6 @@
 namespace tessera {
 
 namespace {
-
-constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-// No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
-constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
 
 /// Dark where the file holds what is no light, so that it cannot spread.
 Rgb finite(Rgb c) {
@@ -80,23 +75,6 @@ Bitmap read_stb_bitmap(const std::filesystem::path& file, bool srgb) {
 }
 
 } // namespace
-
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
-void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
-    const std::string size = std::to_string(width) + " by " + std::to_string(height) + " pixels";
-    if (width < 1 || height < 1)
-        throw std::runtime_error("an image of " + size + " has none");
-    if (width > most_pixels / height)
-        throw std::runtime_error("an image of " + size + " is too large");
-    if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
-        throw std::runtime_error("the file is too short for " + size);
-}
 
 Bitmap read_bitmap(const std::filesystem::path& file, bool srgb) {
     return extension_of(file) == ".exr" ? read_exr_bitmap(file) : read_stb_bitmap(file, srgb);

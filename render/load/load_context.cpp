@@ -1,6 +1,78 @@
 #include "render/load/load_context.h"
 
+#include <exception>
+#include <optional>
+#include <system_error>
+
 namespace tessera {
+
+namespace fs = std::filesystem;
+
+fs::path FileSearch::find_existing(const XmlElement& element, const char* attribute) const {
+    const std::string name = element.required(attribute);
+    if (!scene_ || !scene_->folder() || !element.document().folder())
+        element.fail("a scene in memory has no files beside it, such as '" + name + "'", attribute);
+    if (name.find('\0') != std::string::npos || name.empty())
+        element.fail("'" + name + "' is no name of a file", attribute);
+    std::vector<fs::path> candidates{*element.document().folder() / name};
+    for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
+        candidates.push_back(*folder / name);
+    candidates.push_back(*scene_->folder() / name);
+    std::error_code error;
+    for (const fs::path& candidate : candidates)
+        if (fs::exists(candidate, error))
+            return candidate;
+    element.fail("there is no file '" + candidates.front().string() + "'", attribute);
+}
+
+fs::path FileSearch::find(const XmlElement& element, const char* attribute) const {
+    const fs::path path = find_existing(element, attribute);
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+        element.fail("'" + path.string() + "' is not a file", attribute);
+    return path;
+}
+
+void FileSearch::add_folder(const XmlElement& path) {
+    const fs::path folder = find_existing(path, "value");
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        path.fail("'" + folder.string() + "' is not a folder", "value");
+    folders_.push_back(folder);
+}
+
+void FileJobs::add(const XmlElement& where, std::function<std::string()> read) {
+    jobs_.push_back({where, std::move(read)});
+}
+
+void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes, LoadProgress& progress) const {
+    progress.begin(LoadProgress::Stage::files, static_cast<int>(jobs_.size()));
+    struct Outcome {
+        std::string note;
+        std::optional<std::string> error;
+    };
+    std::vector<Outcome> outcomes(jobs_.size());
+    parallel_for(static_cast<int>(jobs_.size()), [&](int i) {
+        if (progress.given_up())
+            return;
+        const auto index = static_cast<std::size_t>(i);
+        try {
+            outcomes[index].note = jobs_[index].read();
+        } catch (const std::exception& e) {
+            outcomes[index].error = e.what();
+        }
+        progress.step();
+    });
+    progress.check_wanted();
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+        const XmlElement& where = jobs_[i].where;
+        const std::string file = "'" + where.attribute("value") + "'";
+        if (outcomes[i].error)
+            where.fail("cannot load " + file + ": " + *outcomes[i].error, "value");
+        if (!outcomes[i].note.empty())
+            notes.push_back({where.position(), file + ": " + outcomes[i].note});
+    }
+}
 
 namespace {
 constexpr int deepest_nesting = 64;

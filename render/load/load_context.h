@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/load/file_jobs.h"
-#include "render/load/file_search.h"
+#include "recon/parallel.h"
+#include "render/load/load_progress.h"
 #include "render/load/properties.h"
 #include "render/load/xml_document.h"
 #include "render/scene/scene.h"
@@ -15,6 +15,47 @@
 #include <vector>
 
 namespace tessera {
+
+/// Where the files that a scene names are looked for: beside the file that names them, then in the folders that
+/// the scene adds (<path value="..."/>; the latest first), then beside the scene itself. Files outside of these
+/// folders may be named, too ("../textures/wood.png", "/models/chair.ply"): scenes share them that way, and they
+/// are only read.
+class FileSearch {
+public:
+    /// Null: a scene in memory, which has no files.
+    explicit FileSearch(const XmlDocument* scene = nullptr) : scene_(scene) {}
+
+    /// The path to the file that an element's attribute names. Throws LoadError when there is none.
+    std::filesystem::path find(const XmlElement& element, const char* attribute) const;
+
+    /// Adds the folder that a <path> names. Throws LoadError when there is none.
+    void add_folder(const XmlElement& path);
+
+private:
+    std::filesystem::path find_existing(const XmlElement& element, const char* attribute) const;
+
+    const XmlDocument* scene_;
+    std::vector<std::filesystem::path> folders_;
+};
+
+/// The files that a scene names, read after the scene itself and all at once.
+class FileJobs {
+public:
+    /// `read` runs later, on any thread, once; it returns a note, or nothing. `where` is the parameter that names
+    /// the file: messages point at its value.
+    void add(const XmlElement& where, std::function<std::string()> read);
+
+    /// Runs all jobs. Throws LoadError for the first in order of the file that failed, std::runtime_error if the
+    /// scene is given up on the way.
+    void run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes, LoadProgress& progress) const;
+
+private:
+    struct Job {
+        XmlElement where;
+        std::function<std::string()> read;
+    };
+    std::vector<Job> jobs_;
+};
 
 /// What the readers of plugins share while one scene is loaded.
 struct LoadContext {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/parallel.h"
+#include "render/io/text.h"
 #include "render/load/load_progress.h"
-#include "render/load/messages.h"
 #include "render/scene/scene.h"
 
 #include <filesystem>
@@ -32,5 +32,20 @@ LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVaria
 /// The same for a scene in memory, which has no files beside it; `name` stands in messages.
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables = {},
                               const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
+
+/// Where a scene is from.
+struct SceneSource {
+    std::filesystem::path file;        ///< empty: the Cornell box inside the program
+    SceneVariables variables;          ///< -D name=value
+    std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
+};
+
+/// The name to show for it.
+std::string to_string(const SceneSource& source);
+
+/// A name for files that are made of it: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the
+/// file's; with the values of its variables, if it was given any: "glossy-0.01". All but letters, digits, "." and
+/// "-" is "_" in these.
+std::string scene_name(const SceneSource& source);
 
 } // namespace tessera

@@ -1,8 +1,5 @@
 #include "render/load/properties.h"
 
-#include "render/load/colors.h"
-#include "render/load/transforms.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>

@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -71,5 +73,46 @@ private:
 
 /// "intIOR" -> "int_ior".
 std::string snake_case(std::string_view name);
+
+/// Whether the element is a colour: <rgb>, <srgb>, <spectrum>, <blackbody>, <color> or a <float>.
+bool is_color(const XmlElement& element);
+
+/// A colour's linear value. A spectrum given by wavelengths or as a plugin of Mitsuba 3 becomes its linear sRGB
+/// colour, one in a file the fallback, with a note. Throws LoadError for anything else.
+Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes);
+
+/// The product of a <transform>'s steps (matrix, lookat, translate, rotate, scale); the first step is applied to a
+/// point first. Throws LoadError.
+glm::mat4 read_transform(const XmlElement& transform);
+
+/// The rotation (and mirroring) nearest to a transform, by Gram and Schmidt; empty: the transform is flat.
+std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
+
+/// The same as read_transform() for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
+glm::mat3 read_uv_transform(const XmlElement& transform);
+
+/// A <point> or <vector>: value="x y z", or attributes x, y and z, 0 where one is left out. Throws LoadError.
+glm::vec3 read_point(const XmlElement& point);
+
+/// Linear sRGB of a spectrum given at increasing wavelengths (nm, value), linear between them and 0 beyond. White
+/// is the spectrum that is 1 everywhere, so that grey spectra become grey colours. Colours outside of the gamut
+/// are cut at 0. A single sample stands for a constant.
+Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples);
+
+/// Linear sRGB of the radiance of a black body, W / (m^2 sr nm) weighted by the CIE's curves, as Mitsuba has it;
+/// kelvin > 0. White is D65.
+Rgb rgb_of_black_body(double kelvin);
+
+/// Index of refraction of a transparent material by its usual name ("bk7", "water", ...), in any case.
+std::optional<float> refraction_index(std::string_view name);
+
+/// A metal's complex index of refraction against vacuum, for red, green and blue.
+struct ComplexIndex {
+    Rgb eta;
+    Rgb k;
+};
+
+/// By chemical symbol ("Au", "Cu", ...) as in Mitsuba; "none" is a mirror that reflects all.
+std::optional<ComplexIndex> metal_index(std::string_view name);
 
 } // namespace tessera

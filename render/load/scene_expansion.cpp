@@ -1,6 +1,6 @@
 #include "render/load/scene_expansion.h"
 
-#include "render/load/text_file.h"
+#include "render/io/text.h"
 
 #include <algorithm>
 #include <cctype>

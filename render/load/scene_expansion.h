@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/load/file_search.h"
+#include "render/load/load_context.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/load/xml_document.h"
 

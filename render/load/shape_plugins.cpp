@@ -1,14 +1,6 @@
-#include "render/load/shape_plugins.h"
-
-#include "render/load/bsdf_plugins.h"
-#include "render/load/builtin_shapes.h"
-#include "render/load/emitter_plugins.h"
-#include "render/load/mesh_files.h"
-#include "render/load/mesh_tools.h"
-#include "render/load/plugin_table.h"
-#include "render/load/round_shapes.h"
-#include "render/load/serialized_file.h"
-#include "render/sampling.h"
+#include "render/load/plugins.h"
+#include "render/mesh/meshes.h"
+#include "render/sampling/sampling.h"
 
 #include <functional>
 #include <stdexcept>

@@ -1,8 +1,6 @@
-#include "render/load/sky_plugins.h"
-
-#include "render/sampling.h"
+#include "render/load/plugins.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/sky.h"
-#include "render/scene/sun.h"
 
 #include <cmath>
 

@@ -1,9 +1,6 @@
-#include "render/load/texture_plugins.h"
-
-#include "render/load/colors.h"
 #include "render/load/image_files.h"
-#include "render/load/plugin_table.h"
-#include "render/load/transforms.h"
+#include "render/load/plugins.h"
+#include "render/load/properties.h"
 
 #include <glm/common.hpp>
 

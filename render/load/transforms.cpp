@@ -1,4 +1,4 @@
-#include "render/load/transforms.h"
+#include "render/load/properties.h"
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,5 @@
-#include "render/load/view_plugins.h"
-
-#include "render/load/numbers.h"
+#include "render/io/text.h"
+#include "render/load/plugins.h"
 
 #include <cmath>
 

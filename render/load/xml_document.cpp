@@ -1,7 +1,6 @@
 #include "render/load/xml_document.h"
 
-#include "render/load/numbers.h"
-#include "render/load/text_file.h"
+#include "render/io/text.h"
 
 #include <algorithm>
 #include <cmath>

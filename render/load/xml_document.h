@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/load/messages.h"
+#include "render/io/text.h"
 
 #include <filesystem>
 #include <map>

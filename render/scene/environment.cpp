@@ -1,7 +1,7 @@
 #include "render/scene/environment.h"
 
-#include "render/sampling.h"
-#include "render/scene/texture.h"
+#include "render/sampling/sampling.h"
+#include "render/surface/texture.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/scene/alias_table.h"
+#include "render/sampling/sampling.h"
 
 #include <memory>
 #include <optional>

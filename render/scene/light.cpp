@@ -1,6 +1,6 @@
 #include "render/scene/light.h"
 
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/scene.h"
 
 #include <algorithm>

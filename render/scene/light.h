@@ -1,13 +1,11 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/random.h"
-#include "render/sampling.h"
-#include "render/scene/alias_table.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
-#include "render/scene/mesh.h"
-#include "render/scene/texture.h"
-#include "render/trace/ray.h"
+#include "render/surface/mesh.h"
+#include "render/surface/texture.h"
+#include "render/trace/rays.h"
 
 #include <cmath>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "render/scene/camera.h"
 #include "render/scene/light.h"
-#include "render/scene/material.h"
-#include "render/scene/mesh.h"
+#include "render/surface/material.h"
+#include "render/surface/mesh.h"
 #include "render/trace/intersector.h"
 
 #include <memory>

@@ -1,13 +1,126 @@
 #include "render/scene/scene_checksums.h"
 
-#include "render/scene/scene_digest.h"
-
 #include <cstdio>
 #include <utility>
 
 #include <fmt/core.h>
 
 namespace tessera {
+
+void SceneDigest::take(const Mesh& mesh) {
+    const auto& [positions, normals, uvs, colors, triangles] = mesh;
+    add(positions, normals, uvs, colors, triangles);
+}
+
+void SceneDigest::take(const Bitmap& bitmap) {
+    const auto [known, is_new] = bitmaps_.emplace(&bitmap, 0);
+    if (is_new) {
+        const auto& [width, height, srgb, bytes, floats] = bitmap;
+        known->second = SceneDigest(bitmaps_).add(width, height, srgb, bytes, floats).checksum();
+    }
+    take(known->second);
+}
+
+void SceneDigest::take(const BitmapTexture& texture) {
+    const auto& [bitmap, filter, wrap] = texture;
+    add(bitmap, filter, wrap);
+}
+
+void SceneDigest::take(const CheckerboardTexture& texture) {
+    const auto& [color0, color1] = texture;
+    add(color0, color1);
+}
+
+void SceneDigest::take(const Texture& texture) {
+    const auto& [kind, to_uv, scale] = texture;
+    add(kind, to_uv, scale);
+}
+
+void SceneDigest::take(const Microfacets& facets) {
+    const auto& [distribution, alpha] = facets;
+    add(distribution, alpha);
+}
+
+void SceneDigest::take(const DiffuseMaterial& material) {
+    const auto& [reflectance, alpha, fast] = material;
+    add(reflectance, alpha, fast);
+}
+
+void SceneDigest::take(const ConductorMaterial& material) {
+    const auto& [distribution, alpha, eta, k, specular_reflectance] = material;
+    add(distribution, alpha, eta, k, specular_reflectance);
+}
+
+void SceneDigest::take(const DielectricMaterial& material) {
+    const auto& [thin, eta, specular_reflectance, specular_transmittance, distribution, alpha] = material;
+    add(thin, eta, specular_reflectance, specular_transmittance, distribution, alpha);
+}
+
+void SceneDigest::take(const PlasticMaterial& material) {
+    // The coating is a table of eta and facets.
+    const auto& [eta, nonlinear, facets, coating, diffuse_reflectance, specular_reflectance] = material;
+    add(eta, nonlinear, facets, diffuse_reflectance, specular_reflectance);
+}
+
+void SceneDigest::take(const PhongMaterial& material) {
+    const auto& [exponent, diffuse_reflectance, specular_reflectance] = material;
+    add(exponent, diffuse_reflectance, specular_reflectance);
+}
+
+void SceneDigest::take(const MixtureMaterial& material) {
+    const auto& [parts, weights, second_share] = material;
+    add(parts, weights, second_share);
+}
+
+void SceneDigest::take(const CoatedMaterial& material) {
+    const auto& [eta, thickness, sigma_a, specular_reflectance, base] = material;
+    add(eta, thickness, sigma_a, specular_reflectance, base);
+}
+
+void SceneDigest::take(const Relief& relief) {
+    const auto& [kind, map, scale, softens_terminator] = relief;
+    add(kind, map, scale, softens_terminator);
+}
+
+void SceneDigest::take(const Material& material) {
+    const auto& [name, kind, two_sided, opacity, relief] = material;
+    add(kind, two_sided, opacity, relief);
+}
+
+void SceneDigest::take(const AreaLight& light) {
+    const auto& [radiance] = light;
+    add(radiance);
+}
+
+void SceneDigest::take(const PointLight& light) {
+    const auto& [position, intensity, axis, cutoff, full_within] = light;
+    add(position, intensity, axis, cutoff, full_within);
+}
+
+void SceneDigest::take(const DirectionalLight& light) {
+    const auto& [to_light, irradiance] = light;
+    add(to_light, irradiance);
+}
+
+void SceneDigest::take(const EnvironmentMap& map) {
+    const auto& [bitmap, scale, to_world] = map;
+    add(bitmap, scale, to_world);
+}
+
+void SceneDigest::take(const SunDisk& sun) {
+    const auto& [direction, radius, radiance] = sun;
+    add(direction, radius, radiance);
+}
+
+void SceneDigest::take(const EnvironmentDescription& environment) {
+    const auto& [map, sun] = environment;
+    add(map, sun);
+}
+
+void SceneDigest::take(const Camera& camera) {
+    const auto& [to_world, fov, fov_axis] = camera;
+    add(to_world, fov, fov_axis);
+}
 
 SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera) {
     const auto& [shapes, materials, area_lights, point_lights, directional_lights, environment, own_camera, size,

@@ -1,11 +1,14 @@
 #include "render/scene/sky.h"
 
-#include "render/sampling.h"
-#include "render/scene/color_space.h"
+#include "recon/image.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -113,6 +116,142 @@ Bitmap sky_bitmap(const Sky& sky, int width) {
             bitmap.floats.push_back(sky_radiance(sky, direction_of_map(uv)));
         }
     return bitmap;
+}
+
+namespace {
+
+/// A table of values at wavelengths in nm.
+struct Sample {
+    float wavelength, value;
+};
+
+/// Linear between the samples, 0 outside.
+float look_up(std::span<const Sample> table, float wavelength) {
+    const auto above = std::upper_bound(table.begin(), table.end(), wavelength,
+                                        [](float w, const Sample& s) { return w < s.wavelength; });
+    if (above == table.begin() || above == table.end())
+        return 0;
+    const Sample& a = *(above - 1);
+    const float t = (wavelength - a.wavelength) / (above->wavelength - a.wavelength);
+    return a.value + t * (above->value - a.value);
+}
+
+// The tables of [Preetham 1999, A.1], the absorption after [Iqbal 1983].
+
+/// Radiance of the sun outside the air in W / (m^2 sr nm), from 380 nm in steps of 10.
+constexpr std::array<float, 38> solar{
+    16559.0f, 16233.7f, 21127.5f, 25888.2f, 25829.1f, 24232.3f, 26760.5f, 29658.3f, 30545.4f, 30057.5f,
+    30663.7f, 28830.4f, 28712.1f, 27825.0f, 27100.6f, 27233.6f, 26361.3f, 25503.8f, 25060.2f, 25311.6f,
+    25355.9f, 25134.2f, 24631.5f, 24173.2f, 23685.3f, 23212.1f, 22827.7f, 22339.8f, 21970.2f, 21526.7f,
+    21097.9f, 20728.3f, 20240.4f, 19870.8f, 19427.2f, 19072.4f, 18628.9f, 18259.2f};
+
+/// Absorption by ozone, 1/cm.
+constexpr std::array<Sample, 53> ozone{
+    {{355, 0},      {445, 0.003f}, {450, 0.003f}, {455, 0.004f}, {460, 0.006f}, {465, 0.008f}, {470, 0.009f},
+     {475, 0.012f}, {480, 0.014f}, {485, 0.017f}, {490, 0.021f}, {495, 0.025f}, {500, 0.03f},  {505, 0.035f},
+     {510, 0.04f},  {515, 0.045f}, {520, 0.048f}, {525, 0.057f}, {530, 0.063f}, {535, 0.07f},  {540, 0.075f},
+     {545, 0.08f},  {550, 0.085f}, {555, 0.095f}, {560, 0.103f}, {565, 0.11f},  {570, 0.12f},  {575, 0.122f},
+     {580, 0.12f},  {585, 0.118f}, {590, 0.115f}, {595, 0.12f},  {600, 0.125f}, {605, 0.13f},  {610, 0.12f},
+     {620, 0.105f}, {630, 0.09f},  {640, 0.079f}, {650, 0.067f}, {660, 0.057f}, {670, 0.048f}, {680, 0.036f},
+     {690, 0.028f}, {700, 0.023f}, {710, 0.018f}, {720, 0.014f}, {730, 0.011f}, {740, 0.01f},  {750, 0.009f},
+     {760, 0.007f}, {770, 0.004f}, {780, 0},      {790, 0}}};
+
+/// Absorption by water vapour, 1/cm; that by the mixed gases lies beyond 759 nm, where the sun's table has ended.
+constexpr std::array<Sample, 8> water{{{689, 0},
+                                       {690, 0.016f},
+                                       {700, 0.024f},
+                                       {710, 0.0125f},
+                                       {720, 1},
+                                       {730, 0.87f},
+                                       {740, 0.061f},
+                                       {750, 0.001f}}};
+
+/// What is left of the light after `mass` times the air that is overhead [Preetham 1999, A.1].
+float transmittance(float wavelength, float mass, float turbidity) {
+    const float micrometre = wavelength / 1000;
+    const float rayleigh = 0.008735f * std::pow(micrometre, -4.08f);
+    const float beta = 0.04608365822050f * turbidity - 0.04586025928522f; // amount of aerosols
+    const float aerosol = beta * std::pow(micrometre, -1.3f);
+    const float ozone_layer = 0.35f * look_up(ozone, wavelength);
+    const float vapour = 2 * mass * look_up(water, wavelength); // 2 cm of water
+    return std::exp(-mass * (rayleigh + aerosol + ozone_layer) -
+                    0.2385f * vapour / std::pow(1 + 20.07f * vapour, 0.45f));
+}
+
+/// A bell with a width for each side.
+float bell(float wavelength, float mean, float below, float above) {
+    const float t = (wavelength - mean) / (wavelength < mean ? below : above);
+    return std::exp(-0.5f * t * t);
+}
+
+/// The CIE's matching functions of 1931, to about 1 % [Wyman 2013, eq. 4].
+glm::vec3 color_matching(float w) {
+    return {1.056f * bell(w, 599.8f, 37.9f, 31.0f) + 0.362f * bell(w, 442.0f, 16.0f, 26.7f) -
+                0.065f * bell(w, 501.1f, 20.4f, 26.2f),
+            0.821f * bell(w, 568.8f, 46.9f, 40.5f) + 0.286f * bell(w, 530.9f, 16.3f, 31.1f),
+            1.217f * bell(w, 437.0f, 11.8f, 36.0f) + 0.681f * bell(w, 459.0f, 26.0f, 13.8f)};
+}
+
+} // namespace
+
+Rgb sun_radiance(float turbidity, float elevation) {
+    const float zenith_degrees = 90 - std::clamp(elevation, 0.0f, pi / 2) * 180 / pi;
+    const float mass = 1 / (std::sin(std::clamp(elevation, 0.0f, pi / 2)) +
+                            0.15f * std::pow(93.885f - zenith_degrees, -1.253f)); // [Preetham 1999, eq. 14]
+    glm::vec3 xyz(0);
+    for (std::size_t i = 0; i < solar.size(); ++i) {
+        const float wavelength = 380 + 10 * static_cast<float>(i);
+        xyz += solar[i] * transmittance(wavelength, mass, turbidity) * color_matching(wavelength);
+    }
+    xyz *= 10 / 106.856980f; // by the step in nm, over the integral of y
+    return glm::max(rgb_of_xyz(xyz), 0.0f);
+}
+
+float disk_solid_angle(float angular_radius) {
+    const float s = std::sin(0.5f * angular_radius);
+    return 4 * pi * s * s; // 2 pi (1 - cos), without the loss of digits
+}
+
+Rgb resized_sun_radiance(Rgb radiance, float angular_radius) {
+    return radiance * (disk_solid_angle(sun_angular_radius) / disk_solid_angle(angular_radius));
+}
+
+glm::vec3 sun_direction(const PlaceAndTime& when) {
+    using namespace std::chrono;
+    constexpr double degree = 3.14159265358979323846 / 180;
+    // Days since noon of 1 January 2000, UT.
+    const sys_days day = std::chrono::year(when.year) / when.month / when.day;
+    const sys_days start = std::chrono::year(2000) / 1 / 1;
+    const double hours = when.hour - when.timezone + (when.minute + when.second / 60) / 60;
+    const double n = static_cast<double>((day - start).count()) - 0.5 + hours / 24;
+
+    // The sun along the ecliptic [Blanco-Muriel 2001, eqs. 3 to 7].
+    const double omega = 2.1429 - 0.0010394594 * n;
+    const double mean_longitude = 4.8950630 + 0.017202791698 * n;
+    const double anomaly = 6.2400600 + 0.0172019699 * n;
+    const double longitude = mean_longitude + 0.03341607 * std::sin(anomaly) + 0.00034894 * std::sin(2 * anomaly) -
+                             0.0001134 - 0.0000203 * std::sin(omega);
+    const double obliquity = 0.4090928 - 6.2140e-9 * n + 0.0000396 * std::cos(omega);
+
+    // From there to the equator, and by the sidereal time to the place [eqs. 8 to 12].
+    const double right_ascension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
+    const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
+    const double sidereal_hours = 6.6974243242 + 0.0657098283 * n + hours;
+    const double hour_angle = (15 * sidereal_hours + when.longitude) * degree - right_ascension;
+    const double latitude = when.latitude * degree;
+
+    const double up = std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) +
+                      std::sin(latitude) * std::sin(declination);
+    const double east = -std::sin(hour_angle) * std::cos(declination);
+    const double north = std::cos(latitude) * std::sin(declination) -
+                         std::sin(latitude) * std::cos(hour_angle) * std::cos(declination);
+    // The place is on the earth's surface, not at its centre [eq. 15].
+    constexpr double parallax = 6371.01 / 149597890;
+    const double zenith_angle = std::atan2(std::hypot(east, north), up);
+    const double seen = zenith_angle + parallax * std::sin(zenith_angle);
+    const double azimuth = std::atan2(east, north);
+    return {static_cast<float>(std::sin(azimuth) * std::sin(seen)), static_cast<float>(std::cos(seen)),
+            static_cast<float>(-std::cos(azimuth) * std::sin(seen))};
 }
 
 } // namespace tessera

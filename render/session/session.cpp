@@ -1,5 +1,5 @@
+#include "render/run/thread_pool.h"
 #include "render/session/session_pane.h"
-#include "render/session/thread_priority.h"
 
 #include <algorithm>
 #include <chrono>

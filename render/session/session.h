@@ -1,8 +1,8 @@
 #pragma once
 
+#include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
 #include "render/session/snapshot.h"
-#include "render/session/thread_pool.h"
 
 #include <condition_variable>
 #include <cstdint>

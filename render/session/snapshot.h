@@ -1,11 +1,11 @@
 #pragma once
 
-#include "recon/gradient_images.h"
+#include "recon/image.h"
 #include "recon/reconstruct.h"
-#include "render/film.h"
-#include "render/method/reuse_plan.h"
-#include "render/method/settings.h"
-#include "render/path/counters.h"
+#include "render/estimator/counters.h"
+#include "render/estimator/film.h"
+#include "render/estimator/reuse_policy.h"
+#include "render/estimator/settings.h"
 #include "render/scene/camera.h"
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 #include "render/trace/intersector.h"
 
-#include "render/random.h"
-#include "render/scene/texture.h"
-#include "render/trace/build_monitor.h"
+#include "render/sampling/sampling.h"
+#include "render/surface/texture.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #if TESSERA_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -19,6 +19,22 @@
 #endif
 
 namespace tessera {
+
+namespace {
+thread_local const BuildMonitor* newest = nullptr;
+} // namespace
+
+BuildMonitor::BuildMonitor(Watcher watcher) : watcher_(std::move(watcher)), outer_(newest) {
+    newest = this;
+}
+
+BuildMonitor::~BuildMonitor() {
+    newest = outer_;
+}
+
+const BuildMonitor* BuildMonitor::current() {
+    return newest;
+}
 
 namespace {
 

@@ -1,6 +1,6 @@
 // `tessera bench`: its files, and that a kill costs no finished run.
-#include "render/load/exr.h"
-#include "render/session/reference_image.h"
+#include "render/io/exr.h"
+#include "render/run/reference_image.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 

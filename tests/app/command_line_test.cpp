@@ -1,7 +1,7 @@
 // The program as a user meets it: bad input gets one clear message and exit code 2, and leaves no file behind.
-#include "render/load/camera_file.h"
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/scene/camera.h"
 #include "tests/app/program.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "app/compare.h"
-#include "render/load/exr.h"
-#include "render/session/reference_image.h"
+#include "app/commands/commands.h"
+#include "render/io/exr.h"
+#include "render/run/reference_image.h"
 #include "tests/recon/test_images.h"
 
 #include <string>

@@ -1,5 +1,4 @@
-#include "app/crop.h"
-#include "app/html.h"
+#include "app/report/reports.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "app/interrupt.h"
+#include "app/cli/terminal.h"
 
 #include <csignal>
 

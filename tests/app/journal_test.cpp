@@ -1,5 +1,5 @@
 // The journal of long jobs: what it keeps, and what it makes of a file that was cut off anywhere.
-#include "app/journal.h"
+#include "app/experiment/result.h"
 #include "tests/load/temporary_folder.h"
 
 #include <iterator>

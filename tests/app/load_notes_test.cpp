@@ -1,4 +1,4 @@
-#include "app/load_notes.h"
+#include "app/cli/scene_source.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Measurements in the journal: they come back from their text.
-#include "app/measurement.h"
+#include "app/experiment/measurement.h"
 
 #include <cmath>
 #include <limits>

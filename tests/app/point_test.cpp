@@ -1,7 +1,7 @@
 // What a sweep renders, and the figures it draws from that.
-#include "app/exit_codes.h"
-#include "app/point.h"
-#include "app/result.h"
+#include "app/cli/terminal.h"
+#include "app/experiment/point.h"
+#include "app/experiment/result.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // What is on the disk when: that what is said to be finished has reached it, and that the disk's word counts.
-#include "app/experiment.h"
-#include "render/load/temporary_file.h"
+#include "app/experiment/experiment.h"
+#include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // `tessera reconstruct`: the solver alone, on saved buffers of this program and of others.
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "tests/app/program.h"
 #include "tests/load/pfm_bytes.h"
 #include "tests/load/temporary_folder.h"

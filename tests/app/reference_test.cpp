@@ -1,6 +1,6 @@
 // `tessera reference`: the file, its error, and that neither a kill nor Ctrl-C changes a bit of it.
-#include "render/load/exr.h"
-#include "render/session/reference_image.h"
+#include "render/io/exr.h"
+#include "render/run/reference_image.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 

@@ -1,8 +1,8 @@
-#include "app/saved_picture.h"
-#include "render/load/exr.h"
-#include "render/session/first_hits.h"
+#include "app/commands/commands.h"
+#include "render/io/exr.h"
+#include "render/run/first_hits.h"
 #include "tests/support/scene_builder.h"
-#include "ui/error_map.h"
+#include "ui/state/companions.h"
 
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-#include "app/scene_loader.h"
+#include "app/cli/scene_source.h"
 
 #include <algorithm>
 #include <thread>

@@ -1,6 +1,6 @@
 // Tails of Student's t and of the normal distribution, against tables [Abramowitz and Stegun 1964, 26.10
 // and 26.2].
-#include "app/significance.h"
+#include "app/experiment/speed_up.h"
 
 #include <gtest/gtest.h>
 

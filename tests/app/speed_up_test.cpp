@@ -1,5 +1,5 @@
 // Speed-up at equal error, on curves whose truth is known.
-#include "app/speed_up.h"
+#include "app/experiment/speed_up.h"
 
 #include <cmath>
 #include <random>

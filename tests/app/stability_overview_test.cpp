@@ -1,4 +1,4 @@
-#include "app/stability_overview.h"
+#include "app/report/reports.h"
 
 #include <limits>
 

@@ -1,8 +1,8 @@
 // `tessera stability`: its files, what it takes up again, and what it refuses.
-#include "app/exit_codes.h"
-#include "app/scene_source.h"
-#include "app/stability_scene.h"
-#include "render/random.h"
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+#include "app/experiment/stability.h"
+#include "render/sampling/sampling.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // `tessera sweep`: what it renders, what it writes, and what it refuses.
-#include "app/result.h"
-#include "render/load/exr.h"
-#include "render/session/reference_image.h"
+#include "app/experiment/result.h"
+#include "render/io/exr.h"
+#include "render/run/reference_image.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 

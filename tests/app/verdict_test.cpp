@@ -1,5 +1,5 @@
 // Verdicts on made pictures whose truth is known.
-#include "app/verdict.h"
+#include "app/experiment/stability.h"
 
 #include <array>
 #include <cmath>

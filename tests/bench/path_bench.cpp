@@ -2,8 +2,8 @@
 // Embree leaves to be had), shifts by kind, and the light of whole tiles. Arguments beside Google Benchmark's:
 // names of scenes, ../shared/scenes/NAME/scene.xml or assets/NAME.xml.
 
+#include "render/estimator/method_sets.h"
 #include "render/load/mitsuba_xml.h"
-#include "render/method/method_sets.h"
 
 #include <map>
 #include <string>

@@ -3,10 +3,10 @@
 // same with one sample and another seed. Cold starts solve BUFFERS; warm starts have solved BUFFERS, and go on
 // with the n + 1 samples of both.
 
-#include "app/gradient_input.h"
+#include "app/commands/gradient_input.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
-#include "ui/chart.h"
+#include "ui/charts/chart.h"
 
 #include <algorithm>
 #include <cmath>

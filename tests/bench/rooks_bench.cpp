@@ -3,7 +3,7 @@
 // equal time. One thread, CPU time.
 
 #include "render/load/mitsuba_xml.h"
-#include "render/session/render.h"
+#include "render/run/render.h"
 
 #include <cstdio>
 #include <cstdlib>

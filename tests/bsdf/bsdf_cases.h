@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/scene/material.h"
+#include "render/surface/material.h"
 
 #include <cmath>
 #include <list>

@@ -1,6 +1,6 @@
 // Every BSDF: sampling follows its pdf (chi-square) and agrees with evaluate, loses or gains no energy, is
 // reciprocal.
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 #include "tests/bsdf/bsdf_cases.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/bsdf/fresnel.h"
+#include "render/surface/scattering.h"
 #include "tests/bsdf/bsdf_cases.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // BSDFs of which something is known without sampling: what they lose, the shares of their delta parts.
-#include "render/bsdf/fresnel.h"
+#include "render/surface/scattering.h"
 #include "tests/bsdf/bsdf_cases.h"
 
 #include <gtest/gtest.h>

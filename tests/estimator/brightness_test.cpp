@@ -1,7 +1,7 @@
 // The L2 reconstruction redistributes light and keeps its sum: gradients alone cannot change it, as borders are
 // Neumann's.
 #include "recon/reconstruct.h"
-#include "render/session/render.h"
+#include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-#include "render/load/mesh_files.h"
-#include "render/load/mesh_tools.h"
+#include "render/mesh/meshes.h"
 #include "tests/fuzz/fuzzed_mesh.h"
 
 #include <cstddef>

@@ -1,5 +1,4 @@
-#include "render/load/mesh_tools.h"
-#include "render/load/serialized_file.h"
+#include "render/mesh/meshes.h"
 #include "tests/fuzz/fuzzed_mesh.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/scene/mesh.h"
+#include "render/surface/mesh.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,9 +1,10 @@
 // Files beside a scene that are cut short, lie about their size, or hold what is no geometry.
 
-#include "render/load/exr.h"
-#include "render/load/mesh_files.h"
+#include "render/io/exr.h"
+#include "render/io/files.h"
+#include "render/io/png.h"
 #include "render/load/mitsuba_xml.h"
-#include "render/load/png.h"
+#include "render/mesh/meshes.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"
 

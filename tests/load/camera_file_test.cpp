@@ -1,6 +1,6 @@
-#include "render/load/camera_file.h"
-#include "render/load/messages.h"
+#include "render/io/text.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/scene/camera.h"
 #include "tests/load/temporary_folder.h"
 
 #include <bit>

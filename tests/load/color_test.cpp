@@ -1,9 +1,8 @@
 // Colours in all spellings, spectra, and colours of meshes.
 
-#include "render/load/mesh_files.h"
 #include "render/load/mitsuba_xml.h"
-#include "render/load/refraction_indices.h"
-#include "render/load/spectra.h"
+#include "render/load/properties.h"
+#include "render/mesh/meshes.h"
 
 #include <glm/common.hpp>
 #include <gtest/gtest.h>

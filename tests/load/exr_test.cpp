@@ -1,5 +1,5 @@
-#include "render/load/exr.h"
-#include "render/load/png.h"
+#include "render/io/exr.h"
+#include "render/io/png.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "render/load/json_text.h"
-#include "render/load/messages.h"
+#include "render/io/json_text.h"
+#include "render/io/text.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "render/load/pfm_file.h"
+#include "render/io/pfm.h"
 #include "tests/load/pfm_bytes.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/recon/test_images.h"

@@ -1,4 +1,4 @@
-#include "render/load/mesh_files.h"
+#include "render/mesh/meshes.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // Spheres, disks and cylinders as triangles: area, distance, normals and uv against the exact shapes.
 
 #include "render/load/mitsuba_xml.h"
-#include "render/load/round_shapes.h"
+#include "render/mesh/meshes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/load/scene_source.h"
+#include "render/load/mitsuba_xml.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "render/load/mitsuba_xml.h"
-#include "render/load/serialized_file.h"
+#include "render/mesh/meshes.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"
 

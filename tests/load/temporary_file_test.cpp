@@ -1,4 +1,4 @@
-#include "render/load/temporary_file.h"
+#include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
 #include <set>

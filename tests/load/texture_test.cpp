@@ -1,4 +1,4 @@
-#include "render/scene/texture.h"
+#include "render/surface/texture.h"
 
 #include <cmath>
 #include <limits>

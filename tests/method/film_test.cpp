@@ -1,5 +1,5 @@
 // The film: what it refuses, and sums that hold 10^5 passes.
-#include "render/film.h"
+#include "render/estimator/film.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // The maps of how sharing went, from a pixel's counts.
-#include "render/film.h"
+#include "render/estimator/film.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/method/reuse_plan.h"
+#include "render/estimator/reuse_policy.h"
 
 #include <gtest/gtest.h>
 

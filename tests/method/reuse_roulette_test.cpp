@@ -1,5 +1,5 @@
 // The roulette that decides on reuse, on base paths made by hand.
-#include "render/method/reuse_roulette.h"
+#include "render/estimator/reuse_policy.h"
 #include "tests/support/rooms.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // The table that command line, panel and files are made from.
-#include "render/method/settings_table.h"
+#include "render/estimator/settings_table.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,5 @@
 // Half vectors copied between vertices: the shift is its own inverse, and its Jacobian is the derivative.
-#include "render/path/half_vector.h"
+#include "render/estimator/half_vector.h"
 
 #include <cmath>
 #include <random>

@@ -7,7 +7,7 @@
 // (for two pixels this is r_km r_mk = 1: the shift back undoes the shift, and so does its Jacobian), and every
 // pixel is given the same radiance by each of them: c_mk w_k = carried_m w_m.
 // Jacobians that undo each other and are wrong alike pass here: they are the matter of jacobian_test.cpp.
-#include "render/path/path_reuse.h"
+#include "render/estimator/path_reuse.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/shifted_path.h"
 

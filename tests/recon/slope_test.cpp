@@ -1,4 +1,4 @@
-#include "recon/slope.h"
+#include "recon/metrics.h"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/gradient_images.h"
+#include "recon/image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "recon/poisson_direct.h"
-#include "recon/uniform_control_variates.h"
+#include "recon/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
-#include "render/scene/texture.h"
+#include "render/surface/texture.h"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 #include "render/scene/sky.h"
 

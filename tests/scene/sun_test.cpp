@@ -1,7 +1,6 @@
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 #include "render/scene/sky.h"
-#include "render/scene/sun.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // BVHs are watched while they are built, and given up.
-#include "render/trace/build_monitor.h"
+#include "render/trace/intersector.h"
 #include "tests/support/scene_builder.h"
 
 #include <atomic>

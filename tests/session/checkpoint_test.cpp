@@ -1,6 +1,6 @@
 // Renders that go on from a checkpoint, and checkpoint files that are not what they should be.
-#include "render/session/checkpoint.h"
-#include "render/session/render.h"
+#include "render/run/checkpoint.h"
+#include "render/run/render.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,6 +1,6 @@
 // Every pixel is rendered once a pass, whatever the tiles, patterns and the image's size: behind a wall that
 // shines alike everywhere a pixel left out would be dark, and one taken twice would be twice as bright.
-#include "render/session/render.h"
+#include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The same seed gives the same bits for any number of threads, headless and in a session.
-#include "render/session/render.h"
+#include "render/run/render.h"
 #include "render/session/session.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,4 +1,4 @@
-#include "render/session/first_hits.h"
+#include "render/run/first_hits.h"
 #include "tests/support/scene_builder.h"
 
 #include <cmath>

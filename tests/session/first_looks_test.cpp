@@ -1,4 +1,4 @@
-#include "render/session/first_looks.h"
+#include "render/session/session_pane.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // One sample of one pixel, looked at: the same numbers as in the picture.
-#include "render/method/inspection.h"
-#include "render/session/render.h"
+#include "render/inspect/inspection.h"
+#include "render/run/render.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Many passes on a tiny image: the mean neither drifts nor overflows.
-#include "render/session/render.h"
+#include "render/run/render.h"
 #include "tests/support/rooms.h"
 
 #include <cmath>

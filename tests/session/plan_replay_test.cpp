@@ -1,7 +1,6 @@
 // The plan of any pass, learnt again for one tile: the bits of the render's own.
-#include "render/method/inspection.h"
-#include "render/method/plan_replay.h"
-#include "render/session/render.h"
+#include "render/inspect/inspection.h"
+#include "render/run/render.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>

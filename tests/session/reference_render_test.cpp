@@ -1,6 +1,6 @@
 // References in the making: what ends them early changes no bit.
-#include "render/session/checkpoint.h"
-#include "render/session/reference_render.h"
+#include "render/run/checkpoint.h"
+#include "render/run/reference_render.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
 

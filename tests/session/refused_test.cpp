@@ -1,7 +1,6 @@
 // Light beyond what floats hold: nothing that is not finite gets into a buffer, and what was left out is counted.
-#include "render/method/inspection.h"
-#include "render/method/plan_replay.h"
-#include "render/session/render.h"
+#include "render/inspect/inspection.h"
+#include "render/run/render.h"
 #include "tests/support/rooms.h"
 
 #include <algorithm>

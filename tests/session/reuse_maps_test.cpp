@@ -1,5 +1,5 @@
 // The maps of reuse: which share of a pixel's base paths with light the roulette left, and how shifts to it ended.
-#include "render/session/render.h"
+#include "render/run/render.h"
 #include "tests/support/rooms.h"
 
 #include <array>

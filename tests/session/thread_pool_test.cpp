@@ -1,4 +1,4 @@
-#include "render/session/thread_pool.h"
+#include "render/run/thread_pool.h"
 
 #include <atomic>
 #include <numeric>

@@ -1,6 +1,6 @@
 #include "tests/support/naive.h"
 
-#include "render/path/vertex.h"
+#include "render/estimator/tracer.h"
 
 #include <array>
 #include <random>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/path/shift.h"
+#include "render/estimator/shift.h"
 
 namespace tessera::test {
 

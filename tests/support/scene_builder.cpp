@@ -1,6 +1,6 @@
 #include "tests/support/scene_builder.h"
 
-#include "render/sampling.h"
+#include "render/sampling/sampling.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/path/light_paths.h"
+#include "render/estimator/base_path.h"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "tests/support/z_scores.h"
 
-#include "render/session/render.h"
+#include "render/run/render.h"
 
 #include <cmath>
 

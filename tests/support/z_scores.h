@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/method/settings.h"
+#include "render/estimator/settings.h"
 #include "render/scene/scene.h"
 #include "tests/support/naive.h"
 

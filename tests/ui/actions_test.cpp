@@ -1,4 +1,4 @@
-#include "ui/actions.h"
+#include "ui/state/actions.h"
 
 #include <set>
 #include <string>

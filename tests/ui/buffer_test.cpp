@@ -1,6 +1,6 @@
 #include "recon/metrics.h"
-#include "ui/buffer.h"
-#include "ui/shift_outcomes.h"
+#include "ui/state/buffer.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <set>
 

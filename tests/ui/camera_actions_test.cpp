@@ -1,10 +1,10 @@
 // Saving and copying the camera.
 
-#include "render/load/camera_file.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/scene/camera.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/camera_store.h"
+#include "ui/state/camera_control.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>

@@ -1,4 +1,4 @@
-#include "ui/camera_control.h"
+#include "ui/state/camera_control.h"
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // How numbers become colours on a canvas.
 
 #include "tests/ui/canvas_fixture.h"
-#include "ui/false_colours.h"
+#include "ui/gl/tone.h"
 
 #include <cmath>
 

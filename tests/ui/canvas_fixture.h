@@ -1,8 +1,8 @@
 #pragma once
 
 #include "tests/ui/osmesa_context.h"
-#include "ui/canvas.h"
-#include "ui/screenshot.h"
+#include "ui/gl/canvas.h"
+#include "ui/gl/gl.h"
 
 #include <algorithm>
 #include <array>

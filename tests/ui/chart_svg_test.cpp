@@ -1,4 +1,4 @@
-#include "ui/chart.h"
+#include "ui/charts/chart.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,7 @@
 
 #include "tests/ui/charts_fixture.h"
 #include "tests/ui/current_folder.h"
-#include "ui/chart_file.h"
-#include "ui/chart_picture.h"
-#include "ui/viewer_charts.h"
+#include "ui/charts/charts.h"
 
 #include <cmath>
 #include <filesystem>

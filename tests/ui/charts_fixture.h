@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tests/ui/viewer_harness.h"
-#include "ui/picture_error.h"
+#include "ui/state/companions.h"
 
 #include <vector>
 

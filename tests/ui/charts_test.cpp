@@ -1,10 +1,8 @@
 // Charts: how errors fall, and how shifts end.
 
 #include "tests/ui/charts_fixture.h"
-#include "ui/chart_file.h"
-#include "ui/chart_view.h"
-#include "ui/picture_error.h"
-#include "ui/viewer_charts.h"
+#include "ui/charts/charts.h"
+#include "ui/state/companions.h"
 
 #include <cmath>
 

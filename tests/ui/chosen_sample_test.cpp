@@ -1,9 +1,9 @@
 // A sample that somebody names by pixel, pass and seed: by the dialog, an option, a script, a message.
 
-#include "render/method/inspection.h"
-#include "render/session/render.h"
+#include "render/inspect/inspection.h"
+#include "render/run/render.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/script_player.h"
+#include "ui/viewer/script.h"
 
 #include <chrono>
 #include <sstream>

@@ -1,6 +1,6 @@
 // Buffers that need more than a snapshot: errors to a reference, first hits.
 
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <algorithm>

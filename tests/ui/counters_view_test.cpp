@@ -2,9 +2,9 @@
 
 #include "tests/support/scene_builder.h"
 #include "tests/ui/panes_fixture.h"
-#include "ui/false_colours.h"
-#include "ui/statistics.h"
-#include "ui/theme.h"
+#include "ui/gl/theme.h"
+#include "ui/gl/tone.h"
+#include "ui/panels/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // Every action of the table, by its menu and by its keys: what it changes, and that it is seen.
 
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/actions.h"
-#include "ui/imgui_version.h"
-#include "ui/settings_file.h"
+#include "ui/gl/gui.h"
+#include "ui/state/actions.h"
+#include "ui/state/settings_file.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,7 +1,7 @@
 // What explains the viewer: tooltips, typed values, shortcuts.
 
 #include "tests/ui/viewer_harness.h"
-#include "ui/pane_status.h"
+#include "ui/panes/pane_parts.h"
 
 #include <set>
 

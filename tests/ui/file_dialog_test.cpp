@@ -1,10 +1,10 @@
 // The dialog that chooses a file, and what it lists.
 
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/file_list.h"
-#include "ui/settings_file.h"
+#include "ui/state/file_names.h"
+#include "ui/state/settings_file.h"
 
 #include <cstdlib>
 #include <fstream>

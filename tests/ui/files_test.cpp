@@ -1,11 +1,11 @@
 // Settings that are saved and taken back.
 
-#include "render/load/camera_file.h"
-#include "render/load/messages.h"
-#include "render/load/temporary_file.h"
+#include "render/io/files.h"
+#include "render/io/text.h"
+#include "render/scene/camera.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/settings_file.h"
+#include "ui/state/settings_file.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 // Charts: histograms of the pictures on show.
 
 #include "tests/ui/charts_fixture.h"
-#include "ui/histogram.h"
+#include "ui/state/companions.h"
 
 #include <cmath>
 

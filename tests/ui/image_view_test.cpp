@@ -1,4 +1,4 @@
-#include "ui/image_view.h"
+#include "ui/gl/image_view.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

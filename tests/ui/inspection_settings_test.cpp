@@ -1,8 +1,8 @@
 // What the path inspector and the slow motion show, saved and taken back.
 
-#include "render/load/messages.h"
+#include "render/io/text.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/settings_file.h"
+#include "ui/state/settings_file.h"
 
 #include <memory>
 #include <string>

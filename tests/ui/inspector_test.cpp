@@ -1,7 +1,7 @@
 // The path inspector: a pixel is chosen by the mouse, and its sample drawn and listed.
 
 #include "tests/ui/viewer_harness.h"
-#include "ui/path_overlay.h"
+#include "ui/inside/inside.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,4 @@
-#include "ui/actions.h"
-#include "ui/keyboard.h"
+#include "ui/state/actions.h"
 
 #include <gtest/gtest.h>
 

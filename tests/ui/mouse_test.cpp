@@ -1,4 +1,4 @@
-#include "ui/mouse.h"
+#include "ui/panes/pane_parts.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // How shifts end, pixel by pixel: the buffer's colours, its legend, and its numbers.
 
 #include "tests/ui/panes_fixture.h"
-#include "ui/pane_status.h"
-#include "ui/shift_outcomes.h"
-#include "ui/view_picture.h"
+#include "ui/panes/pane_parts.h"
+#include "ui/panes/showing.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // The line below a picture.
 
-#include "ui/pane_status.h"
+#include "ui/panes/pane_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Several panes: how many, compared with each other, and when they render.
 
 #include "tests/ui/panes_fixture.h"
-#include "ui/imgui_version.h"
+#include "ui/gl/gui.h"
 
 #include <cmath>
 

@@ -1,8 +1,7 @@
 // Looking at single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
 
 #include "tests/ui/panes_fixture.h"
-#include "ui/pane_status.h"
-#include "ui/pixel_numbers.h"
+#include "ui/panes/pane_parts.h"
 
 #include <algorithm>
 #include <cmath>

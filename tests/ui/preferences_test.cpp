@@ -2,7 +2,7 @@
 
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/preferences.h"
+#include "ui/state/preferences.h"
 
 #include <algorithm>
 #include <atomic>

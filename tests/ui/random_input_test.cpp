@@ -1,10 +1,10 @@
 // The viewer under random input, for TESSERA_RANDOM_SECONDS (5): nothing may break, and afterwards all works as
 // before. TESSERA_RANDOM_SEED repeats a run, as far as threads let it. For the sanitizers: random_run.sh.
 
-#include "render/load/exr.h"
+#include "render/io/exr.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/actions.h"
-#include "ui/imgui_version.h"
+#include "ui/gl/gui.h"
+#include "ui/state/actions.h"
 
 #include <chrono>
 #include <cmath>

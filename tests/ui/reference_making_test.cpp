@@ -1,6 +1,6 @@
 // "Make reference": in the background, to the bits of `tessera reference`, and resumed.
 
-#include "render/session/reference_render.h"
+#include "render/run/reference_render.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 

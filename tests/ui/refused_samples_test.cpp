@@ -3,7 +3,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/panes_fixture.h"
-#include "ui/path_overlay.h"
+#include "ui/inside/inside.h"
 
 #include <algorithm>
 #include <limits>
@@ -73,7 +73,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     EXPECT_EQ(found.pixel, gpr.samples[0].pixel);
     const glm::vec3 seen = Projection(camera, found.size).project(found.path.front().position);
     EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), found.pixel);
-    EXPECT_FALSE(is_on_show(gpr.samples[0].origin->generation, h.state()));
+    EXPECT_FALSE(h.state().shows_request(gpr.samples[0].origin->generation));
     h.frames(3);
     h.save("refused-earlier.png");
 

@@ -1,4 +1,4 @@
-#include "ui/render_size.h"
+#include "ui/state/viewer_state.h"
 
 #include <gtest/gtest.h>
 

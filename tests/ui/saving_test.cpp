@@ -1,10 +1,10 @@
 // Pictures that the viewer saves: of a pane as EXR and PNG.
 
-#include "render/load/png.h"
+#include "render/io/png.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/output_files.h"
-#include "ui/view_picture.h"
+#include "ui/panes/showing.h"
+#include "ui/state/file_names.h"
 
 #include <atomic>
 #include <filesystem>

@@ -1,6 +1,6 @@
-#include "render/load/png.h"
+#include "render/io/png.h"
 #include "tests/ui/osmesa_context.h"
-#include "ui/screenshot.h"
+#include "ui/gl/gl.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 #include "tests/ui/viewer_harness.h"
-#include "ui/script_player.h"
+#include "ui/viewer/script.h"
 
 #include <sstream>
 

@@ -1,7 +1,6 @@
-#include "ui/frame_times.h"
-#include "ui/keyboard.h"
-#include "ui/named_settings.h"
-#include "ui/script.h"
+#include "ui/state/actions.h"
+#include "ui/state/settings_file.h"
+#include "ui/viewer/script.h"
 
 #include <sstream>
 #include <stdexcept>

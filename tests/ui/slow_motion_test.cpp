@@ -1,8 +1,8 @@
 // The slow motion: the base paths of one tile arrive one after the other over the active pane's picture.
 
 #include "tests/ui/viewer_harness.h"
-#include "ui/path_drawing.h"
-#include "ui/slow_motion_overlay.h"
+#include "ui/inside/drawing.h"
+#include "ui/inside/inside.h"
 
 #include <chrono>
 #include <thread>

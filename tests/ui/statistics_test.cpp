@@ -1,4 +1,4 @@
-#include "ui/statistics.h"
+#include "ui/panels/statistics.h"
 
 #include <algorithm>
 #include <stdexcept>

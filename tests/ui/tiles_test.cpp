@@ -1,6 +1,6 @@
 // The overlay of tiles: it lies where the newest pass had its tiles, and in no image.
 
-#include "render/method/tile_grid.h"
+#include "render/estimator/tile_grid.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "tests/ui/viewer_harness.h"
 
-#include "render/load/png.h"
+#include "render/io/png.h"
 #include "tests/support/scene_builder.h"
-#include "ui/imgui_version.h"
+#include "ui/gl/gui.h"
 
 #include <algorithm>
 #include <chrono>

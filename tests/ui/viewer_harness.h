@@ -1,10 +1,9 @@
 #pragma once
 
 #include "tests/ui/osmesa_context.h"
-#include "ui/gui.h"
-#include "ui/picture_saver.h"
-#include "ui/screenshot.h"
-#include "ui/viewer.h"
+#include "ui/gl/gl.h"
+#include "ui/gl/gui.h"
+#include "ui/viewer/viewer.h"
 
 #include <functional>
 #include <memory>

@@ -1,5 +1,5 @@
 #include "tests/ui/viewer_harness.h"
-#include "ui/viewer.h"
+#include "ui/viewer/viewer.h"
 
 #include <algorithm>
 #include <atomic>

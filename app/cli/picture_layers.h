@@ -1,0 +1,48 @@
+#pragma once
+
+#include "recon/reconstruct.h"
+#include "render/estimator/film.h"
+#include "render/io/exr.h"
+#include "render/run/thread_pool.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace tessera {
+
+/// The EXR attribute with GradientImages::patch.
+inline constexpr const char* patch_attribute = "tessera:patch";
+
+/// The layers of a picture file that are made from gradients.
+struct ReconstructionLayers {
+    std::vector<Norm> norms; ///< the first is the file's plain RGB; empty: none is made
+    float alpha = 0.2f;
+    bool per_channel = false; ///< l1 and mixed: each channel is on its own
+    bool buffers = false;     ///< primal, dx, dy, direct and variances, too
+};
+
+/// What one reconstruction cost: wall and CPU seconds, not a number where they are not known.
+struct ReconstructionStats {
+    Norm norm;
+    double seconds, cpu_seconds;
+    int iterations;
+    double residual;
+};
+
+/// Throws BadInput unless the name ends in .exr, or in .png with no more than one picture to hold.
+void check_picture_name(const std::filesystem::path& output, const ReconstructionLayers& wanted);
+
+/// The layers wanted, named as their norms; of the buffers those that are not empty. What each reconstruction cost
+/// is appended to `stats`.
+ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
+                           std::vector<ReconstructionStats>& stats);
+
+/// Those layers and, where pixels share paths, the maps of how that went.
+ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
+                       ThreadPool& pool, std::vector<ReconstructionStats>& stats);
+
+/// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Throws
+/// std::runtime_error that names the file.
+void write_picture(const std::filesystem::path& output, const ExrFile& file);
+
+} // namespace tessera

@@ -1,0 +1,127 @@
+#include "app/cli/render_stats.h"
+
+#include "app/cli/machine.h"
+#include "app/cli/option_values.h"
+#include "ui/state/viewer_state.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// As one word of a shell's command line.
+std::string shell_word(const std::string& text) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=,:+@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
+        return text;
+    std::string word = "'";
+    for (char c : text)
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+} // namespace
+
+std::string inspect_command(const SceneSource& source, const Render& render, const RefusedSample& sample) {
+    if (std::max(render.size().x, render.size().y) > most_render_pixels_an_edge)
+        return "";
+    const RenderSettings& settings = render.settings();
+    RenderSettings usual;
+    usual.max_depth = std::min(render.scene()->max_depth(), most_edges);
+    std::string command = "tessera view";
+    if (!source.file.empty())
+        command += " " + shell_word(source.file.string());
+    for (const auto& [name, value] : source.variables)
+        command += " -D " + shell_word(name + "=" + value);
+    if (!source.camera.empty())
+        command += " --camera " + shell_word(source.camera.string());
+    if (settings.method != usual.method)
+        command += fmt::format(" -m {}", short_name(settings.method));
+    command += fmt::format(" --size {}x{}", render.size().x, render.size().y) + option_words(usual, settings);
+    if (settings.seed != usual.seed)
+        command += fmt::format(" --seed {}", settings.seed);
+    return command + fmt::format(" --inspect {},{},{}", sample.x, sample.y, sample.pass);
+}
+
+void warn_of_refused(const SceneSource& source, const Render& render) {
+    const auto first = render.counters().first_refused.list();
+    if (first.empty())
+        return;
+    const std::string command = inspect_command(source, render, first.front());
+    fmt::print(stderr, "warning: {}\n{}\n", refused_text(render.counters(), render.settings().seed),
+               command.empty()
+                   ? fmt::format("The viewer cannot open it: its pictures have up to {} pixels an edge.",
+                                 most_render_pixels_an_edge)
+                   : "The same scene, size, settings and seed open it in the viewer:\n    " + command);
+}
+
+nlohmann::json refused_json(const SceneSource& source, const Render& render) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const RefusedSample& sample : render.counters().first_refused.list()) {
+        list.push_back(
+            {{"x", sample.x}, {"y", sample.y}, {"pass", sample.pass}, {"seed", render.settings().seed}});
+        if (const std::string command = inspect_command(source, render, sample); !command.empty())
+            list.back()["inspect"] = command;
+    }
+    return list;
+}
+
+using nlohmann::json;
+
+json counters_json(const Counters& c) {
+    json outcomes = json::object();
+    for (int i = 0; i < shift_outcome_count; ++i)
+        outcomes[std::string(to_string(static_cast<ShiftOutcome>(i)))] = c.shifts[static_cast<std::size_t>(i)];
+    json rays = json::object();
+    for (int i = 0; i < ray_kind_count; ++i)
+        rays[std::string(to_string(static_cast<RayKind>(i)))] = c.rays[static_cast<std::size_t>(i)];
+    const double paths = static_cast<double>(std::max<std::uint64_t>(c.camera_paths, 1));
+    const double set_paths = static_cast<double>(std::max<std::uint64_t>(c.set_paths(), 1));
+    return {{"camera_paths", c.camera_paths},
+            {"mean_path_vertices", static_cast<double>(c.path_vertices) / paths},
+            {"rays", rays},
+            {"reuse",
+             {{"dark_paths", c.dark_paths},
+              {"skipped_by_roulette", c.skipped_paths},
+              {"reused_paths", c.reused_paths},
+              {"reused_share", static_cast<double>(c.reused_paths) / set_paths},
+              {"skipped_share", static_cast<double>(c.skipped_paths) / set_paths},
+              {"light_paths_skipped_by_weight", c.skipped_light_paths}}},
+            {"shifts", {{"attempts", c.shift_attempts()}, {"outcomes", outcomes}}},
+            {"refused_samples", c.refused_samples}};
+}
+
+json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions) {
+    json recon = json::array();
+    for (const ReconstructionStats& r : reconstructions)
+        recon.push_back({{"norm", to_string(r.norm)},
+                         {"wall", r.seconds},
+                         {"cpu", r.cpu_seconds},
+                         {"iterations", r.iterations},
+                         {"residual", r.residual}});
+    return recon;
+}
+
+json stats_json(const json& settings, const OpenedScene& opened, const Render& render, int threads,
+                const std::vector<ReconstructionStats>& reconstructions, bool interrupted) {
+    json stats{
+        {"settings", settings},
+        {"threads", threads},
+        {"interrupted", interrupted},
+        {"seconds",
+         {{"load", {{"wall", opened.parse_seconds + opened.file_seconds}, {"cpu", opened.load_cpu_seconds}}},
+          {"bvh", {{"wall", opened.bvh_seconds}, {"cpu", opened.bvh_cpu_seconds}}},
+          {"render", {{"wall", render.seconds()}, {"cpu", render.cpu_seconds()}}},
+          {"reconstruct", reconstructions_json(reconstructions)}}},
+        {"peak_memory", peak_memory_bytes()},
+        {"spp", render.spp()}};
+    stats.update(counters_json(render.counters()));
+    return stats;
+}
+
+} // namespace tessera

@@ -1,0 +1,131 @@
+#include "app/cli/scene_source.h"
+
+#include "app/cli/machine.h"
+#include "app/cli/terminal.h"
+#include "embedded/cornell_box_xml.h"
+#include "render/run/thread_pool.h"
+#include "render/scene/camera.h"
+#include "render/trace/intersector.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr std::size_t most_named = 3; // places after the first
+
+std::string place(const FilePosition& where, const FilePosition& first) {
+    return where.file == first.file && where.line > 0 ? fmt::format("{}:{}", where.line, where.column)
+                                                      : where.to_string();
+}
+
+std::string line_of(const std::vector<const LoadNote*>& same) {
+    const FilePosition& first = same.front()->where;
+    std::string line = first.to_string() + ": " + same.front()->text;
+    if (same.size() == 1)
+        return line;
+    std::vector<std::string> places;
+    for (std::size_t i = 1; i < std::min(same.size(), most_named + 1); ++i)
+        places.push_back(place(same[i]->where, first));
+    line += fmt::format(" (also at {}", fmt::join(places, ", "));
+    const std::size_t unnamed = same.size() - 1 - places.size();
+    if (unnamed > 0)
+        line += fmt::format(" and {} more place{}", unnamed, unnamed == 1 ? "" : "s");
+    return line + ")";
+}
+
+} // namespace
+
+std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
+    std::map<std::string_view, std::size_t> group_of;
+    std::vector<std::vector<const LoadNote*>> groups;
+    for (const LoadNote& note : notes) {
+        const auto [found, is_new] = group_of.emplace(note.text, groups.size());
+        if (is_new)
+            groups.emplace_back();
+        groups[found->second].push_back(&note);
+    }
+    std::vector<std::string> lines;
+    for (const auto& group : groups)
+        lines.push_back(line_of(group));
+    return lines;
+}
+
+namespace {
+constexpr int per_cent = 100; // steps of the BVH's progress
+} // namespace
+
+void check_scene_file(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file))
+        throw BadInput(fmt::format("{}: there is no such scene file", file.string()));
+}
+
+OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress) {
+    const ParallelFor parallel_for = pool.loops();
+    const double cpu_at_start = process_cpu_seconds();
+    std::optional<Camera> camera;
+    if (!source.camera.empty())
+        camera = read_camera(source.camera); // first: it is read in no time, and may be broken
+    LoadedScene loaded =
+        source.file.empty()
+            ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for, progress)
+            : load_mitsuba_xml(source.file, source.variables, parallel_for, progress);
+    loaded.description.camera = camera.value_or(loaded.description.camera);
+    OpenedScene opened;
+    opened.notes = std::move(loaded.notes);
+    opened.parse_seconds = loaded.parse_seconds;
+    opened.file_seconds = loaded.file_seconds;
+    const double cpu_after_load = process_cpu_seconds();
+    opened.load_cpu_seconds = cpu_after_load - cpu_at_start;
+    LoadProgress unwatched;
+    LoadProgress& watched = progress ? *progress : unwatched;
+    watched.begin(LoadProgress::Stage::bvh, per_cent);
+    std::atomic<int> done = 0;
+    const BuildMonitor monitor([&](double share) {
+        for (int known = done; known < static_cast<int>(share * per_cent);)
+            if (done.compare_exchange_weak(known, known + 1))
+                watched.step();
+        return !watched.given_up();
+    });
+    opened.scene = std::make_shared<const Scene>(std::move(loaded.description));
+    opened.bvh_seconds = opened.scene->bvh_seconds();
+    opened.bvh_cpu_seconds = process_cpu_seconds() - cpu_after_load;
+    return opened;
+}
+
+OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
+    LoadBar bar;
+    return open_scene(source, pool, &bar.progress());
+}
+
+SceneLoader loader_of(const SceneSource& source, int threads) {
+    return [source, threads](std::vector<std::string>& notes, LoadProgress& progress) {
+        work_in_background(); // and so will the threads that it starts, which take its priority
+        ThreadPool pool(threads);
+        const OpenedScene opened = open_scene(source, pool, &progress);
+        notes = group_notes(opened.notes);
+        return opened.scene;
+    };
+}
+
+SceneOrigin origin_of(const SceneSource& source, int threads) {
+    return {to_string(source), {source.file, source.variables, {}}, loader_of(source, threads)};
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder))
+        throw BadInput(fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                                   error ? error.message() : "a file is in its place"));
+}
+
+} // namespace tessera

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "render/load/load_progress.h"
+
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+namespace tessera {
+
+/// What the process returns.
+enum ExitCode : int { exit_ok = 0, exit_failure = 1, exit_bad_input = 2 };
+
+/// Something that the user gave cannot be used: reported in one message, exit code 2.
+class BadInput : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// While one lives, Ctrl-C (SIGINT) or SIGTERM ask for an end in good order; a second one, of either
+/// kind, ends the process.
+class InterruptGuard {
+public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+/// Whether the latest guard has seen either.
+bool interrupted();
+
+/// Tells on standard error how far a long job is: a bar with the time left on a terminal, else a plain line at
+/// each tenth.
+class Progress {
+public:
+    explicit Progress(std::string what);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// @param done    share of the work done, 0 to 1
+    /// @param seconds wall time it took
+    /// @param detail  such as "12 of 64 spp"
+    void update(double done, double seconds, const std::string& detail);
+
+private:
+    std::string what_;
+    bool terminal_;
+    bool drawn_ = false;
+    int tenths_ = 0;
+    double drawn_at_ = -1;
+};
+
+/// Tells on standard error, where that is a terminal, how far a scene is loaded, once that has taken a moment.
+/// Leaves no trace when it ends.
+class LoadBar {
+public:
+    LoadBar();
+    ~LoadBar();
+    LoadBar(const LoadBar&) = delete;
+    LoadBar& operator=(const LoadBar&) = delete;
+
+    /// For the loader to write to.
+    LoadProgress& progress() { return progress_; }
+
+private:
+    void draw(std::stop_token stop) const;
+
+    LoadProgress progress_;
+    std::jthread thread_; // not where there is no terminal
+};
+
+} // namespace tessera

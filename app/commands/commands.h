@@ -1,0 +1,185 @@
+#pragma once
+
+#include "app/cli/picture_layers.h"
+#include "app/cli/scene_source.h"
+#include "app/experiment/experiment.h"
+#include "app/experiment/references.h"
+#include "recon/reconstruct.h"
+#include "render/estimator/settings.h"
+#include "ui/jobs/scene_load.h"
+#include "ui/state/viewer_state.h"
+#include "ui/viewer/viewer.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// What run_view returns where there is neither a display nor a way to draw without one: the caller may render the
+/// same comparison headless.
+inline constexpr int view_needs_display = -1;
+/// What it returns where a signal ended a script or a screenshot: as of Ctrl-C in a shell.
+inline constexpr int view_cut_short = 130;
+
+/// `tessera view`.
+struct ViewOptions {
+    SceneOrigin scene; ///< loaded in the background
+    SceneOpener open;  ///< for scenes dropped on the window
+    std::vector<PaneSettings> panes = default_panes(2);
+    bool panes_as_remembered = true; ///< as many as the last time; otherwise, or if that is not known, `panes`
+    std::optional<int> max_depth;    ///< otherwise the scene decides
+    SizeChoice render_size;
+    int threads = 0;                       ///< of the renderer; 0: one a hardware thread
+    std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810
+    float ui_scale = 0;                    ///< of text and controls; 0: as the display says
+    int spp = 0;                           ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
+    std::optional<SampleChoice> sample;    ///< to begin with in the path inspector, of the last pane
+    bool show_panel = true;
+    std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
+    std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end
+    std::filesystem::path script;     ///< if not empty: steps to be played
+    bool log_actions = false;         ///< a line on stdout for every change of state, and where controls lie
+};
+
+/// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
+/// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.
+int run_view(const ViewOptions& options);
+
+enum class Clock { wall, cpu };
+
+/// What `tessera render` is asked for.
+struct RenderOptions {
+    SceneSource scene;
+    RenderSettings settings;
+    std::optional<int> max_depth; ///< empty: the scene's own
+    std::optional<int> spp;       ///< passes; empty: by time, or 16
+    std::optional<double> time;   ///< seconds of rendering, without loading
+    Clock clock = Clock::wall;
+    std::optional<glm::ivec2> size; ///< empty: the scene's own
+    std::vector<Norm> norms; ///< empty: weighted where there are gradients; the first is the file's plain RGB
+    float alpha = 0.2f;
+    bool per_channel = false; ///< l1 and mixed: each channel is on its own
+    int threads = 0;          ///< 0: one a hardware thread
+    std::filesystem::path output;
+    std::filesystem::path stats; ///< empty: none
+    bool buffers = false;        ///< primal, dx, dy, direct and the variances as layers, too
+};
+
+/// Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything has been written.
+int run_render(const RenderOptions& options);
+
+/// What `tessera reference` is asked for.
+struct ReferenceOptions {
+    SceneSource scene;
+    ReferenceRecipe recipe;
+    std::optional<int> max_depth;   ///< empty: the scene's own
+    std::optional<glm::ivec2> size; ///< empty: the scene's own
+    int threads = 0;                ///< 0: one a hardware thread
+    std::filesystem::path output;
+};
+
+/// Renders a reference, from a checkpoint if there is one, and prints its error. Returns an ExitCode: failure if
+/// Ctrl-C came before it was complete. Throws BadInput, LoadError or another std::exception.
+int run_reference(const ReferenceOptions& options);
+
+/// The words of `tessera reference`, before they are given a meaning.
+struct ReferenceWords {
+    std::string scene, camera, size, method = "gpr", norms;
+    std::vector<std::string> definitions;
+    ReferenceOptions options; ///< all that is not above
+};
+
+/// Adds the command; `words` take what is given to it, and must live as long as `app`.
+void add_reference(CLI::App& app, ReferenceWords& words);
+
+/// What the words mean. Throws BadInput that names the option.
+ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words);
+
+/// What `tessera reconstruct` is asked for.
+struct ReconstructOptions {
+    std::vector<std::filesystem::path> inputs; ///< as read_gradients takes them
+    ReconstructionLayers layers{{Norm::weighted}};
+    bool repair = false; ///< pixels that are not finite count as 0
+    int threads = 0;     ///< 0: one a hardware thread
+    std::filesystem::path output;
+    std::filesystem::path stats; ///< empty: none
+};
+
+/// Returns an ExitCode. Throws BadInput or another std::exception before anything has been written.
+int run_reconstruct(const ReconstructOptions& options);
+
+/// The words of `tessera reconstruct`, before they are given a meaning.
+struct ReconstructWords {
+    std::vector<std::string> inputs;
+    std::string primal, dx, dy, direct; ///< the inputs by their names instead
+    std::string norms = "weighted";
+    ReconstructOptions options; ///< all that is not above
+};
+
+/// Adds the command; `words` take what is given to it, and must live as long as `app`.
+void add_reconstruct(CLI::App& app, ReconstructWords& words);
+
+/// What the words mean. Throws BadInput that names the option.
+ReconstructOptions parse_reconstruct(const ReconstructWords& words);
+
+struct CompareOptions {
+    std::filesystem::path image;
+    std::filesystem::path reference;
+    std::filesystem::path reference2; ///< independent of the first; empty: there is none
+    std::string layer;                ///< of `image`, such as "primal"; empty: its plain R, G, B
+    bool json = false;
+    int tile = 0; ///< edge of tiles whose grid is looked for in the error; 0: it is not
+};
+
+/// `tessera compare`: prints how far the image is from the reference, or from the mean of both. With two,
+/// or one that `tessera reference` made and that has two halves, also the error that has no floor. Of other
+/// references the plain R, G, B are taken, or `layer` where there are none. Returns the exit code: 0, or 2 with
+/// one message on stderr for files that cannot be read or do not fit.
+int run_compare(const CompareOptions& options);
+
+/// `tessera info`: prints what was loaded, what it takes in time and memory, what the renderer must reckon with,
+/// and what was ignored or replaced, with its place in the file. Returns an ExitCode.
+int run_info(const SceneSource& source);
+
+struct ContactSheetOptions {
+    SceneSource scene;
+    std::filesystem::path output = "contact-sheet.png";
+    glm::ivec2 size{0}; ///< of each picture; 0: the scene's own, at most about 640x360 pixels in all
+    double seconds = 5; ///< wall seconds of rendering for each method
+    int threads = 0;
+};
+
+/// The viewer's comparison for machines without a display: path tracing and gradient-domain path reusing side by
+/// side, with the latter's primal and gradients, labelled, as one PNG. Returns an ExitCode.
+int run_contact_sheet(const ContactSheetOptions& options);
+
+/// Writes the same EXR file as `tessera render --buffers`, with the camera, the norm, the times and what was
+/// counted in its header, and layers for what else the viewer shows: albedo, normal and depth, and errors to a
+/// reference of the picture's size. The reconstruction is the snapshot's own if that is of its newest pass and
+/// made with these settings; otherwise it is made now. Throws std::exception that names the file.
+void write_saved_picture(const std::filesystem::path& file, const SavedPicture& picture);
+
+/// `tessera bench`: renders every scene with every method and reconstruction in turn, takes errors at doubling
+/// times, and writes bench.html (which needs no other file), bench.csv, bench-speedup.csv, bench.json and a chart
+/// a scene, anew after each round. Returns an ExitCode. Throws as run_sweep does.
+int run_bench(const ExperimentOptions& options);
+
+/// `tessera sweep`: renders every scene with every point of the experiment, compares with references, and writes
+/// sweep.csv, .json, .md and a chart a scene, anew after each round. Returns an ExitCode. Throws BadInput or
+/// another std::exception before anything was rendered, but for scene files that cannot be loaded: these are met
+/// in turn.
+int run_sweep(const ExperimentOptions& options);
+
+/// `tessera stability`: renders small scenes, each made so that some method is known to fail, with all methods and
+/// reconstructions, and judges them by path tracing (app/experiment/stability.h). Writes stability.md, stability.csv and a
+/// sheet of pictures a scene, anew after each round; each scene's journal and pictures are in a folder of its own,
+/// OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the scenes' own. Returns
+/// an ExitCode. Throws BadInput or another std::exception before anything was rendered.
+int run_stability(ExperimentOptions options);
+
+} // namespace tessera

@@ -1,0 +1,112 @@
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+#include "app/commands/commands.h"
+#include "app/report/reports.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+void write_bench(const Experiment& experiment) {
+    const ExperimentOptions& options = experiment.options();
+    const std::vector<Result> results = experiment.results();
+    const std::vector<SceneCurves> scenes = curves_by_scene(results);
+    write_text(options.output / "bench.csv", to_csv(options, results));
+    write_text(options.output / "bench.json", to_json(options, results));
+    write_text(options.output / "bench-speedup.csv", speed_up_csv(options, scenes));
+    for (const SceneCurves& scene : scenes)
+        write_text(options.output / fmt::format("bench-{}.svg", scene.name), to_svg(bench_chart(options, scene)));
+    write_text(options.output / "bench.html", bench_page(experiment, scenes));
+}
+
+} // namespace
+
+int run_bench(const ExperimentOptions& options) {
+    Experiment experiment(options);
+    experiment.run([&] { write_bench(experiment); });
+    fmt::print("{}\n", (options.output / "bench.html").string());
+    return exit_ok;
+}
+
+int run_sweep(const ExperimentOptions& options) {
+    Experiment experiment(options);
+    experiment.run([&] { write_sweep(options, experiment.results()); });
+    fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n", options.output.string());
+    return exit_ok;
+}
+
+namespace {
+
+/// Those of the whole suite, for one of its scenes.
+ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptions& suite) {
+    ExperimentOptions options = suite;
+    options.scenes = {scene.source.file};
+    options.variables = scene.source.variables;
+    options.settings.render.max_depth = scene.depth;
+    options.settings.size = options.recipe.size = scene.needs.size.value_or(suite.settings.size);
+    options.seeds = scene.needs.seeds.value_or(suite.seeds);
+    if (scene.needs.spp) {
+        options.effort = {static_cast<double>(*scene.needs.spp), Effort::Unit::spp};
+        options.recipe.spp = std::max(suite.recipe.spp, 2 * *scene.needs.spp); // each half as good as a picture
+    }
+    options.looks_for_artefacts = true;
+    options.keeps_images = true;
+    options.output = suite.output / "scenes" / scene_name(scene.source);
+    return options;
+}
+
+/// A bias that a method has in common with its judge cannot be seen: only PT, which reuses nothing, may be it.
+void check_references(const MeasuredScene& scene) {
+    for (const FolderReference* reference : scene.references()) {
+        if (!reference->is_complete())
+            continue;
+        const auto settings = nlohmann::json::parse(reference->image().settings, nullptr, false);
+        if (!settings.is_object() || settings.value("method", "") != short_name(Method::pt))
+            throw BadInput(fmt::format("{} was not made by PT, which alone can judge the others",
+                                       reference->path().string()));
+    }
+}
+
+std::vector<StabilityCase> cases_of(const ExperimentOptions& suite) {
+    std::vector<StabilityCase> cases;
+    const auto& files = suite.scenes.empty() ? built_in_stability_scenes() : suite.scenes;
+    for (const StabilityScene& scene : stability_scenes(files)) {
+        const auto is_same = [&](const StabilityCase& c) {
+            return scene_name(c.scene.source) == scene_name(scene.source);
+        };
+        if (std::any_of(cases.begin(), cases.end(), is_same))
+            throw BadInput(fmt::format("two scenes are named \"{}\"", scene_name(scene.source)));
+        StabilityCase& c = cases.emplace_back();
+        c.scene = scene;
+        c.options = std::make_unique<ExperimentOptions>(options_for(scene, suite));
+        c.experiment = std::make_unique<Experiment>(*c.options);
+        check_references(c.experiment->scenes().front());
+    }
+    return cases;
+}
+
+} // namespace
+
+int run_stability(ExperimentOptions suite) {
+    if (std::find(suite.methods.begin(), suite.methods.end(), Method::pt) == suite.methods.end())
+        suite.methods.insert(suite.methods.begin(), Method::pt);
+    suite.recipe.settings.method = Method::pt;
+    suite.recipe.reconstruction.norm = Norm::none;
+    make_folder(suite.output);
+    check_writable(suite.output / "stability.md");
+    const std::vector<StabilityCase> cases = cases_of(suite);
+    for (std::size_t i = 0; i < cases.size() && !interrupted(); ++i) {
+        fmt::print(stderr, "{} ({} of {})\n", cases[i].name(), i + 1, cases.size());
+        cases[i].experiment->run([&] { write_stability(suite, cases); });
+        write_sheet(suite, cases[i]);
+    }
+    fmt::print("{}\n", (suite.output / "stability.md").string());
+    return exit_ok;
+}
+
+} // namespace tessera

@@ -1,0 +1,192 @@
+#include "app/commands/gradient_input.h"
+
+#include "app/cli/terminal.h"
+#include "app/cli/picture_layers.h"
+#include "render/io/exr.h"
+#include "render/io/pfm.h"
+#include "render/io/files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// An image and what to call it in messages.
+struct NamedImage {
+    std::string name;
+    RgbImage image;
+};
+
+/// In the order of the command line; very direct light may be missing.
+using Buffers = std::vector<NamedImage>;
+
+ExrFile read_layers(const std::filesystem::path& path) {
+    if (extension_of(path) != ".exr")
+        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers primal, dx and dy; or give "
+                                   "three or four files: primal, dx, dy and very direct",
+                                   path.string()));
+    return read_exr(path);
+}
+
+std::map<std::string, std::string> own_attributes(const ExrFile& file) {
+    std::map<std::string, std::string> attributes;
+    for (const auto& [name, text] : file.attributes)
+        if (name.starts_with("tessera:"))
+            attributes[name] = text;
+    return attributes;
+}
+
+float patch_of(const std::map<std::string, std::string>& attributes, const std::filesystem::path& path) {
+    const auto found = attributes.find(patch_attribute);
+    if (found == attributes.end())
+        return 1;
+    float patch = 0;
+    const std::string& text = found->second;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), patch);
+    if (error != std::errc() || end != text.data() + text.size() || !(patch >= 1 && patch <= 1024))
+        throw BadInput(fmt::format("{}: attribute {} is \"{}\", but must be a number from 1 to 1024",
+                                   path.string(), patch_attribute, text));
+    return patch;
+}
+
+NamedImage named_layer(const ExrFile& file, const char* name, const std::filesystem::path& path) {
+    return {fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)};
+}
+
+Buffers buffers_of(const ExrFile& file, const std::filesystem::path& path) {
+    Buffers buffers;
+    for (const char* name : {"primal", "dx", "dy", "direct"})
+        if (find_layer(file, name) || std::string(name) != "direct")
+            buffers.push_back(named_layer(file, name, path));
+    return buffers;
+}
+
+RgbImage read_image(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    if (extension == ".pfm")
+        return read_pfm(path);
+    if (extension == ".exr")
+        return require_layer(read_exr(path), "", path);
+    throw BadInput(fmt::format("{}: the name must end in .exr or .pfm", path.string()));
+}
+
+std::string text_of_size(const RgbImage& image) {
+    return fmt::format("{}x{}", image.width(), image.height());
+}
+
+/// Brings `buffer` to the primal's size, where it may lack `columns` and `rows` at the end: these are made 0
+/// whether they are there or not, as they mean nothing.
+void fit(NamedImage& buffer, const NamedImage& primal, int columns, int rows) {
+    RgbImage& image = buffer.image;
+    const int width = primal.image.width(), height = primal.image.height();
+    const bool is_whole = image.width() == width && image.height() == height;
+    if (!is_whole && (image.width() != width - columns || image.height() != height - rows))
+        throw BadInput(fmt::format("sizes differ: {} is {}, {} is {}", primal.name, text_of_size(primal.image),
+                                   buffer.name, text_of_size(image)));
+    RgbImage fitted(width, height, Rgb(0));
+    for (int y = 0; y < height - rows; ++y)
+        std::copy_n(image.row(y), width - columns, fitted.row(y));
+    image = std::move(fitted);
+}
+
+/// Returns how many pixels were not finite.
+std::size_t make_finite(NamedImage& buffer, bool repair) {
+    if (const std::string bad = text_of_bad_pixel(buffer.image); !bad.empty() && !repair)
+        throw BadInput(
+            fmt::format("{}: {}, which is not finite; --repair takes such pixels as 0", buffer.name, bad));
+    std::size_t count = 0;
+    for (Rgb& pixel : buffer.image)
+        if (!is_finite(pixel)) {
+            pixel = Rgb(0);
+            ++count;
+        }
+    return count;
+}
+
+/// A layer of variances, of which the last `columns` and `rows` mean nothing. A bad one is repaired with
+/// `careful`.
+Image<float> read_variance(const ExrFile& file, const char* name, const std::filesystem::path& path,
+                           const RgbImage& primal, int columns, int rows, std::optional<float> careful,
+                           std::size_t& repaired) {
+    const NamedImage layer = named_layer(file, name, path);
+    if (layer.image.width() != primal.width() || layer.image.height() != primal.height())
+        throw BadInput(fmt::format("sizes differ: the primal is {}, {} is {}", text_of_size(primal), layer.name,
+                                   text_of_size(layer.image)));
+    Image<float> variance(primal.width(), primal.height());
+    for (int y = 0; y < primal.height() - rows; ++y)
+        for (int x = 0; x < primal.width() - columns; ++x) {
+            const float value = layer.image(x, y).r;
+            const bool is_good = std::isfinite(value) && value >= 0;
+            if (!is_good && !careful)
+                throw BadInput(
+                    fmt::format("{}: pixel ({}, {}) is {}, which is not a variance; with --repair gradients "
+                                "are trusted least there",
+                                layer.name, x, y, value));
+            variance(x, y) = is_good ? value : *careful;
+            repaired += !is_good;
+        }
+    return variance;
+}
+
+} // namespace
+
+std::string text_of_bad_pixel(const RgbImage& image) {
+    const auto bad = std::find_if_not(image.begin(), image.end(), is_finite);
+    if (bad == image.end())
+        return {};
+    const auto index = bad - image.begin();
+    return fmt::format("pixel ({}, {}) is ({}, {}, {})", index % image.width(), index / image.width(), bad->r,
+                       bad->g, bad->b);
+}
+
+GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bool repair) {
+    if (files.size() != 1 && files.size() != 3 && files.size() != 4)
+        throw BadInput(fmt::format("{} inputs were given: one EXR file with layers primal, dx and dy, or three or "
+                                   "four files are needed: primal, dx, dy and very direct",
+                                   files.size()));
+    GradientInput input;
+    Buffers buffers;
+    ExrFile layers;
+    if (files.size() == 1) {
+        layers = read_layers(files.front());
+        input.attributes = own_attributes(layers);
+        input.images.patch = patch_of(input.attributes, files.front());
+        buffers = buffers_of(layers, files.front());
+    } else {
+        for (const std::filesystem::path& file : files)
+            buffers.push_back({file.string(), read_image(file)});
+    }
+    fit(buffers[1], buffers[0], 1, 0);
+    fit(buffers[2], buffers[0], 0, 1);
+    if (buffers.size() == 4)
+        fit(buffers[3], buffers[0], 0, 0);
+    for (NamedImage& buffer : buffers)
+        input.repaired += make_finite(buffer, repair);
+    input.images.primal = std::move(buffers[0].image);
+    input.images.dx = std::move(buffers[1].image);
+    input.images.dy = std::move(buffers[2].image);
+    if (buffers.size() == 4)
+        input.images.very_direct = std::move(buffers[3].image);
+    if (find_layer(layers, "primal_variance")) {
+        // Gradients are trusted least where they are noisy and the primal is not.
+        const auto variance = [&](const char* name, int columns, int rows, float careful) {
+            return read_variance(layers, name, files.front(), input.images.primal, columns, rows,
+                                 repair ? std::optional(careful) : std::nullopt, input.repaired);
+        };
+        constexpr float largest = std::numeric_limits<float>::max();
+        input.images.primal_variance = variance("primal_variance", 0, 0, 0);
+        input.images.dx_variance = variance("dx_variance", 1, 0, largest);
+        input.images.dy_variance = variance("dy_variance", 0, 1, largest);
+    }
+    return input;
+}
+
+} // namespace tessera

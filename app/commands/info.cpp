@@ -1,0 +1,172 @@
+#include "app/cli/machine.h"
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+#include "app/commands/commands.h"
+#include "render/scene/traits.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace tessera {
+
+namespace {
+
+std::string kind_of(const Material& m) {
+    struct Namer {
+        static std::string rough(const Texture& alpha) {
+            return alpha.is_constant() && std::get<Rgb>(alpha.kind).r <= 0 ? "" : "rough";
+        }
+        std::string operator()(const DiffuseMaterial& d) const { return rough(d.alpha) + "diffuse"; }
+        std::string operator()(const ConductorMaterial& c) const { return rough(c.alpha) + "conductor"; }
+        std::string operator()(const DielectricMaterial& d) const {
+            return d.thin ? "thindielectric" : rough(d.alpha) + "dielectric";
+        }
+        std::string operator()(const PlasticMaterial& p) const {
+            return p.facets.alpha > 0 ? "roughplastic" : "plastic";
+        }
+        std::string operator()(const PhongMaterial&) const { return "phong"; }
+        std::string operator()(const MixtureMaterial& m) const {
+            return m.second_share ? "blendbsdf" : "mixturebsdf";
+        }
+        std::string operator()(const CoatedMaterial& c) const { return "coating on " + kind_of(*c.base); }
+    };
+    std::string kind = std::visit(Namer(), m.kind);
+    if (m.relief)
+        kind += m.relief->kind == Relief::Kind::bump ? ", bumpmap" : ", normalmap";
+    return kind + (m.opacity ? ", mask" : "") + (m.two_sided ? ", two-sided" : "");
+}
+
+struct TextureSummary {
+    std::size_t bitmaps = 0, procedural = 0;
+    double bytes = 0;
+};
+
+TextureSummary summarise_textures(const Scene& scene) {
+    TextureSummary sum;
+    std::set<const Bitmap*> bitmaps;
+    std::vector<const Texture*> all;
+    for (const Material& material : scene.materials())
+        for (const Texture* texture : material.textures())
+            all.push_back(texture);
+    for (const AreaLight& light : scene.description().area_lights)
+        all.push_back(&light.radiance);
+    if (const auto& map = scene.description().environment.map)
+        bitmaps.insert(map->bitmap.get());
+    for (const Texture* texture : all) {
+        if (const auto* b = std::get_if<BitmapTexture>(&texture->kind))
+            bitmaps.insert(b->bitmap.get());
+        else if (!texture->is_constant())
+            ++sum.procedural;
+    }
+    sum.bitmaps = bitmaps.size();
+    for (const Bitmap* b : bitmaps)
+        sum.bytes += static_cast<double>(b->bytes.size() + b->floats.size() * sizeof(Rgb));
+    return sum;
+}
+
+double mesh_bytes(const Scene& scene) {
+    double bytes = 0;
+    for (const Shape& s : scene.shapes())
+        bytes +=
+            static_cast<double>(s.mesh.positions.size() * sizeof(glm::vec3) +
+                                s.mesh.normals.size() * sizeof(glm::vec3) + s.mesh.uvs.size() * sizeof(glm::vec2) +
+                                s.mesh.colors.size() * sizeof(Rgb) + s.mesh.triangles.size() * sizeof(glm::uvec3));
+    return bytes;
+}
+
+/// "2 area (of 14 triangles), 1 spot, environment map, sun"
+std::string lights_of(const Scene& scene) {
+    const SceneDescription& d = scene.description();
+    std::size_t triangles = 0;
+    for (const Shape& shape : d.shapes)
+        triangles += shape.area_light >= 0 ? shape.mesh.triangles.size() : 0;
+    const auto is_spot = [](const PointLight& light) { return light.cutoff < 180; };
+    const auto spots = std::count_if(d.point_lights.begin(), d.point_lights.end(), is_spot);
+    const auto points = static_cast<std::ptrdiff_t>(d.point_lights.size()) - spots;
+    std::vector<std::string> parts;
+    if (!d.area_lights.empty())
+        parts.push_back(fmt::format("{} area (of {} triangles)", d.area_lights.size(), triangles));
+    if (points > 0)
+        parts.push_back(fmt::format("{} point", points));
+    if (spots > 0)
+        parts.push_back(fmt::format("{} spot", spots));
+    if (!d.directional_lights.empty())
+        parts.push_back(fmt::format("{} directional", d.directional_lights.size()));
+    if (const auto& map = d.environment.map)
+        parts.push_back(map->bitmap->width * map->bitmap->height == 1
+                            ? "constant environment"
+                            : fmt::format("environment map of {}x{}", map->bitmap->width, map->bitmap->height));
+    if (d.environment.sun)
+        parts.emplace_back("sun");
+    return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void print_scene(const Scene& scene, const TextureSummary& textures) {
+    std::map<std::string, int> materials;
+    for (const Material& m : scene.materials())
+        ++materials[kind_of(m)];
+    fmt::print("shapes     {}\n", scene.shapes().size());
+    fmt::print("triangles  {}\n", scene.triangle_count());
+    fmt::print("materials  {}\n", scene.materials().size());
+    for (const auto& [kind, count] : materials)
+        fmt::print("           {} x {}\n", count, kind);
+    fmt::print("textures   {} bitmaps, {} procedural\n", textures.bitmaps, textures.procedural);
+    fmt::print("lights     {}\n", lights_of(scene));
+    fmt::print("film       {}x{}\n", scene.size().x, scene.size().y);
+    fmt::print("max depth  {}\n", scene.max_depth());
+}
+
+/// A line a trait: what the renderer must reckon with, and what costs nothing here.
+void print_traits(const SceneTraits& traits) {
+    const auto print = [](const char* name, int count, const char* of_what) {
+        if (count > 0)
+            fmt::print("  {:<16} {} {}{}\n", name, count, of_what, count == 1 ? "" : "s");
+        else
+            fmt::print("  {:<16} none\n", name);
+    };
+    fmt::print("traits (none: costs nothing)\n");
+    print("delta lobes", traits.delta_lobes, "material");
+    print("glossy below 0.1", traits.glossy_lobes, "material");
+    print("transmission", traits.transmission, "material");
+    print("textures", traits.textures, "material");
+    print("vertex colours", traits.vertex_colors, "material");
+    print("relief", traits.relief, "material");
+    print("masks", traits.masks, "material");
+    print("shading normals", traits.shading_normals, "shape");
+    print("area lights", traits.area_lights, "shape");
+    print("other lights", traits.point_lights, "light");
+    fmt::print("  {:<16} {}\n", "environment", traits.environment ? "yes" : "none");
+}
+
+void print_cost(const OpenedScene& opened, const TextureSummary& textures) {
+    const Scene& scene = *opened.scene;
+    fmt::print("seconds    {:.3f} XML, {:.3f} meshes and textures, {:.3f} BVH\n", opened.parse_seconds,
+               opened.file_seconds, opened.bvh_seconds);
+    fmt::print(
+        "memory     {:.1f} MB meshes, {:.1f} MB textures, {:.1f} MB BVH and its triangles; at most {:.1f} MB in "
+        "all\n",
+        mesh_bytes(scene) / 1e6, textures.bytes / 1e6, static_cast<double>(scene.intersector().bytes()) / 1e6,
+        peak_memory_bytes() / 1e6);
+}
+
+} // namespace
+
+int run_info(const SceneSource& source) {
+    ThreadPool pool;
+    const OpenedScene opened = open_scene(source, pool);
+    const TextureSummary textures = summarise_textures(*opened.scene);
+    fmt::print("{}\n", to_string(source));
+    print_scene(*opened.scene, textures);
+    print_cost(opened, textures);
+    print_traits(traits_of(opened.scene->description()));
+    const std::vector<std::string> notes = group_notes(opened.notes);
+    fmt::print("{}\n", notes.empty() ? "nothing was ignored or replaced" : "ignored, replaced or approximated:");
+    for (const std::string& note : notes)
+        fmt::print("  {}\n", note);
+    return exit_ok;
+}
+
+} // namespace tessera

@@ -1,0 +1,141 @@
+#include "app/cli/machine.h"
+#include "app/cli/option_values.h"
+#include "app/cli/render_stats.h"
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+#include "app/commands/commands.h"
+#include "app/commands/gradient_input.h"
+#include "render/io/json_text.h"
+
+#include <chrono>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+void add_inputs(CLI::App& command, ReconstructWords& words) {
+    CLI::Option* inputs =
+        command
+            .add_option("inputs", words.inputs,
+                        "an EXR file as `tessera render --buffers` writes it; or primal, dx, dy and, if there is "
+                        "any, very direct light: EXR or PFM files, in this order")
+            ->take_all();
+    CLI::Option* primal = command.add_option("--primal", words.primal, "the inputs by their names instead");
+    CLI::Option* dx = command.add_option("--dx", words.dx, "differences to the right");
+    CLI::Option* dy = command.add_option("--dy", words.dy, "differences downward");
+    CLI::Option* direct = command.add_option("--direct", words.direct, "very direct light, added after the solve");
+    primal->needs(dx)->needs(dy)->excludes(inputs);
+    for (CLI::Option* option : {dx, dy, direct})
+        option->needs(primal)->excludes(inputs);
+}
+
+} // namespace
+
+void add_reconstruct(CLI::App& app, ReconstructWords& words) {
+    CLI::App& command = *app.add_subcommand("reconstruct", "a picture from saved buffers, of any program");
+    command.footer("The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted "
+                   "downward; other programs may mean others. dx may be a column narrower than the primal, and dy "
+                   "a row lower: the last column of dx and the last row of dy count as 0 in any case.\n"
+                   "Of an EXR file with several layers, the plain RGB is a reconstruction, and is not used.");
+    ReconstructOptions& options = words.options;
+    add_inputs(command, words);
+    command.add_option("--recon", words.norms, "norms as for render; of several, each has a layer")
+        ->capture_default_str();
+    command.add_option("--alpha", options.layers.alpha, "weight of the primal against the gradients")
+        ->check(CLI::Range(1e-4, 1e3))
+        ->capture_default_str();
+    command.add_flag("--per-channel", options.layers.per_channel,
+                     "l1 and mixed: absolute values of each channel, not lengths of colours");
+    command.add_option("--threads", options.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+    command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
+        ->required();
+    command.add_option("--stats", options.stats, "JSON file for times and residuals");
+    command.add_flag("--buffers", options.layers.buffers,
+                     "primal, dx, dy, direct and the variances as layers of the EXR file, too");
+    command.add_flag("--repair", options.repair, "take pixels that are not finite as 0, and say how many");
+}
+
+ReconstructOptions parse_reconstruct(const ReconstructWords& words) {
+    ReconstructOptions options = words.options;
+    options.inputs.assign(words.inputs.begin(), words.inputs.end());
+    if (!words.primal.empty())
+        options.inputs = {words.primal, words.dx, words.dy};
+    if (!words.direct.empty())
+        options.inputs.push_back(words.direct);
+    options.layers.norms = parse_norms(words.norms);
+    return options;
+}
+
+namespace {
+
+using nlohmann::json;
+
+/// Everything that decides the picture, beside what the input's own header says.
+json reconstruction_json(const ReconstructOptions& options, const GradientInput& input) {
+    json files = json::array(), norms = json::array();
+    for (const std::filesystem::path& file : options.inputs)
+        files.push_back(file.string());
+    for (Norm norm : options.layers.norms)
+        norms.push_back(to_string(norm));
+    return {{"version", TESSERA_VERSION},
+            {"inputs", files},
+            {"width", input.images.primal.width()},
+            {"height", input.images.primal.height()},
+            {"norms", norms},
+            {"alpha", options.layers.alpha},
+            {"per_channel", options.layers.per_channel},
+            {"repaired_pixels", input.repaired}};
+}
+
+void check_finite(const ExrFile& file) {
+    for (const ExrLayer& layer : file.layers)
+        if (const std::string bad = text_of_bad_pixel(layer.image); !bad.empty())
+            throw BadInput(fmt::format("the values are too large to reconstruct from: {}", bad));
+}
+
+} // namespace
+
+int run_reconstruct(const ReconstructOptions& options) {
+    check_picture_name(options.output, options.layers);
+    check_writable(options.output);
+    if (!options.stats.empty())
+        check_writable(options.stats);
+
+    const auto start = std::chrono::steady_clock::now();
+    const double start_cpu = process_cpu_seconds();
+    GradientInput input = read_gradients(options.inputs, options.repair);
+    const double load_cpu = process_cpu_seconds() - start_cpu;
+    const double load_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (input.repaired > 0)
+        fmt::print(stderr, "warning: values that were not finite, or no variances, repaired: {}\n",
+                   input.repaired);
+
+    const json settings = reconstruction_json(options, input);
+    ThreadPool pool(options.threads);
+    std::vector<ReconstructionStats> recon;
+    ExrFile file = reconstruct_layers(std::move(input.images), options.layers, pool, recon);
+    check_finite(file);
+    file.attributes = std::move(input.attributes);
+    file.attributes["tessera:reconstruction"] = to_text(settings);
+    write_picture(options.output, file);
+    if (!options.stats.empty()) {
+        const json stats{
+            {"settings", settings},
+            {"threads", pool.size()},
+            {"seconds",
+             {{"load", {{"wall", load_wall}, {"cpu", load_cpu}}}, {"reconstruct", reconstructions_json(recon)}}},
+            {"peak_memory", peak_memory_bytes()}};
+        write_text(options.stats, to_text(stats, 2) + "\n");
+    }
+    for (const ReconstructionStats& r : recon)
+        fmt::print(stderr, "{}: {} in {:.3f} s ({:.3f} CPU s)\n", options.output.string(), to_string(r.norm),
+                   r.seconds, r.cpu_seconds);
+    return exit_ok;
+}
+
+} // namespace tessera

@@ -1,0 +1,88 @@
+#include "app/cli/option_values.h"
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+#include "app/commands/commands.h"
+#include "render/estimator/settings_table.h"
+#include "render/io/files.h"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace tessera {
+
+void add_reference(CLI::App& app, ReferenceWords& words) {
+    CLI::App& command = *app.add_subcommand("reference", "a reference for others to be compared with");
+    command.footer(
+        "A reference is two independent renders of the scene, with two seeds, which become the layers half1 and "
+        "half2, and their mean, the plain RGB. From the difference of the halves its own error is known: that of "
+        "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
+        "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The header has the "
+        "scene's checksums, too, by which others refuse it for another scene.\n"
+        "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
+        "there, to the same bits.");
+    ReferenceRecipe& recipe = words.options.recipe;
+    command.add_option("scene", words.scene, "Mitsuba scene, XML")->required();
+    command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
+    command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
+    add_picture_options(command,
+                        {words.size, recipe.settings, recipe.reconstruction.alpha, words.options.threads});
+    command.get_option("--seed")->description("of the first half; the second has the next");
+    command.add_option("-m,--method", words.method, "pt, pr, gpt or gpr")
+        ->check(CLI::IsMember({"pt", "pr", "gpt", "gpr"}))
+        ->capture_default_str();
+    command.add_option("--spp", recipe.spp, "samples a pixel, of both halves together; one more if odd")
+        ->check(CLI::Range(2, 100000000))
+        ->capture_default_str();
+    command.add_option("--recon", words.norms, "norm as for render, where there are gradients (default l2)");
+    command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("-o,--output", words.options.output, "EXR file to write")->required();
+}
+
+ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words) {
+    ReferenceOptions options = words.options;
+    options.scene = {words.scene, parse_variables(words.definitions), words.camera};
+    options.recipe.settings.method = *method_from_name(words.method);
+    if (command.count("--max-depth"))
+        options.max_depth = options.recipe.settings.max_depth;
+    if (!words.size.empty())
+        options.size = parse_size("--size", words.size);
+    if (!words.norms.empty()) {
+        const std::vector<Norm> norms = parse_norms(words.norms);
+        if (norms.size() != 1)
+            throw BadInput(fmt::format("--recon {}: one", words.norms));
+        options.recipe.reconstruction.norm = norms.front();
+    }
+    return options;
+}
+
+int run_reference(const ReferenceOptions& options) {
+    check(options.recipe.settings);
+    if (extension_of(options.output) != ".exr")
+        throw BadInput(fmt::format("{}: the name must end in .exr", options.output.string()));
+    check_writable(options.output);
+    ThreadPool pool(options.threads);
+    const OpenedScene opened = open_scene(options.scene, pool);
+    for (const std::string& note : group_notes(opened.notes))
+        fmt::print(stderr, "note: {}\n", note);
+    ReferenceRecipe recipe = options.recipe;
+    recipe.size = options.size.value_or(opened.scene->size());
+    recipe.settings.max_depth = options.max_depth.value_or(std::min(opened.scene->max_depth(), most_edges));
+
+    const InterruptGuard guard;
+    const auto reference = render_reference(options.output, options.scene, opened.scene, recipe, pool);
+    if (!reference) {
+        fmt::print(stderr, "{}: not complete; the same command goes on from its checkpoint\n",
+                   options.output.string());
+        return exit_failure;
+    }
+    const FloorFreeError error = error_of(*reference);
+    fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", options.output.string(),
+               error.relative_mse, error.standard_error);
+    return exit_ok;
+}
+
+} // namespace tessera

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "app/cli/terminal.h"
+#include "app/experiment/measured_run.h"
+#include "app/experiment/result.h"
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+namespace tessera {
+
+/// What is rendered and measured: scenes, each with all points, each with some seeds.
+struct ExperimentOptions {
+    std::vector<std::filesystem::path> scenes;
+    SceneVariables variables; ///< of all scenes
+    std::vector<Method> methods = {Method::gpr};
+    std::vector<Norm> norms = {Norm::weighted};
+    std::vector<Variation> variations;
+    PictureSettings settings;         ///< of all points, but for what is varied
+    Effort effort;                    ///< what each render is given
+    int halvings = 0;                 ///< errors are taken at effort / 2^halvings, ..., effort / 2 and effort
+    int seeds = 1;                    ///< renders of each point, with the seeds settings.render.seed and following
+    std::filesystem::path references; ///< folder of the references; what is missing there is made
+    ReferenceRecipe recipe;
+    std::filesystem::path output; ///< folder, made where there is none
+    bool takes_any_build = false; ///< from the journal: what other builds of the program have recorded, too
+    bool looks_for_artefacts = false;
+    bool keeps_images = false; ///< of the first seed, at the end: see Experiment::image_file
+};
+
+/// Renders round by round: a round is a scene and a seed with all points, which take turns pass by pass, so that a
+/// machine that others use as well is slow for all of them alike. Points that differ in reconstruction alone share
+/// their render. What is finished is recorded in OUTPUT/journal.jsonl, and never rendered again by the same
+/// program on the same machine with the same references.
+class Experiment {
+public:
+    /// Looks at all that was given. Throws BadInput, or std::runtime_error for references that cannot be read.
+    explicit Experiment(const ExperimentOptions& options);
+
+    /// Calls `report` after every round, and at the end. Throws as open_scene does. Ends early, in good order,
+    /// once there is an interrupt.
+    void run(const std::function<void()>& report);
+
+    const ExperimentOptions& options() const { return options_; }
+    const std::vector<MeasuredScene>& scenes() const { return scenes_; }
+    /// Those with a run, by scene, point, and time or samples.
+    std::vector<Result> results() const;
+    /// Where the picture of a point is kept that the first seed came to.
+    std::filesystem::path image_file(const std::string& scene, const Point& point) const;
+
+private:
+    struct SharedRun;
+
+    void run_scene(MeasuredScene& scene, const std::function<void()>& report);
+    void run_round(const MeasuredScene& scene, const std::shared_ptr<const Scene>& geometry, std::uint64_t seed);
+    std::vector<SharedRun> unfinished_runs(const MeasuredScene& scene,
+                                           const std::shared_ptr<const Scene>& geometry, std::uint64_t seed);
+    void finish(const MeasuredScene& scene, const SharedRun& shared, std::uint64_t seed);
+    bool recall(const MeasuredScene& scene, std::size_t point, std::uint64_t seed);
+    void add(const MeasuredScene& scene, std::size_t point, const std::vector<Measurement>& measurements);
+    bool keeps_image(std::uint64_t seed) const;
+    nlohmann::json key_of(const MeasuredScene& scene, const Point& point, std::uint64_t seed) const;
+    void tell(const std::vector<SharedRun>& runs, const std::string& scene);
+    ThreadPool& pool(int threads);
+
+    const ExperimentOptions& options_;
+    std::vector<Point> points_;
+    std::vector<MeasuredScene> scenes_;
+    std::map<std::array<std::ptrdiff_t, 3>, Result> results_; ///< by scene, point, and halvings from most to none
+    std::map<int, std::unique_ptr<ThreadPool>> pools_;        ///< by their threads
+    std::optional<Journal> journal_;
+    std::size_t triangles_ = 0; ///< of the scene at hand, as what follows
+    SceneChecksums scene_checksums_;
+    double renders_ = 0, finished_ = 0; ///< in all, and in this call
+    std::optional<Progress> progress_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+/// The words of `tessera sweep`, `bench` and `stability`, before they are given a meaning.
+struct ExperimentWords {
+    std::vector<std::string> scenes, variations;
+    std::string size, methods, norms, clock = "cpu";
+    int spp = 0;
+    double time = 0;
+    ExperimentOptions options; ///< all that is not above
+};
+
+// They add the commands; `words` take what is given to them, and must live as long as `app`.
+void add_sweep(CLI::App& app, ExperimentWords& words);
+void add_bench(CLI::App& app, ExperimentWords& words);
+void add_stability(CLI::App& app, ExperimentWords& words);
+
+/// What the words mean that were given to one of these commands. Throws BadInput that names the option.
+ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words);
+
+} // namespace tessera

@@ -1,0 +1,148 @@
+#include "app/cli/option_values.h"
+#include "app/cli/terminal.h"
+#include "app/experiment/experiment.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+void add_effort(CLI::App& command, ExperimentWords& words, const char* of_time) {
+    CLI::Option* spp = command.add_option("--spp", words.spp, "samples a pixel")->check(CLI::Range(1, 100000000));
+    command.add_option("--time", words.time, of_time)->check(CLI::PositiveNumber)->excludes(spp);
+    command.add_option("--clock", words.clock, "what --time counts: cpu or wall")
+        ->check(CLI::IsMember({"wall", "cpu"}))
+        ->capture_default_str();
+}
+
+void add_references(CLI::App& command, ExperimentOptions& options) {
+    command.add_option("--reference", options.references, "folder of the references")->required();
+    command.add_option("--reference-spp", options.recipe.spp, "samples a pixel of references that are missing")
+        ->check(CLI::Range(2, 100000000))
+        ->capture_default_str();
+}
+
+void add_experiment(CLI::App& command, ExperimentWords& words, const char* of_time) {
+    ExperimentOptions& options = words.options;
+    command.add_option("scenes", words.scenes, "Mitsuba scenes, XML")->required()->take_all();
+    add_picture_options(command, {words.size, options.settings.render, options.settings.reconstruction.alpha,
+                                  options.settings.threads});
+    command.get_option("--size")->description("WIDTHxHEIGHT of the images, pixels")->default_str("640x360");
+    command.get_option("--max-depth")->default_str(std::to_string(options.settings.render.max_depth));
+    command.get_option("--seed")->description("of the first render of each point");
+    command
+        .add_option("--vary", words.variations,
+                    "SETTING=VALUE,VALUE,...: a setting and its values, such as tile=2,4,8, rr-delta=0.01,0.1,1, "
+                    "alpha=0.1,0.2,0.4, max-depth=2,4,8, threads=1,2,4 or size=160x90,320x180; given twice: all "
+                    "combinations")
+        ->take_all()
+        ->allow_extra_args(false);
+    command.add_option("-m,--method,--methods", words.methods, "pt, pr, gpt, gpr or several: gpr,pr")
+        ->capture_default_str();
+    add_effort(command, words, of_time);
+    command.add_option("--seeds", options.seeds, "renders of each point, each with another seed")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--recon", words.norms,
+                    "none, l2, l1, mixed, uniform, weighted or several, where there are gradients")
+        ->capture_default_str();
+    add_references(command, options);
+    command.add_flag("--any-build", options.takes_any_build,
+                     "take from the journal what other builds of the program have recorded, too");
+    command.add_option("-o,--output", options.output, "folder to write to")->required();
+}
+
+constexpr const char* common_footer =
+    "Methods take turns, pass by pass. What is finished is recorded in OUTPUT/journal.jsonl: after an interrupt "
+    "or a "
+    "kill the same command goes on from there. Another build (but see --any-build), machine, reference or setting "
+    "begins anew.\n"
+    "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them; missing ones are rendered "
+    "first, and those that remember another scene are refused.";
+
+} // namespace
+
+void add_sweep(CLI::App& app, ExperimentWords& words) {
+    words.methods = "gpr";
+    words.norms = "weighted";
+    CLI::App& command = *app.add_subcommand(
+        "sweep", "error, time and efficiency by the values of settings, on scenes with references");
+    command.footer(std::string("Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, "
+                               "anew after each round of renders.\n") +
+                   common_footer);
+    add_experiment(command, words, "CPU seconds of rendering, instead of --spp (default 64 spp)");
+}
+
+void add_bench(CLI::App& app, ExperimentWords& words) {
+    words.methods = "pt,pr,gpt,gpr";
+    words.norms = "l2,l1,mixed,weighted";
+    words.options.effort = {60, Effort::Unit::cpu_seconds};
+    words.options.halvings = 6;
+    words.options.seeds = 5;
+    words.options.keeps_images = true;
+    CLI::App& command = *app.add_subcommand("bench", "error against time of methods, as one page with charts");
+    command.footer(std::string("Writes bench.html, which needs no other file, bench.csv, bench.json and "
+                               "bench-SCENE.svg to the output folder, anew after each round of renders, and the "
+                               "pictures of the first seed to OUTPUT/images.\n") +
+                   common_footer);
+    add_experiment(command, words, "seconds of rendering each (default 60 CPU seconds)");
+    command
+        .add_option("--halvings", words.options.halvings,
+                    "errors are also taken after a half, a quarter, ... of the time, this often")
+        ->check(CLI::Range(0, 20))
+        ->capture_default_str();
+}
+
+void add_stability(CLI::App& app, ExperimentWords& words) {
+    ExperimentOptions& options = words.options;
+    words.methods = "pt,pr,gpt,gpr";
+    words.norms = "none,l2,l1,mixed,weighted";
+    options.settings.size = {96, 72};
+    options.effort = {1, Effort::Unit::cpu_seconds};
+    options.seeds = 20;
+    options.output = "report";
+    options.references = "references";
+    options.recipe.spp = 8192;
+    CLI::App& command = *app.add_subcommand(
+        "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
+    command.footer(
+        std::string(
+            "Writes stability.md, stability.csv and SCENE.png to the output folder, anew after each round of "
+            "renders. References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
+        common_footer);
+    add_experiment(command, words, "CPU seconds of rendering each (default 1)");
+    command.get_option("scenes")->required(false)->description(
+        "Mitsuba scenes, XML (default: assets/stability), with <!-- fails: what and why --> and <!-- vary: NAME = "
+        "VALUE, VALUE -->");
+    command.get_option("--size")->default_str("96x72");
+    command.get_option("--reference")->required(false)->default_str("references");
+    command.get_option("--output")->required(false)->default_str("report");
+    for (const char* other : {"--max-depth", "--vary"})
+        command.remove_option(command.get_option(other));
+}
+
+ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words) {
+    ExperimentOptions options = words.options;
+    options.scenes.assign(words.scenes.begin(), words.scenes.end());
+    options.methods = parse_methods(words.methods);
+    options.norms = parse_norms(words.norms);
+    if (words.variations.size() > 2)
+        throw BadInput("--vary: two settings at the most");
+    for (const std::string& text : words.variations)
+        options.variations.push_back(parse_variation(text));
+    if (options.variations.size() == 2 && options.variations[0].variable.id == options.variations[1].variable.id)
+        throw BadInput(fmt::format("--vary {}: the setting is varied twice", words.variations[1]));
+    if (command.count("--spp"))
+        options.effort = {static_cast<double>(words.spp), Effort::Unit::spp};
+    if (command.count("--time"))
+        options.effort = {words.time,
+                          words.clock == "cpu" ? Effort::Unit::cpu_seconds : Effort::Unit::wall_seconds};
+    if (!words.size.empty())
+        options.settings.size = parse_size("--size", words.size);
+    return options;
+}
+
+} // namespace tessera

@@ -1,0 +1,124 @@
+#include "app/experiment/measurement.h"
+
+#include <limits>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+std::string to_string(const Effort& effort) {
+    const char* const units[] = {"spp", "CPU s", "s"};
+    return fmt::format("{:g} {}", effort.amount, units[static_cast<int>(effort.unit)]);
+}
+
+namespace {
+
+/// dump() writes what is not finite as null.
+double number(const nlohmann::json& json) {
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+std::vector<double> numbers(const nlohmann::json& json) {
+    std::vector<double> numbers;
+    for (const nlohmann::json& element : json)
+        numbers.push_back(number(element));
+    return numbers;
+}
+
+nlohmann::ordered_json to_json(const std::optional<TileSpectrum>& tiles) {
+    if (!tiles)
+        return nullptr;
+    return {{"error", tiles->error}, {"edges", tiles->edges}, {"edge_ratio", tiles->edge_ratio}};
+}
+
+std::optional<TileSpectrum> tiles_from_json(const nlohmann::json& json) {
+    if (json.is_null())
+        return {};
+    return TileSpectrum{number(json.at("error")), number(json.at("edges")), number(json.at("edge_ratio"))};
+}
+
+nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
+    if (!a)
+        return nullptr;
+    return {{"relmse", a->error.relative_mse},
+            {"relmse_standard_error", a->error.standard_error},
+            {"mean", a->mean},
+            {"worst", a->worst},
+            {"worst_pixel", {a->worst_pixel.x, a->worst_pixel.y}},
+            {"bad_pixels", a->bad_pixels},
+            {"pieces", a->pieces}};
+}
+
+/// Also of journals from before there were any.
+std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
+    if (json.is_null())
+        return {};
+    Artefacts a;
+    a.error = {number(json.at("relmse")), number(json.at("relmse_standard_error"))};
+    a.mean = number(json.at("mean"));
+    a.worst = numbers(json.at("worst"));
+    a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
+    json.at("bad_pixels").get_to(a.bad_pixels);
+    a.pieces = numbers(json.at("pieces"));
+    return a;
+}
+
+nlohmann::ordered_json to_json(const Counters& c) {
+    return {{"camera_paths", c.camera_paths},
+            {"path_vertices", c.path_vertices},
+            {"rays", c.rays},
+            {"dark_paths", c.dark_paths},
+            {"skipped_paths", c.skipped_paths},
+            {"reused_paths", c.reused_paths},
+            {"skipped_light_paths", c.skipped_light_paths},
+            {"shifts", c.shifts},
+            {"refused_samples", c.refused_samples}};
+}
+
+Counters counters_from_json(const nlohmann::json& json) {
+    Counters c;
+    json.at("camera_paths").get_to(c.camera_paths);
+    json.at("path_vertices").get_to(c.path_vertices);
+    json.at("rays").get_to(c.rays);
+    json.at("dark_paths").get_to(c.dark_paths);
+    json.at("skipped_paths").get_to(c.skipped_paths);
+    json.at("reused_paths").get_to(c.reused_paths);
+    json.at("skipped_light_paths").get_to(c.skipped_light_paths);
+    json.at("shifts").get_to(c.shifts);
+    json.at("refused_samples").get_to(c.refused_samples);
+    return c;
+}
+
+} // namespace
+
+nlohmann::ordered_json to_json(const Measurement& m) {
+    return {{"halvings", m.halvings},
+            {"seed", m.seed},
+            {"spp", m.spp},
+            {"cpu_seconds", m.cpu_seconds},
+            {"wall_seconds", m.wall_seconds},
+            {"reconstruction_cpu_seconds", m.reconstruction_cpu_seconds},
+            {"relmse", m.relative_mse},
+            {"relmse_floor_free", m.floor_free.relative_mse},
+            {"relmse_floor_free_standard_error", m.floor_free.standard_error},
+            {"tiles", to_json(m.tiles)},
+            {"counters", to_json(m.counters)},
+            {"artefacts", to_json(m.artefacts)}};
+}
+
+Measurement measurement_from_json(const nlohmann::json& json) {
+    return {json.at("halvings"),
+            json.at("seed"),
+            json.at("spp"),
+            json.at("cpu_seconds"),
+            json.at("wall_seconds"),
+            json.at("reconstruction_cpu_seconds"),
+            number(json.at("relmse")),
+            {number(json.at("relmse_floor_free")), number(json.at("relmse_floor_free_standard_error"))},
+            tiles_from_json(json.at("tiles")),
+            counters_from_json(json.at("counters")),
+            artefacts_from_json(json.value("artefacts", nlohmann::json()))};
+}
+
+} // namespace tessera

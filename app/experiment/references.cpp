@@ -1,0 +1,84 @@
+#include "app/experiment/references.h"
+
+#include "app/cli/render_stats.h"
+#include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+std::optional<ReferenceImage> render_reference(const std::filesystem::path& output, const SceneSource& source,
+                                               const std::shared_ptr<const Scene>& scene,
+                                               const ReferenceRecipe& recipe, ThreadPool& pool) {
+    ReferenceRender render(output, {source, scene, scene->camera()}, recipe, pool);
+    const int resumed = render.spp_resumed();
+    if (resumed > 0)
+        fmt::print(stderr, "{}: going on from {} spp\n", reference_checkpoint(output).string(), resumed);
+    {
+        Progress progress("reference");
+        const auto tell = [&](const ReferenceRender& r) {
+            if (r.spp() > resumed)
+                progress.update(static_cast<double>(r.spp() - resumed) / (recipe.spp - resumed), r.seconds(),
+                                fmt::format("{} of {} spp", r.spp(), recipe.spp));
+            return !interrupted();
+        };
+        if (!render.run(tell))
+            return {};
+        tell(render);
+    }
+    for (const Render& half : render.halves())
+        warn_of_refused(source, half);
+    return render.finish();
+}
+
+FolderReference::FolderReference(const std::filesystem::path& folder, const std::string& scene_name,
+                                 ReferenceRecipe recipe)
+    : path_(reference_file(folder, scene_name, recipe.size, recipe.settings.max_depth)),
+      recipe_(std::move(recipe)) {
+    if (!std::filesystem::exists(path_))
+        return;
+    image_ = read_reference(path_);
+    const glm::ivec2 size(image_->mean.width(), image_->mean.height());
+    if (size != recipe_.size)
+        throw BadInput(fmt::format("{} is {}x{}, but {}x{} is to be rendered", path_.string(), size.x, size.y,
+                                   recipe_.size.x, recipe_.size.y));
+}
+
+void FolderReference::check_writable() const {
+    if (is_complete())
+        return;
+    make_folder(path_.parent_path());
+    tessera::check_writable(path_);
+}
+
+std::array<std::uint64_t, 2> FolderReference::seeds() const {
+    const std::uint64_t first = recipe_.settings.seed;
+    return is_complete() ? image_->seeds : std::array{first, first + 1};
+}
+
+bool FolderReference::make(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
+                           ThreadPool& pool) {
+    if (is_complete()) {
+        check_scene(source, *scene);
+        return true;
+    }
+    fmt::print(stderr, "{} is missing: rendering it\n", path_.string());
+    image_ = render_reference(path_, source, scene, recipe_, pool);
+    return is_complete();
+}
+
+void FolderReference::check_scene(const SceneSource& source, const Scene& scene) const {
+    if (!image_->scene)
+        return fmt::print(stderr, "note: {} does not say which scene it is of: that cannot be checked\n",
+                          path_.string());
+    const std::string difference =
+        tessera::difference(*image_->scene, checksums_of(scene.description(), scene.camera()));
+    if (!difference.empty())
+        throw BadInput(
+            fmt::format("{} shows something else than {} does now, in its {}. Without that file it is rendered "
+                        "anew; or name another folder with --reference",
+                        path_.string(), to_string(source), difference));
+}
+
+} // namespace tessera

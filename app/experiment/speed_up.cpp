@@ -1,0 +1,264 @@
+#include "app/experiment/speed_up.h"
+
+#include "recon/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+/// I_x(a, b) by its continued fraction, for x < (a + 1) / (a + b + 2) [Abramowitz and Stegun 1964, 26.5.8],
+/// evaluated from the front [Lentz 1976].
+double beta_fraction(double x, double a, double b) {
+    constexpr double tiny = 1e-300;
+    double c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), fraction = d;
+    const auto step = [&](double term) {
+        d = 1 / (1 + term * d);
+        c = 1 + term / c;
+        if (std::abs(c) < tiny)
+            c = tiny;
+        fraction *= c * d;
+    };
+    for (int m = 1; m < 500; ++m) {
+        const double before = fraction;
+        step(m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)));
+        step(-(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1)));
+        if (std::abs(fraction - before) < 1e-14 * std::abs(fraction))
+            break;
+    }
+    return fraction;
+}
+
+/// The regularised incomplete beta function.
+double incomplete_beta(double x, double a, double b) {
+    if (x <= 0 || x >= 1)
+        return x <= 0 ? 0 : 1;
+    const double front =
+        std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+    return x < (a + 1) / (a + b + 2) ? front * beta_fraction(x, a, b) / a
+                                     : 1 - front * beta_fraction(1 - x, b, a) / b;
+}
+
+/// Where a falling function passes the value, between 0 and `high`.
+template <class Function>
+double inverse(Function function, double value, double high) {
+    double low = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = (low + high) / 2;
+        (function(middle) > value ? low : high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+double count_of(const std::vector<double>& values) {
+    return static_cast<double>(values.size());
+}
+
+} // namespace
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (double v : values)
+        sum += v;
+    return sum / count_of(values);
+}
+
+double deviation_of(const std::vector<double>& values) {
+    if (values.size() < 2)
+        return std::numeric_limits<double>::quiet_NaN();
+    const double mean = mean_of(values);
+    double squares = 0;
+    for (double v : values)
+        squares += (v - mean) * (v - mean);
+    return std::sqrt(squares / (count_of(values) - 1));
+}
+
+double standard_error_of(const std::vector<double>& values) {
+    return deviation_of(values) / std::sqrt(count_of(values));
+}
+
+double jackknife_error(const std::vector<double>& found) {
+    return standard_error_of(found) * (count_of(found) - 1);
+}
+
+double student_tail(double t, double freedom) {
+    return incomplete_beta(freedom / (freedom + t * t), freedom / 2, 0.5); // [Abramowitz and Stegun 1964, 26.7.1]
+}
+
+double student_t(double probability, double freedom) {
+    return inverse([&](double t) { return student_tail(t, freedom); }, probability, 1e9);
+}
+
+double sigmas(double probability) {
+    return inverse([](double z) { return std::erfc(z / std::sqrt(2.0)); }, probability, 37);
+}
+
+std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
+    std::vector<SceneCurves> scenes;
+    const auto goes_on = [](const std::vector<Curve>& curves, const Point& point) {
+        return !curves.empty() && name_of(last_of(curves.back()).point) == name_of(point) &&
+               last_of(curves.back()).point.values == point.values;
+    };
+    for (const Result& result : results) {
+        if (scenes.empty() || scenes.back().name != result.scene)
+            scenes.push_back({result.scene, {}});
+        std::vector<Curve>& curves = scenes.back().curves;
+        if (!goes_on(curves, result.point))
+            curves.emplace_back();
+        curves.back().push_back(result);
+    }
+    return scenes;
+}
+
+double slope_of(const Curve& curve) {
+    std::vector<glm::dvec2> points;
+    for (const Result& result : curve)
+        if (is_certain(result))
+            points.emplace_back(cpu_seconds_of(result), error_of(result));
+    return log_log_slope(points);
+}
+
+const Curve* best_curve(const SceneCurves& scene, Method method) {
+    const Curve* best = nullptr;
+    for (const Curve& curve : scene.curves)
+        if (last_of(curve).point.settings.render.method == method &&
+            (!best || error_of(last_of(curve)) < error_of(last_of(*best))))
+            best = &curve;
+    return best;
+}
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Place {
+    double log_time, log_error;
+};
+
+/// The nearest curve that never rises: where one sample of a few seeds makes the error rise for a while, the
+/// places about it get their mean (pool adjacent violators [Ayer 1955]).
+void level(std::vector<Place>& places) {
+    struct Pool {
+        double sum;
+        std::size_t count;
+        double mean() const { return sum / static_cast<double>(count); }
+    };
+    std::vector<Pool> pools;
+    for (const Place& place : places) {
+        pools.push_back({place.log_error, 1});
+        for (std::size_t n; (n = pools.size()) > 1 && pools[n - 1].mean() > pools[n - 2].mean();
+             pools.pop_back()) {
+            pools[n - 2].sum += pools[n - 1].sum;
+            pools[n - 2].count += pools[n - 1].count;
+        }
+    }
+    auto place = places.begin();
+    for (const Pool& pool : pools)
+        for (std::size_t i = 0; i < pool.count; ++i)
+            (place++)->log_error = pool.mean();
+}
+
+/// The certain results in the order of time, as on a log-log chart.
+std::vector<Place> places_of(const Curve& curve) {
+    std::vector<Place> places;
+    for (const Result& result : curve)
+        if (!result.runs.empty() && is_certain(result))
+            places.push_back({std::log(cpu_seconds_of(result)), std::log(error_of(result))});
+    level(places);
+    return places;
+}
+
+double least_error(const std::vector<Place>& places) {
+    return std::min_element(places.begin(), places.end(),
+                            [](const Place& a, const Place& b) { return a.log_error < b.log_error; })
+        ->log_error;
+}
+
+/// When the error was last passed on its way down; empty: it was below from the first.
+std::optional<double> time_of(const std::vector<Place>& places, double log_error) {
+    for (std::size_t i = places.size(); i-- > 1;) {
+        const Place &before = places[i - 1], &after = places[i];
+        if (before.log_error >= log_error && log_error >= after.log_error) {
+            const double fall = before.log_error - after.log_error;
+            const double share = fall > 0 ? (before.log_error - log_error) / fall : 1;
+            return before.log_time + share * (after.log_time - before.log_time);
+        }
+    }
+    const bool is_first = places.front().log_error <= log_error && places.size() == 1;
+    return is_first ? std::optional(places.front().log_time) : std::nullopt;
+}
+
+/// Without confidence.
+SpeedUp estimate(const Curve& slower, const Curve& faster) {
+    const std::vector<Place> slow = places_of(slower), fast = places_of(faster);
+    if (slow.empty() || fast.empty())
+        return {SpeedUp::Kind::none, none, none, none, none};
+    const double log_error = std::max(least_error(slow), least_error(fast));
+    const std::optional<double> slow_time = time_of(slow, log_error), fast_time = time_of(fast, log_error);
+    const SpeedUp::Kind kind = !fast_time   ? SpeedUp::Kind::at_least
+                               : !slow_time ? SpeedUp::Kind::at_most
+                                            : SpeedUp::Kind::measured;
+    const double ratio = slow_time.value_or(slow.front().log_time) - fast_time.value_or(fast.front().log_time);
+    return {kind, std::exp(ratio), none, none, std::exp(log_error)};
+}
+
+Curve without(const Curve& curve, std::uint64_t seed) {
+    Curve rest = curve;
+    for (Result& result : rest)
+        std::erase_if(result.runs, [&](const Measurement& m) { return m.seed == seed; });
+    return rest;
+}
+
+std::set<std::uint64_t> seeds_of(const Curve& curve) {
+    std::set<std::uint64_t> seeds;
+    for (const Result& result : curve)
+        for (const Measurement& m : result.runs)
+            seeds.insert(m.seed);
+    return seeds;
+}
+
+} // namespace
+
+SpeedUp speed_up(const Curve& slower, const Curve& faster) {
+    SpeedUp result = estimate(slower, faster);
+    if (result.kind != SpeedUp::Kind::measured)
+        return result;
+    std::set<std::uint64_t> seeds = seeds_of(slower);
+    seeds.merge(seeds_of(faster));
+    const auto n = static_cast<double>(seeds.size());
+    std::vector<double> logs;
+    for (std::uint64_t seed : seeds)
+        if (const SpeedUp one = estimate(without(slower, seed), without(faster, seed));
+            one.kind != SpeedUp::Kind::none)
+            logs.push_back(std::log(one.factor));
+    if (logs.size() < 2 || logs.size() < seeds.size())
+        return result;
+    const double reach = student_t(0.05, n - 1) * jackknife_error(logs);
+    result.low = result.factor * std::exp(-reach);
+    result.high = result.factor * std::exp(reach);
+    return result;
+}
+
+std::string to_string(const SpeedUp& s) {
+    switch (s.kind) {
+    case SpeedUp::Kind::none:
+        return "out of range";
+    case SpeedUp::Kind::at_least:
+        return fmt::format("at least {:.3g}", s.factor);
+    case SpeedUp::Kind::at_most:
+        return fmt::format("at most {:.3g}", s.factor);
+    case SpeedUp::Kind::measured:
+        break;
+    }
+    return std::isfinite(s.low) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.factor, s.low, s.high)
+                                : fmt::format("{:.3g}", s.factor);
+}
+
+} // namespace tessera

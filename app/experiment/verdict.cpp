@@ -1,0 +1,233 @@
+#include "app/experiment/speed_up.h"
+#include "app/experiment/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using Numbers = std::vector<double>;
+
+double count_of(const Numbers& values) {
+    return static_cast<double>(values.size());
+}
+
+/// In standard deviations of a normal variable, what `excess` is over its standard error, with so many degrees of
+/// freedom. What should not vary at all, and does not, deviates by any excess; where it is not known how far it
+/// varies (one piece), none is significant.
+double significance(double excess, double error, double freedom) {
+    if (!(excess > 0) || std::isnan(error))
+        return 0;
+    return error > 0 ? sigmas(student_tail(excess / error, freedom)) : sigmas(0);
+}
+
+constexpr double factor_level = 0.05; // the probability of an interval that is wrong
+
+/// How far the mean may be from the truth, relative: rounding, and for what is not linear, what is called its
+/// smoothing.
+struct Tolerance {
+    double energy, pieces;
+};
+
+Tolerance tolerance_of(const Point& point) {
+    constexpr Tolerance linear{1e-4, 1e-4}, smoothing{0.02, 0.1};
+    return is_linear(point.settings.reconstruction.norm) ? linear : smoothing;
+}
+
+/// Of the pieces' biases. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the squared
+/// bias, without any noise: all four are independent. Pieces tell its standard error.
+Deviation squared_bias_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
+    const auto runs = static_cast<double>(result.runs.size());
+    Numbers products;
+    for (std::size_t piece = 0; piece < reference.pieces[0].size(); ++piece) {
+        double sum1 = 0, sum2 = 0, own = 0;
+        for (const Measurement& run : result.runs) {
+            const double value = run.artefacts->pieces[piece];
+            const double error1 = value - reference.pieces[0][piece], error2 = value - reference.pieces[1][piece];
+            sum1 += error1;
+            sum2 += error2;
+            own += error1 * error2;
+        }
+        products.push_back((sum1 * sum2 - own) / (runs * (runs - 1)));
+    }
+    Deviation bias{mean_of(products), standard_error_of(products), 0};
+    bias.sigmas = significance(bias.value - tolerance * tolerance, bias.error, count_of(products) - 1);
+    return bias;
+}
+
+/// By how the seeds differ, and by how the pieces do: rare light that the runs happened to miss makes seeds alike
+/// but pieces differ, noise over many pieces the other way round. What is significant is so to both.
+Deviation energy_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
+    const Numbers means = of_runs(result, [](const Measurement& m) { return m.artefacts->mean; });
+    Numbers pieces;
+    for (std::size_t piece = 0; piece < reference.pieces[0].size(); ++piece)
+        pieces.push_back(
+            mean_of(of_runs(result, [&](const Measurement& m) { return m.artefacts->pieces[piece]; })) -
+            (reference.pieces[0][piece] + reference.pieces[1][piece]) / 2);
+    Deviation energy{mean_of(means) - (reference.is_black ? 0 : 1),
+                     std::hypot(standard_error_of(means), reference.mean_error), 0};
+    const double of_seeds = significance(std::abs(energy.value) - tolerance, energy.error, count_of(means) - 1);
+    const double of_pieces =
+        significance(std::abs(mean_of(pieces)) - tolerance, standard_error_of(pieces), count_of(pieces) - 1);
+    energy.sigmas = std::min(of_seeds, of_pieces);
+    return energy;
+}
+
+void find_spikes(const Result& result, Findings& f) {
+    Numbers worst;
+    double share = 0;
+    for (const Measurement& run : result.runs) {
+        const Artefacts& a = *run.artefacts;
+        worst.insert(worst.end(), a.worst.begin(), a.worst.end());
+        if (!a.worst.empty() && std::sqrt(a.worst.front()) >= f.worst) {
+            f.worst = std::sqrt(a.worst.front());
+            f.worst_pixel = a.worst_pixel;
+        }
+        for (double error : a.worst)
+            share += error;
+    }
+    std::sort(worst.begin(), worst.end(), std::greater<>());
+    const glm::ivec2 size = result.point.settings.size;
+    const double pixels = static_cast<double>(size.x) * size.y * static_cast<double>(result.runs.size());
+    const auto rank = static_cast<std::size_t>(1e-4 * pixels);
+    f.spike = std::sqrt(worst[std::min(rank, worst.size() - 1)]);
+    f.worst_share = f.error > 0 ? share / (f.error * pixels) : 0;
+}
+
+double cost_of_sample(const Result& result) {
+    return cpu_seconds_of(result) / spp_of(result);
+}
+
+double cost_of(const Numbers& errors, const Numbers& seconds) {
+    return mean_of(errors) * mean_of(seconds);
+}
+
+Numbers without(Numbers values, std::size_t i) {
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+    return values;
+}
+
+/// The error is that of the ratio's logarithm: from how it changes when one seed after the other is left out of
+/// both, and from the references' noise, which all errors share.
+void find_factor(const Result& result, const Result& pt, double reference_error, Findings& f) {
+    const auto error = [](const Measurement& m) { return m.artefacts->error.relative_mse; };
+    const auto seconds = [](const Measurement& m) { return m.cpu_seconds; };
+    const Numbers e = of_runs(result, error), t = of_runs(result, seconds);
+    const Numbers e_pt = of_runs(pt, error), t_pt = of_runs(pt, seconds);
+    f.factor = f.low = f.high = none;
+    if (e.size() != e_pt.size() || !(mean_of(e) > 2 * reference_error) || !(mean_of(e_pt) > 2 * reference_error))
+        return;
+    Numbers logs;
+    for (std::size_t i = 0; i < e.size(); ++i)
+        logs.push_back(
+            std::log(cost_of(without(e, i), without(t, i)) / cost_of(without(e_pt, i), without(t_pt, i))));
+    const double of_seeds = jackknife_error(logs);
+    const double of_reference = reference_error * (1 / mean_of(e) - 1 / mean_of(e_pt));
+    const double reach = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
+    if (!std::isfinite(reach))
+        return;
+    f.factor = cost_of(e, t) / cost_of(e_pt, t_pt);
+    f.low = f.factor * std::exp(-reach);
+    f.high = f.factor * std::exp(reach);
+}
+
+bool is_biased(const Findings& f, double level) {
+    return std::max(f.energy.sigmas, f.squared_bias.sigmas) > sigmas(level);
+}
+
+/// What of the bias is certain, in words.
+std::string bias_text(const Findings& f, double level) {
+    if (f.energy.sigmas > sigmas(level))
+        return fmt::format("energy {} by {:.2g} % ({:.1f} sigma)", f.energy.value < 0 ? "lost" : "gained",
+                           100 * std::abs(f.energy.value), f.energy.sigmas);
+    return fmt::format("biased by {:.2g} % RMS ({:.1f} sigma)", 100 * std::sqrt(f.squared_bias.value),
+                       f.squared_bias.sigmas);
+}
+
+/// "only 31 % of the shifts bring light (mostly kind_mismatch)"; empty where most do, or none was tried.
+std::string shift_text(const Counters& counters) {
+    const auto& shifts = counters.shifts;
+    const auto all = static_cast<double>(counters.shift_attempts());
+    const double arrived = static_cast<double>(shifts[static_cast<int>(ShiftOutcome::ok)]) / all;
+    if (!(arrived < 0.5))
+        return "";
+    const auto most = std::max_element(shifts.begin() + static_cast<int>(ShiftOutcome::ok) + 1, shifts.end());
+    return fmt::format("; only {:.0f} % of the shifts bring light (mostly {})", 100 * arrived,
+                       to_string(static_cast<ShiftOutcome>(most - shifts.begin())));
+}
+
+/// The error at equal time is that at equal samples times what a sample costs.
+std::string cause_of_worse(const Findings& f) {
+    std::string text =
+        fmt::format("{:.3g} times the error: a sample has {:.2g} times that of PT's, and costs {:.2g} "
+                    "times as much",
+                    f.factor, f.factor / f.cost, f.cost);
+    text += shift_text(f.counters);
+    if (f.worst_share > 0.5)
+        text += fmt::format("; {:.0f} % of it is in the worst pixels", 100 * f.worst_share);
+    return text;
+}
+
+} // namespace
+
+Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference) {
+    Findings f;
+    Numbers errors, edges;
+    for (const Measurement& run : result.runs) {
+        f.bad_pixels += run.artefacts->bad_pixels;
+        f.refused += run.counters.refused_samples;
+        f.counters += run.counters;
+        errors.push_back(run.artefacts->error.relative_mse);
+        if (run.tiles)
+            edges.push_back(run.tiles->edges);
+    }
+    const Tolerance tolerance = tolerance_of(result.point);
+    f.cost = cost_of_sample(result) / cost_of_sample(path_tracing);
+    f.error = mean_of(errors);
+    f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);
+    f.energy = energy_of(result, reference, tolerance.energy);
+    f.squared_bias = squared_bias_of(result, reference, tolerance.pieces);
+    find_spikes(result, f);
+    f.tile_edges = edges.empty() ? none : mean_of(edges);
+    f.tile_edges_error = edges.empty() ? none : standard_error_of(edges);
+    find_factor(result, path_tracing, reference.squared_error_error, f);
+    return f;
+}
+
+Verdict judge(const Findings& findings, const Findings& path_tracing, double level) {
+    using Kind = Verdict::Kind;
+    if (findings.bad_pixels > 0)
+        return {Kind::fails, fmt::format("not finite: {} pixels", findings.bad_pixels)};
+    const bool is_biased_by_itself = is_biased(findings, level);
+    if (is_biased_by_itself && is_biased(path_tracing, level))
+        return {Kind::undecided, fmt::format("{}, but so is PT to its own reference: more samples for that",
+                                             bias_text(findings, level))};
+    if (is_biased_by_itself)
+        return {Kind::fails, bias_text(findings, level)};
+    if (findings.low > 1)
+        return {Kind::worse, cause_of_worse(findings)};
+    return {};
+}
+
+std::string to_string(Verdict::Kind kind) {
+    switch (kind) {
+    case Verdict::Kind::ok:
+        return "ok";
+    case Verdict::Kind::worse:
+        return "worse than PT";
+    case Verdict::Kind::fails:
+        return "fails";
+    case Verdict::Kind::undecided:
+        break;
+    }
+    return "undecided";
+}
+
+} // namespace tessera

@@ -1,0 +1,179 @@
+#include "app/report/reports.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+ChartPlot plot_of(const ExperimentOptions& options, const SceneCurves& scene, const char* x_label,
+                  double (*x)(const Result&)) {
+    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    ChartPlot plot{x_label,
+                   fmt::format("relMSE, floor-free (bars: {})", bars),
+                   ChartAxis::Scale::log,
+                   ChartAxis::Scale::log,
+                   {},
+                   {}};
+    for (const Curve& curve : scene.curves) {
+        const double slope = slope_of(curve);
+        ChartSeries series{curve_label(options, curve), {}, false};
+        if (std::isfinite(slope))
+            series.label += fmt::format(" (slope {:.2f})", slope);
+        for (const Result& r : curve)
+            if (is_certain(r))
+                series.points.push_back(
+                    {x(r), error_of(r), r.runs.size() > 1 ? error_deviation(r) : error_uncertainty(r)});
+        plot.series.push_back(series);
+    }
+    return plot;
+}
+
+} // namespace
+
+std::string curve_label(const ExperimentOptions& options, const Curve& curve) {
+    const Result& result = last_of(curve);
+    std::string label = line_label(options, result);
+    if (!options.variations.empty() && !result.point.values.front().empty())
+        label += fmt::format(", {} {}", options.variations.front().variable.id, result.point.values.front());
+    return label;
+}
+
+Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene) {
+    const glm::ivec2 size = options.settings.size;
+    const std::string title = fmt::format("{}: {}x{}, depth {}, {} each, {} seed{}", scene.name, size.x, size.y,
+                                          options.settings.render.max_depth, to_string(options.effort),
+                                          options.seeds, options.seeds > 1 ? "s" : "");
+    return {title,
+            {plot_of(options, scene, "CPU seconds", cpu_seconds_of),
+             plot_of(options, scene, "samples a pixel", spp_of)}};
+}
+
+Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes) {
+    ChartPlot plot{
+        "triangles", "millions of samples a CPU second", ChartAxis::Scale::log, ChartAxis::Scale::log, {}, {}};
+    for (Method method : all_methods) {
+        ChartSeries series{std::string(short_name(method)), {}, false};
+        for (const SceneCurves& scene : scenes)
+            if (const Curve* curve = best_curve(scene, method)) {
+                const Result& r = last_of(*curve);
+                const glm::ivec2 size = r.point.settings.size;
+                const double samples = 1e-6 * size.x * size.y * spp_of(r);
+                series.points.push_back({static_cast<double>(r.triangles), samples / cpu_seconds_of(r), 0});
+            }
+        if (!series.points.empty())
+            plot.series.push_back(series);
+    }
+    return {fmt::format("Speed by size of the scene, {}", to_string(options.effort)), {plot}};
+}
+
+namespace {
+
+std::string title(const ExperimentOptions& options, const std::string& scene) {
+    const auto is_size = [](const Variation& v) { return v.variable.id == "size"; };
+    const bool has_sizes = std::any_of(options.variations.begin(), options.variations.end(), is_size);
+    const glm::ivec2 size = options.settings.size;
+    return fmt::format("{}: {}{}{}", scene, has_sizes ? "" : fmt::format("{}x{}, ", size.x, size.y),
+                       to_string(options.effort),
+                       options.seeds > 1 ? fmt::format(", {} seeds", options.seeds) : "");
+}
+
+/// The numbers of a variation; empty if it is one of words.
+std::vector<double> numbers_of(const Variation& variation) {
+    std::vector<double> numbers;
+    PictureSettings settings;
+    for (const std::string& value : variation.values) {
+        variation.variable.set_text(settings, value);
+        if (const std::optional<double> number = variation.variable.number(settings))
+            numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+/// What the plots have along x.
+struct Abscissa {
+    std::string label;
+    std::vector<std::string> values;
+    std::vector<double> numbers; ///< places of the values
+    ChartAxis::Scale scale = ChartAxis::Scale::linear;
+    bool has_names = true;
+
+    double at(const std::string& value) const {
+        const auto found = std::find(values.begin(), values.end(), value);
+        return found == values.end() ? 0 : numbers[static_cast<std::size_t>(found - values.begin())];
+    }
+};
+
+Abscissa abscissa_of(const ExperimentOptions& options) {
+    Abscissa x;
+    if (options.variations.empty()) {
+        x.label = "method";
+        for (Method method : options.methods)
+            x.values.emplace_back(short_name(method));
+    } else {
+        const Variation& first = options.variations.front();
+        x.label = first.variable.label;
+        x.values = first.values;
+        x.numbers = numbers_of(first);
+    }
+    if (!x.numbers.empty()) {
+        const auto [least, most] = std::minmax_element(x.numbers.begin(), x.numbers.end());
+        const bool is_wide = *most >= 8 * *least; // such as 0, 0.01, 0.1, 1: then zero has no place on any scale
+        x.scale = is_wide && *least > 0 ? ChartAxis::Scale::log : ChartAxis::Scale::linear;
+        x.has_names = is_wide && *least <= 0;
+    }
+    if (x.has_names) {
+        x.numbers.clear();
+        for (std::size_t i = 0; i < x.values.size(); ++i)
+            x.numbers.push_back(static_cast<double>(i));
+    }
+    return x;
+}
+
+ChartSeries& series_named(std::vector<ChartSeries>& all, const std::string& label) {
+    const auto has_label = [&](const ChartSeries& s) { return s.label == label; };
+    const auto found = std::find_if(all.begin(), all.end(), has_label);
+    if (found != all.end())
+        return *found;
+    return all.emplace_back(ChartSeries{label, {}, false});
+}
+
+template <typename Point>
+ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& results, const std::string& y_label,
+                  Point point) {
+    const Abscissa x = abscissa_of(options);
+    ChartPlot plot{x.label, y_label, x.scale, ChartAxis::Scale::log, {}, {}};
+    if (x.has_names)
+        plot.x_names = x.values;
+    for (const Result& result : results) {
+        const std::string value = options.variations.empty()
+                                      ? std::string(short_name(result.point.settings.render.method))
+                                      : result.point.values.front();
+        ChartSeries& series = series_named(plot.series, line_label(options, result));
+        series.is_level = value.empty();
+        series.points.push_back(point(x.at(value), result));
+    }
+    return plot;
+}
+
+} // namespace
+
+Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results) {
+    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    const auto error = [&](double x, const Result& r) {
+        const double certain = is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN();
+        return ChartPoint{x, certain, options.seeds > 1 ? error_deviation(r) : error_uncertainty(r)};
+    };
+    const auto efficiency = [](double x, const Result& r) { return ChartPoint{x, efficiency_of(r), 0}; };
+    const auto speed = [](double x, const Result& r) { return ChartPoint{x, speed_of(r), 0}; };
+    return {title(options, results.front().scene),
+            {plot_of(options, results, fmt::format("relMSE, floor-free (bars: {})", bars), error),
+             plot_of(options, results, "efficiency, 1 / (relMSE × CPU seconds)", efficiency),
+             plot_of(options, results, "millions of samples a wall second", speed)}};
+}
+
+} // namespace tessera

@@ -1,0 +1,122 @@
+#include "app/cli/machine.h"
+#include "app/cli/render_stats.h"
+#include "app/cli/terminal.h"
+#include "app/report/reports.h"
+#include "render/io/json_text.h"
+
+#include <cmath>
+#include <thread>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == text.npos)
+        return text;
+    std::string quoted = "\"";
+    for (char c : text)
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+/// JSON knows no infinities, and no "not a number": null.
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+/// As a number where it is one; null where it makes no difference.
+ordered_json value_json(const Variation& variation, const std::string& value) {
+    if (value.empty())
+        return nullptr;
+    PictureSettings settings;
+    variation.variable.set_text(settings, value);
+    const std::optional<double> number = variation.variable.number(settings);
+    return number && variation.variable.id != "size" ? ordered_json(*number) : ordered_json(value);
+}
+
+ordered_json result_json(const ExperimentOptions& options, const Result& result) {
+    const PictureSettings& s = result.point.settings;
+    const SceneSource source{result.file, {}, {}};
+    ordered_json row{{"scene", result.scene},
+                     {"method", short_name(s.render.method)},
+                     {"recon", to_string(s.reconstruction.norm)}};
+    for (std::size_t i = 0; i < options.variations.size(); ++i)
+        row[options.variations[i].variable.id] = value_json(options.variations[i], result.point.values[i]);
+    row["effort"] = to_string(effort_of(options, result));
+    for (const Figure& figure : all_figures())
+        row[std::string(figure.id)] = number(figure.value(result));
+    row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction.alpha);
+    row["runs"] = ordered_json::array();
+    for (const Measurement& run : result.runs)
+        row["runs"].push_back(to_json(run));
+    return row;
+}
+
+} // namespace
+
+std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& results) {
+    std::string text = "scene,method,recon";
+    for (const Variation& variation : options.variations)
+        text += fmt::format(",{}", variation.variable.id);
+    text += ",effort";
+    for (const Figure& figure : all_figures())
+        text += fmt::format(",{}", figure.id);
+    for (const Result& result : results) {
+        text += fmt::format("\n{},{},{}", csv_cell(result.scene), short_name(result.point.settings.render.method),
+                            to_string(result.point.settings.reconstruction.norm));
+        for (const std::string& value : result.point.values)
+            text += "," + csv_cell(value);
+        text += "," + to_string(effort_of(options, result));
+        for (const Figure& figure : all_figures()) {
+            const double value = figure.value(result);
+            text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
+        }
+    }
+    return text + "\n";
+}
+
+std::string to_json(const ExperimentOptions& options, const std::vector<Result>& results) {
+    ordered_json scenes = ordered_json::array(), rows = ordered_json::array(), varied = ordered_json::object();
+    for (const std::filesystem::path& scene : options.scenes)
+        scenes.push_back(scene.string());
+    for (const Variation& variation : options.variations)
+        varied[variation.variable.id] = variation.values;
+    for (const Result& result : results)
+        rows.push_back(result_json(options, result));
+    const ordered_json out{{"version", TESSERA_VERSION},
+                           {"program", program_identity()},
+                           {"machine",
+                            {{"cpu", cpu_model()},
+                             {"hardware_threads", std::thread::hardware_concurrency()},
+                             {"threads", options.settings.threads}}},
+                           {"interrupted", interrupted()},
+                           {"scenes", scenes},
+                           {"varied", varied},
+                           {"effort", to_string(options.effort)},
+                           {"reference_folder", options.references.string()},
+                           {"results", rows}};
+    return to_text(out, 2) + "\n";
+}
+
+Effort effort_of(const ExperimentOptions& options, const Result& result) {
+    return {std::ldexp(options.effort.amount, -result.halvings), options.effort.unit};
+}
+
+std::string line_label(const ExperimentOptions& options, const Result& result) {
+    const PictureSettings& s = result.point.settings;
+    std::string label(short_name(s.render.method));
+    if (options.norms.size() > 1 && has_gradients(s.render.method))
+        label += fmt::format(" {}", to_string(s.reconstruction.norm));
+    for (std::size_t i = 1; i < options.variations.size(); ++i)
+        if (!result.point.values[i].empty())
+            label += fmt::format(", {} {}", options.variations[i].variable.id, result.point.values[i]);
+    return label;
+}
+
+} // namespace tessera

@@ -1,0 +1,155 @@
+#include "app/cli/scene_source.h"
+#include "app/report/reports.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+using Results = std::vector<Result>;
+
+std::string cell(double value) {
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+}
+
+/// An error below its uncertainty is none that could be told.
+std::string error_cell(const Result& r) {
+    return is_certain(r) ? cell(error_of(r)) : fmt::format("< {}", cell(error_uncertainty(r)));
+}
+
+std::string value_cell(const std::string& value) {
+    return value.empty() ? "any" : value;
+}
+
+std::string rule(std::size_t columns, std::size_t left) {
+    std::string text = "|";
+    for (std::size_t i = 0; i < columns; ++i)
+        text += i < left ? " --- |" : " ---: |";
+    return text + "\n";
+}
+
+/// Error, time and efficiency by value.
+std::string error_table(const ExperimentOptions& options, const Results& results) {
+    std::string text = "| scene | method |";
+    for (const Variation& variation : options.variations)
+        text += fmt::format(" {} |", variation.variable.id);
+    text += " spp | relMSE | uncertainty | deviation | CPU s | deviation | efficiency |\n";
+    text += rule(9 + options.variations.size(), 2);
+    for (const Result& r : results) {
+        text += fmt::format("| {} | {} |", r.scene, name_of(r.point));
+        for (const std::string& value : r.point.values)
+            text += fmt::format(" {} |", value_cell(value));
+        text += fmt::format(" {} | {} | {} | {} | {} | {} | {} |\n", cell(spp_of(r)), error_cell(r),
+                            cell(error_uncertainty(r)), cell(error_deviation(r)), cell(cpu_seconds_of(r)),
+                            cell(cpu_seconds_deviation(r)), cell(efficiency_of(r)));
+    }
+    return text;
+}
+
+std::string first_value(const Result& result) {
+    return result.point.values.empty() ? "" : result.point.values.front();
+}
+
+std::string percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.1f}", 100 * share) : "-";
+}
+
+/// [Bauszat 2017, table 1], transposed: a line for every scene, method and value of the second variation, a column
+/// for every value of the first.
+std::string reuse_table(const ExperimentOptions& options, const Results& results) {
+    std::vector<std::string> columns;
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const Result& r : results) {
+        if (!std::isfinite(reused_share(r)))
+            continue; // a method that shares nothing
+        const std::pair line(r.scene, line_label(options, r));
+        if (std::find(columns.begin(), columns.end(), first_value(r)) == columns.end())
+            columns.push_back(first_value(r));
+        if (std::find(lines.begin(), lines.end(), line) == lines.end())
+            lines.push_back(line);
+    }
+    std::string text = "| scene | method |";
+    for (const std::string& column : columns)
+        text += options.variations.empty()
+                    ? " all |"
+                    : fmt::format(" {} {} |", options.variations.front().variable.id, value_cell(column));
+    text += "\n" + rule(2 + columns.size(), 2);
+    for (const auto& [scene, label] : lines) {
+        text += fmt::format("| {} | {} |", scene, label);
+        for (const std::string& column : columns) {
+            const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+                return r.scene == scene && line_label(options, r) == label && first_value(r) == column;
+            });
+            text += found == results.end()
+                        ? " |"
+                        : fmt::format(" {} / {} |", percent(skipped_share(*found)), percent(reused_share(*found)));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+bool has_tiles(const Result& r) {
+    return std::any_of(r.runs.begin(), r.runs.end(), [](const Measurement& m) { return m.tiles.has_value(); });
+}
+
+/// How much the grid of tiles shows in the error.
+std::string tile_table(const ExperimentOptions& options, const Results& results) {
+    std::string text = "| scene | method |";
+    for (const Variation& variation : options.variations)
+        text += fmt::format(" {} |", variation.variable.id);
+    text += " error | edges | edge ratio |\n" + rule(5 + options.variations.size(), 2);
+    for (const Result& r : results) {
+        if (!has_tiles(r))
+            continue;
+        text += fmt::format("| {} | {} |", r.scene, name_of(r.point));
+        for (const std::string& value : r.point.values)
+            text += fmt::format(" {} |", value_cell(value));
+        for (const char* id : {"tile_error_spectrum", "tile_edge_spectrum", "tile_edge_ratio"})
+            text += fmt::format(" {} |", cell(figure(id, r)));
+        text += "\n";
+    }
+    return text;
+}
+
+std::string markdown(const ExperimentOptions& options, const Results& results) {
+    const glm::ivec2 size = options.settings.size;
+    return fmt::format(
+        "# Sweep\n\n"
+        "{}x{} pixels, {}, {} seed{}.\n\n"
+        "## Error, time and efficiency\n\n"
+        "relMSE without the references' noise, with its uncertainty (of one render, from how its blocks differ, "
+        "or "
+        "of the mean over the seeds, if that is larger), CPU seconds of rendering and reconstruction, means over "
+        "the seeds and their standard deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"
+        "## Base paths skipped by the roulette / reused\n\n"
+        "In per cent of the base paths that a gradient could have from its tile; the rest carry "
+        "nothing that could be reused.\n\n{}\n"
+        "## Tiles in the error\n\n"
+        "Power at the multiples of the tile frequency over that about them: of the error, and of its squared "
+        "steps "
+        "from pixel to pixel (means over columns and rows); and squared steps where tiles meet over those "
+        "elsewhere. 1: the grid does not show.\n\n{}",
+        size.x, size.y, to_string(options.effort), options.seeds, options.seeds > 1 ? "s" : "",
+        error_table(options, results), reuse_table(options, results), tile_table(options, results));
+}
+
+} // namespace
+
+void write_sweep(const ExperimentOptions& options, const Results& results) {
+    write_text(options.output / "sweep.csv", to_csv(options, results));
+    write_text(options.output / "sweep.json", to_json(options, results));
+    write_text(options.output / "sweep.md", markdown(options, results));
+    std::map<std::string, Results> scenes;
+    for (const Result& result : results)
+        scenes[result.scene].push_back(result);
+    for (const auto& [scene, of_scene] : scenes)
+        write_text(options.output / fmt::format("sweep-{}.svg", scene), to_svg(sweep_chart(options, of_scene)));
+}
+
+} // namespace tessera

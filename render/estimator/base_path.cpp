@@ -1,0 +1,233 @@
+#include "render/estimator/base_path.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+void BasePath::reset(const Random& numbers, int light_samples) {
+    very_direct = direct = indirect = Rgb(0);
+    random = numbers;
+    pixel_width = 0;
+    size_ = 0;
+    light_samples_ = light_samples;
+}
+
+BaseVertex& BasePath::spare() {
+    const auto n = static_cast<std::size_t>(size_);
+    if (vertices_.size() == n)
+        vertices_.emplace_back();
+    if (lights_.size() < (n + 1) * light_count())
+        lights_.resize((n + 1) * light_count());
+    for (LightSample& s : lights(size_))
+        s.brings = Rgb(0);
+    vertices_[n].escapes = false;
+    return vertices_[n];
+}
+
+bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
+                LightSample& drawn, Segment& way) {
+    drawn.brings = Rgb(0);
+    if (tracer.scene.lights().empty() || x.bsdf.roughness() <= 0)
+        return false;
+    if (!tracer.sample_light(x.position, random, index, sample, drawn.light))
+        return false;
+    const std::optional<LightRay> seen = drawn.light.seen_from(x.position);
+    if (!seen)
+        return false;
+    drawn.to_light = x.to_local(seen->direction);
+    const BsdfValue b = x.bsdf.evaluate(x.to_previous, drawn.to_light);
+    if (is_black(b.f_cos))
+        return false;
+    // The balance heuristic against BSDF sampling [Veach 1997, 9.2.2].
+    drawn.pdf_w = seen->pdf_w;
+    drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
+    drawn.brings = b.f_cos * seen->radiance / drawn.pdf_sum;
+    way = tracer.toward_light(x, drawn.light, seen->direction);
+    return true;
+}
+
+namespace {
+
+/// Next-event estimation at x_index, the last vertex.
+void sample_lights(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
+    const Vertex& x = path[path.size() - 1].vertex;
+    const std::span<LightSample> lights = path.lights(path.size() - 1);
+    for (int j = 0; j < path.light_samples(); ++j) {
+        LightSample& drawn = lights[static_cast<std::size_t>(j)];
+        Segment way;
+        if (draw_light(tracer, x, path.random, index, j, drawn, way) && tracer.occluded(way, kind))
+            drawn.brings = Rgb(0);
+    }
+}
+
+/// A light that BSDF sampling at v has met. `pdf_w` is that of emitter sampling there.
+void add_hit(BaseVertex& v, Rgb radiance, float pdf_w) {
+    v.hit_pdf_w = v.is_delta || is_black(radiance) ? 0 : pdf_w;
+    v.hit_brings = radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
+}
+
+/// BSDF sampling at v has left the scene.
+void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
+    if (!tracer.scene.lights().environment())
+        return;
+    const LightPoint light = tracer.environment_toward(direction);
+    add_hit(v, light.radiance, light.pdf);
+    v.escapes = true;
+}
+
+/// Roulette on path length at x_index: the probability that a path goes on. It follows what this scattering alone
+/// does to light [as in Georgiev 2012's SmallVCM], not all before it: what becomes of a suffix must not depend on
+/// the pixel, or those who share it would not agree on which light paths it has.
+float path_survival(const PathSettings& settings, int index, Rgb f_cos, float pdf_w) {
+    if (settings.roulette_depth == 0 || index < settings.roulette_depth)
+        return 1;
+    return std::clamp(std::max({f_cos.r, f_cos.g, f_cos.b}) / pdf_w, 0.1f, 0.95f);
+}
+
+/// Samples the BSDF at the last vertex, x_index, and appends what lies in that direction; false: the path ends.
+/// The vertex at max_depth is there for its emission alone.
+bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
+    BaseVertex& next = path.spare();
+    BaseVertex& v = path[path.size() - 1];
+    const Vertex& x = v.vertex;
+    const auto s = x.bsdf.sample(x.to_previous, path.random.draw(index, Draw::lobe),
+                                 path.random.draw_2d(index, Draw::direction));
+    if (!s)
+        return false;
+    v.survival = path_survival(tracer.settings, index, s->f_cos, s->pdf_w);
+    if (v.survival < 1 && path.random.draw(index, Draw::path_survival) >= v.survival)
+        return false;
+    const glm::vec3 direction = x.to_world(s->to_next);
+    const Ray ray = tracer.leave(x, direction);
+    using Met = Tracer::Met;
+    Met met = Met::light;
+    if (index + 1 == tracer.settings.max_depth)
+        met = tracer.closest_light(ray, next.vertex, kind);
+    else if (!tracer.closest(ray, next.vertex, kind))
+        met = Met::infinity;
+    if (met == Met::darkness)
+        return false;
+    v.to_next = s->to_next;
+    v.f_cos = s->f_cos;
+    v.pdf_w = s->pdf_w;
+    v.is_delta = s->is_delta;
+    v.scatter = s->scatter;
+    if (met == Met::infinity) {
+        escape(tracer, v, direction);
+        return false;
+    }
+    const glm::vec3 d = next.vertex.position - x.position;
+    const float distance2 = glm::dot(d, d);
+    v.next_geometry = std::abs(glm::dot(next.vertex.geometric_normal, direction)) / distance2;
+    if (!(v.next_geometry > 0) || !(distance2 > 0))
+        return false;
+    v.hit_pdf_w = 0;
+    v.hit_brings = Rgb(0);
+    if (next.vertex.emitter_pdf_a > 0) {
+        const LightPoint light = tracer.light_of(next.vertex, -direction);
+        add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
+    }
+    path.keep();
+    return true;
+}
+
+/// Sums the light from the far end to the camera, so that each vertex knows what arrives from beyond it.
+void gather(BasePath& path) {
+    Rgb toward_camera(0);
+    for (int i = path.size() - 1; i >= 0; --i) {
+        BaseVertex& v = path[i];
+        v.arriving = toward_camera;
+        Rgb here(0);
+        for (const LightSample& s : path.lights(i))
+            here += s.brings;
+        Rgb beyond(0);
+        if (i + 1 < path.size() || v.escapes) {
+            here += v.throughput() * v.hit_brings;
+            beyond = v.throughput() * v.arriving;
+        }
+        toward_camera = here + beyond;
+        path.direct = here;
+        path.indirect = beyond;
+    }
+}
+
+/// What the rays of a path count as.
+struct Purpose {
+    RayKind bounce, light;
+};
+
+/// Goes on from x_1, the only vertex so far, to look for light from x_last at the furthest.
+void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& path) {
+    // Emitter sampling at x_i makes i + 1 edges, and so does going on to x_{i+1} for its emission.
+    for (int i = 1; i <= last; ++i) {
+        sample_lights(tracer, i, purpose.light, path);
+        if (!extend(tracer, i, purpose.bounce, path))
+            break;
+    }
+    gather(path);
+}
+
+} // namespace
+
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+                     BasePath& path) {
+    path.reset(random, tracer.settings.light_samples);
+    ++tracer.counters.camera_paths;
+    BaseVertex& primary = path.spare();
+    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera)) {
+        path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
+        return;
+    }
+    path.keep();
+    path.pixel_width = pixel_angle * glm::distance(camera_ray.origin, primary.vertex.position);
+    path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
+    trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
+    tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
+}
+
+void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last,
+                      BasePath& path) {
+    path.reset(random, tracer.settings.light_samples);
+    path.spare().vertex = primary;
+    path.keep();
+    trace_onward(tracer, std::min(last, tracer.settings.max_depth - 1),
+                 {RayKind::shift_bounce, RayKind::shift_edge}, path);
+}
+
+void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
+    carried_.clear();
+    steps_.clear();
+    light_samples_ = path.light_samples();
+    join_ = 0;
+    last_alive_ = -1;
+    first_shared_ = settings.shift == ShiftKind::reconnection ? emitter_slot(1, 0) : 0;
+    const bool joins = settings.shift != ShiftKind::replay;
+    const float least = least_length(settings, path.pixel_width);
+    const int count = path.size();
+    Rgb throughput(1);
+    for (int i = 0; i < count; ++i) {
+        const BaseVertex& v = path[i];
+        for (const LightSample& s : path.lights(i))
+            carried_.push_back(throughput * s.brings);
+        if (i + 1 == count && !v.escapes) {
+            carried_.emplace_back(0);
+            break;
+        }
+        throughput *= v.throughput();
+        carried_.push_back(throughput * v.hit_brings);
+        steps_.push_back({!v.is_delta && is_connectable(v.vertex, settings.shift_threshold),
+                          i + 1 < count && is_long(v.vertex.position, path[i + 1].vertex.position, least)});
+        if (joins && i > 0 && step_is_connectable(i - 1) && step_is_long(i - 1) && step_is_connectable(i)) {
+            join_ = i;
+            carried_.push_back(throughput * v.arriving);
+            break;
+        }
+    }
+    for (int slot = 0; slot < slot_count(); ++slot)
+        if (!is_black(carried(slot)))
+            last_alive_ = slot;
+}
+
+} // namespace tessera

@@ -1,0 +1,177 @@
+#pragma once
+
+#include "render/estimator/tracer.h"
+
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+/// A point on a light, drawn by emitter sampling at a vertex x_i. Every pdf is per solid angle at x_i, and that of
+/// all light samples of the vertex together.
+struct LightSample {
+    LightPoint light;
+    glm::vec3 to_light; ///< unit, in the vertex's frame
+    float pdf_w = 0;    ///< of emitter sampling
+    float pdf_sum = 0;  ///< of all strategies that could have found this light together
+    /// Radiance toward x_{i-1}, with its MIS weight: f cos Le / pdf_sum; black: nothing was sampled, or the way is
+    /// blocked.
+    Rgb brings{0};
+};
+
+/// A vertex x_i of a base path with what BSDF sampling found from it. Every pdf is per solid angle at x_i, or a
+/// probability after a delta scatter. Valid when the path has a next vertex, or leaves the scene here.
+struct BaseVertex {
+    Vertex vertex;
+
+    bool escapes = false; ///< it leaves the scene toward an environment: its light counts as a hit
+    glm::vec3 to_next;
+    Rgb f_cos{0};
+    float pdf_w = 0;
+    float survival = 1; ///< probability of the roulette on path length that the path went on; not part of pdf_w
+    bool is_delta = false;
+    Scatter scatter = Scatter::reflect;
+    float next_geometry = 0; ///< |cos| at x_{i+1} over the squared distance: what turns pdf_w into pdf_a
+
+    float hit_pdf_w = 0; ///< of emitter sampling at the emitter met: x_{i+1}, or infinity; 0: cannot be sampled
+    Rgb hit_brings{0};   ///< radiance from that emitter, with its MIS weight
+    Rgb arriving{0};     ///< radiance from x_{i+1} by all longer light paths, with their MIS weights
+
+    /// What light from beyond is multiplied by on its way through x_i.
+    Rgb throughput() const { return f_cos / (pdf_w * survival); }
+};
+
+/// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex some
+/// that end by emitter sampling and one that ends by hitting an emitter.
+struct BasePath {
+    Rgb very_direct{0}; ///< emission seen by the camera itself
+    Rgb direct{0};      ///< sum over its light paths of two edges
+    Rgb indirect{0};    ///< sum over all longer ones
+    Random random{0, 0, 0};
+    float pixel_width = 0; ///< at x_1, across the view: scene units
+
+    /// Without very direct light: an unbiased estimate for the pixel.
+    Rgb radiance() const { return direct + indirect; }
+
+    /// x_1, x_2, ...; none: the camera ray left the scene. Vertex 0 is x_1.
+    int size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const BaseVertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
+    BaseVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
+
+    /// Light samples of vertex i, as many as at every vertex.
+    std::span<const LightSample> lights(int i) const {
+        return {lights_.data() + i * light_samples_, light_count()};
+    }
+    std::span<LightSample> lights(int i) { return {lights_.data() + i * light_samples_, light_count()}; }
+    int light_samples() const { return light_samples_; }
+
+    /// Starts anew, without vertices, with random numbers for all that follows.
+    void reset(const Random& numbers, int light_samples);
+    /// Room for one more vertex, which counts only once keep() is called. Old references end here.
+    BaseVertex& spare();
+    void keep() { ++size_; }
+
+private:
+    std::size_t light_count() const { return static_cast<std::size_t>(light_samples_); }
+
+    // Never shrink: paths are traced into the memory of earlier ones.
+    std::vector<BaseVertex> vertices_;
+    std::vector<LightSample> lights_;
+    int size_ = 0;
+    int light_samples_ = 1;
+};
+
+/// Traces the path of one sample, with the numbers of `random`. Light paths have tracer.settings.max_depth edges
+/// at most, as in Mitsuba.
+/// @param pixel_angle  Projection::pixel_angle of the camera ray's picture
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+                     BasePath& path);
+
+/// Traces the path that takes the numbers of `random` from a vertex x_1 that the camera sees: random replay.
+/// @param last  light is looked for at x_1 to x_last
+void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path);
+
+/// Emitter sampling: light sample `sample` (from 0) of vertex x_index, weighted against BSDF sampling, as if
+/// nothing were in the way. False: it brings nothing.
+/// @param way  the stretch that must be free
+bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
+                LightSample& drawn, Segment& way);
+
+/// Whether offsets can be joined at a scattering by connecting two points: its roughness is above the threshold.
+/// Decided alike for base and offset, or a shift would not be its own inverse.
+inline bool is_connectable(const Vertex& x, float threshold) {
+    return x.bsdf.roughness() > threshold;
+}
+
+/// How long an edge must be to be joined, by the pixel that a path belongs to: scene units. What a vertex sees
+/// close by, as in a corner, looks quite different from another pixel's vertex: joined, its light would stay with
+/// the base. There the shift goes on as from vertices too glossy to connect. Decided alike for base and offset.
+/// @param pixel_width  BasePath::pixel_width
+inline float least_length(const ShiftSettings& settings, float pixel_width) {
+    return settings.shift == ShiftKind::reconnection ? 0 : settings.shift_distance * pixel_width;
+}
+
+inline bool is_long(glm::vec3 from, glm::vec3 to, float least) {
+    const glm::vec3 edge = to - from;
+    return glm::dot(edge, edge) >= least * least;
+}
+
+/// The light paths that a base path carries, as slots in the order of their ends, and what each brings: for every
+/// vertex one for each light sample there, and one for the light that BSDF sampling runs into. Where shifts join
+/// base and offset, all light paths through the same vertices beyond the join share their ratios of value and of
+/// density, so they are one slot, the tail: the suffix is summed once. Vertices count from 0 here: vertex 0 is
+/// x_1.
+class LightPaths {
+public:
+    /// Lists the light paths of `path`; keeps no reference to it.
+    void reset(const BasePath& path, const ShiftSettings& settings);
+
+    /// Ends by light sample `sample` of the vertex.
+    int emitter_slot(int vertex, int sample) const { return vertex * (light_samples_ + 1) + sample; }
+    /// Ends by BSDF sampling at the vertex meeting an emitter.
+    int hit_slot(int vertex) const { return emitter_slot(vertex, light_samples_); }
+    int vertex_of(int slot) const { return slot / (light_samples_ + 1); } ///< not for the tail
+    int tail_slot() const { return hit_slot(join_) + 1; } ///< ends further on; only where has_join()
+
+    /// The vertex at which offsets join the base path: the first j >= 1 for which j-1 and j are connectable and
+    /// the edge between them is long.
+    int join() const { return join_; }
+    bool has_join() const { return join_ > 0; }
+
+    /// Slots before this one are not shifted: their light stays where it is.
+    int first_shared() const { return first_shared_; }
+    int slot_count() const { return static_cast<int>(carried_.size()); }
+
+    /// What the slot brings to the base's own pixel: f / (sum of pdfs and survival), radiance.
+    Rgb carried(int slot) const { return carried_[static_cast<std::size_t>(slot)]; }
+    bool is_alive(int slot) const { return slot <= last_alive_ && !is_black(carried(slot)); }
+    bool is_alive(int first, int end) const {
+        while (first < end && !is_alive(first))
+            ++first;
+        return first < end;
+    }
+    /// The last slot that carries light; -1: none does.
+    int last_alive() const { return last_alive_; }
+
+    /// Whether the step from the vertex onward (there is one, perhaps to infinity) is connectable.
+    bool step_is_connectable(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].is_connectable; }
+    /// Whether the edge from the vertex to the next one (there is one) is long.
+    bool step_is_long(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].is_long; }
+
+private:
+    struct Step {
+        bool is_connectable, is_long;
+    };
+
+    std::vector<Rgb> carried_;
+    std::vector<Step> steps_;
+    int light_samples_ = 1;
+    int join_ = 0;
+    int first_shared_ = 0;
+    int last_alive_ = -1;
+};
+
+} // namespace tessera

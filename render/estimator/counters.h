@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tessera {
+
+/// How a shift of one base path to one offset pixel ended (render/estimator/shift.h).
+enum class ShiftOutcome : std::uint8_t {
+    ok,               ///< at least one light path came through
+    occluded,         ///< every new edge is blocked
+    kind_mismatch,    ///< base and offset vertex scatter in different ways: the way back would be another
+    total_reflection, ///< no refracted direction for the half vector
+    outside,          ///< a ray left the scene, or an offset pixel sees nothing
+    no_light,         ///< the offset carries nothing: black BSDF, no emitter hit
+    count
+};
+inline constexpr int shift_outcome_count = static_cast<int>(ShiftOutcome::count);
+
+/// "ok", "occluded", ...
+std::string_view to_string(ShiftOutcome outcome);
+
+/// What a ray is shot for.
+enum class RayKind : std::uint8_t {
+    camera,       ///< from the camera to x_1
+    bounce,       ///< on from a vertex of a base path
+    light,        ///< from a vertex of a base path to a point on a light: occlusion only
+    shift_bounce, ///< on from a vertex of an offset path
+    shift_edge,   ///< a new edge of an offset path, to a base vertex or a light: occlusion only
+    count
+};
+inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
+
+/// "camera", "bounce", ...
+std::string_view to_string(RayKind kind);
+
+/// A sample that was not finite, and so not added: pass and pixel, from 0. With the seed, its path can be traced
+/// again.
+struct RefusedSample {
+    int pass, y, x;
+
+    auto operator<=>(const RefusedSample&) const = default;
+};
+
+/// The first few of such samples, in order and each of them once, whoever finds them first.
+class FirstRefused {
+public:
+    static constexpr std::size_t most = 16;
+
+    void add(const RefusedSample& sample);
+    std::span<const RefusedSample> list() const { return {samples_.data(), count_}; }
+
+private:
+    std::array<RefusedSample, most> samples_{};
+    std::size_t count_ = 0;
+};
+
+/// Sums over a render; each worker has its own, added at the end of a pass.
+struct Counters {
+    std::uint64_t camera_paths = 0;  ///< base paths traced
+    std::uint64_t path_vertices = 0; ///< surface vertices of base paths
+    std::array<std::uint64_t, ray_kind_count> rays{};
+
+    // Base paths of sampling sets; a path counts once for every set that it is in.
+    std::uint64_t dark_paths = 0;          ///< carry nothing that could be reused
+    std::uint64_t skipped_paths = 0;       ///< carry light, and were ended by the reuse roulette
+    std::uint64_t reused_paths = 0;        ///< carry light, and were shifted to the others
+    std::uint64_t skipped_light_paths = 0; ///< light paths of these ended by the roulette on small weights
+
+    std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
+
+    std::uint64_t refused_samples = 0; ///< not finite, and so not added
+    FirstRefused first_refused;
+
+    std::uint64_t shift_attempts() const {
+        return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});
+    }
+    std::uint64_t all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+    std::uint64_t set_paths() const { return dark_paths + skipped_paths + reused_paths; }
+
+    void refuse(const RefusedSample& sample);
+
+    Counters& operator+=(const Counters& other);
+};
+
+/// "3 samples were not finite and were left out; the first is pass 5, pixel (7, 2), seed 0"; empty: none was.
+std::string refused_text(const Counters& counters, std::uint64_t seed);
+
+} // namespace tessera

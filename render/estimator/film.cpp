@@ -1,0 +1,168 @@
+#include "render/estimator/film.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace tessera {
+
+namespace {
+
+/// Of 0: 0.
+float share_of(std::uint32_t part, std::uint32_t whole) {
+    return static_cast<float>(part) / static_cast<float>(std::max(whole, 1u));
+}
+
+template <class NumberOf>
+Image<float> map_of(const Image<ReuseCounts>& counts, NumberOf number_of) {
+    Image<float> map(counts.width(), counts.height());
+    std::transform(counts.begin(), counts.end(), map.begin(), number_of);
+    return map;
+}
+
+} // namespace
+
+std::uint32_t ReuseCounts::tried() const {
+    return std::accumulate(shifts.begin(), shifts.end(), std::uint32_t{0});
+}
+
+void ReuseCounts::operator+=(const ReuseCounts& other) {
+    for (std::size_t i = 0; i < shifts.size(); ++i)
+        shifts[i] += other.shifts[i];
+    reused += other.reused;
+    skipped += other.skipped;
+}
+
+Image<float> ReuseMaps::reused() const {
+    const auto n = static_cast<float>(std::max(passes, 1));
+    return map_of(counts, [n](const ReuseCounts& c) { return static_cast<float>(c.arrived()) / n; });
+}
+
+Image<float> ReuseMaps::share(ShiftOutcome outcome) const {
+    const auto i = static_cast<std::size_t>(outcome);
+    return map_of(counts, [i](const ReuseCounts& c) { return share_of(c.shifts[i], c.tried()); });
+}
+
+Image<float> ReuseMaps::failed() const {
+    return map_of(counts, [](const ReuseCounts& c) { return share_of(c.failed(), c.tried()); });
+}
+
+Image<float> ReuseMaps::survival() const {
+    return map_of(counts, [](const ReuseCounts& c) { return share_of(c.reused, c.reused + c.skipped); });
+}
+
+namespace {
+
+constexpr double largest_variance = std::numeric_limits<float>::max();
+
+/// An image of sum / passes, where `sum_of` gives the sum of an entry.
+template <class Entry, class SumOf>
+RgbImage means_of(const Image<Entry>& entries, int passes, SumOf sum_of) {
+    RgbImage image(entries.width(), entries.height());
+    const double scale = passes > 0 ? 1.0 / passes : 0.0;
+    std::transform(entries.begin(), entries.end(), image.begin(),
+                   [&](const Entry& entry) { return Rgb(sum_of(entry) * scale); });
+    return image;
+}
+
+/// The means and their variances, these from the sample variance (squares - |sum|^2 / n) / (n - 1).
+template <class Moments>
+void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<float>& variance) {
+    mean = means_of(moments, passes, [](const Moments& m) { return m.sum; });
+    variance = {};
+    if (passes < 2)
+        return;
+    variance = Image<float>(moments.width(), moments.height());
+    const double n = passes;
+    std::transform(moments.begin(), moments.end(), variance.begin(), [n](const Moments& m) {
+        const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // below 0 by rounding alone
+        return static_cast<float>(std::clamp(spread / (n * (n - 1)), 0.0, largest_variance));
+    });
+}
+
+} // namespace
+
+Film::Film(int width, int height, const FilmBuffers& buffers)
+    : primal_(width, height), very_direct_(width, height) {
+    if (buffers.gradients) {
+        dx_ = Image<Moments>(width, height);
+        dy_ = Image<Moments>(width, height);
+    }
+    if (buffers.reuse)
+        reuse_ = Image<ReuseCounts>(width, height);
+    if (buffers.base_luminance)
+        base_luminance_ = Image<float>(width, height);
+    if (buffers.lamp_edges)
+        lamp_edges_ = Image<std::uint8_t>(width, height);
+}
+
+void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
+    if (!base_luminance_.empty()) // its base path's alone, and finite, whatever the others brought
+        base_luminance_(x, y) = sample.base_luminance;
+    if (!is_finite(sample.primal) || !is_finite(sample.dx) || !is_finite(sample.dy) ||
+        !is_finite(sample.very_direct)) {
+        counters.refuse({pass, y, x});
+        return;
+    }
+    if (!reuse_.empty())
+        reuse_(x, y) += sample.reuse;
+    primal_(x, y) += sample.primal;
+    very_direct_(x, y) += sample.very_direct;
+    if (dx_.empty())
+        return;
+    // The last column and row have no neighbour: their gradients stay 0.
+    if (x + 1 < width())
+        dx_(x, y) += sample.dx;
+    if (y + 1 < height())
+        dy_(x, y) += sample.dy;
+}
+
+void Film::find_lamp_edges(const RgbImage& look) {
+    constexpr float noticeable = 0.01f; // of a squared radiance
+    if (lamp_edges_.empty())
+        return;
+    const auto compare = [&](int x, int y, int to_x, int to_y) {
+        if (to_x < 0 || to_x >= width() || to_y >= height())
+            return;
+        const Rgb a = look(x, y), b = look(to_x, to_y), d = a - b;
+        if (glm::dot(d, d) > noticeable * std::max(glm::dot(a, a), glm::dot(b, b)))
+            lamp_edges_(x, y) = lamp_edges_(to_x, to_y) = 1;
+    };
+    for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) {
+            compare(x, y, x + 1, y);
+            for (int to_x = x - 1; to_x <= x + 1; ++to_x)
+                compare(x, y, to_x, y + 1);
+        }
+}
+
+GradientImages Film::means(int passes) const {
+    GradientImages images;
+    measure(primal_, passes, images.primal, images.primal_variance);
+    measure(dx_, passes, images.dx, images.dx_variance);
+    measure(dy_, passes, images.dy, images.dy_variance);
+    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    return images;
+}
+
+GradientImages Film::take_means(int passes) {
+    reuse_ = {};
+    base_luminance_ = {};
+    GradientImages images;
+    const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
+        measure(moments, passes, mean, variance);
+        moments = {};
+    };
+    take(primal_, images.primal, images.primal_variance);
+    take(dx_, images.dx, images.dx_variance);
+    take(dy_, images.dy, images.dy_variance);
+    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    return images;
+}
+
+Memory Film::memory() {
+    return {memory_of(primal_), memory_of(very_direct_),    memory_of(dx_),        memory_of(dy_),
+            memory_of(reuse_),  memory_of(base_luminance_), memory_of(lamp_edges_)};
+}
+
+} // namespace tessera

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/estimator/counters.h"
+#include "render/io/memory.h"
+
+#include <array>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+/// How sharing went at one pixel.
+struct ReuseCounts {
+    /// Base paths of other pixels that were shifted here, by outcome: those that are ok brought light.
+    std::array<std::uint32_t, shift_outcome_count> shifts{};
+    std::uint32_t reused = 0; ///< its own base paths that carry light, once a sampling set of its own: reused, ...
+    std::uint32_t skipped = 0; ///< ... and ended by the reuse roulette
+
+    std::uint32_t tried() const; ///< shifts to here
+    std::uint32_t arrived() const { return shifts[static_cast<std::size_t>(ShiftOutcome::ok)]; }
+    std::uint32_t failed() const { return tried() - arrived(); }
+
+    void operator+=(const ReuseCounts& other);
+};
+
+/// How sharing went, per pixel.
+struct ReuseMaps {
+    Image<ReuseCounts> counts; ///< of all passes; empty where pixels share nothing
+    int passes = 0;
+
+    bool empty() const { return counts.empty(); }
+
+    Image<float> reused() const; ///< base paths of other pixels that brought light here, a pass
+    /// Share of the shifts to here that ended so, in [0, 1]; 0 without any.
+    Image<float> share(ShiftOutcome outcome) const;
+    Image<float> failed() const; ///< share of the shifts to here that brought no light, likewise
+    /// Share of its own base paths with light that the reuse roulette left, in [0, 1]; 0 where none has carried
+    /// light.
+    Image<float> survival() const;
+};
+
+/// What one pass found at one pixel.
+struct PixelSample {
+    Rgb primal{0};
+    Rgb dx{0}; ///< to the pixel on the right
+    Rgb dy{0}; ///< to the pixel below
+    Rgb very_direct{0};
+    ReuseCounts reuse{};
+    float base_luminance = -1; ///< of what its own base path has to share; negative: it sees nothing
+};
+
+/// What a film keeps beside primal and very direct light.
+struct FilmBuffers {
+    bool gradients = false;
+    bool reuse = false;          ///< how sharing went
+    bool base_luminance = false; ///< of the last pass
+    bool lamp_edges = false;     ///< of the lamps that the camera sees
+};
+
+/// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
+/// taken when they are asked for, and 10^5 passes neither drift nor overflow. Every pixel is written once a pass,
+/// by one worker, so the sums do not depend on the number of threads.
+class Film {
+    struct Moments {
+        glm::dvec3 sum;
+        double squares; ///< of the lengths of colours
+
+        void operator+=(Rgb value) {
+            const glm::dvec3 v(value);
+            sum += v;
+            squares += glm::dot(v, v);
+        }
+    };
+
+public:
+    Film(int width, int height, const FilmBuffers& buffers);
+
+    int width() const { return primal_.width(); }
+    int height() const { return primal_.height(); }
+
+    /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted: nothing of it
+    /// is kept but its base luminance.
+    void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
+
+    /// Remembers the edges of lamps, if it keeps them: both sides of every step between pixels side by side of
+    /// `look`, very direct light as large as the film. Not during a pass.
+    void find_lamp_edges(const RgbImage& look);
+    bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }
+
+    /// Means over `passes` complete passes; of two or more passes, their variances, too.
+    GradientImages means(int passes) const;
+    /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
+    /// means are never all there together. The film is then good for nothing more.
+    GradientImages take_means(int passes);
+    /// Of `passes` complete passes; empty where pixels share nothing.
+    ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
+    /// Of the last pass; empty where it is not kept.
+    const Image<float>& base_luminance() const { return base_luminance_; }
+    /// All that it has summed.
+    Memory memory();
+
+private:
+    Image<Moments> primal_, dx_, dy_;
+    Image<glm::dvec3> very_direct_;
+    Image<ReuseCounts> reuse_;
+    Image<float> base_luminance_;
+    Image<std::uint8_t> lamp_edges_;
+};
+
+} // namespace tessera

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "render/estimator/pass.h"
+
+namespace tessera {
+
+// The sampling sets of each method: what makes it that method. Each function puts the pixels of one set after the
+// other into `set`, and has it visited with `inner`: pixels of the set in there get their light from it, others
+// only lend it their base paths. (PT's is the pixel alone.)
+
+/// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
+template <class Visit>
+void for_each_tile_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
+    pass.grid.for_each_part(block, [&](PixelRect inner) {
+        set.assign(inner);
+        visit(inner);
+    });
+}
+
+/// PR with N-rooks patterns: T is a pattern, spread over a tile [Bekaert 2002]. Calls `visit(tile)`.
+template <class Visit>
+void for_each_rooks_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
+    std::vector<int> columns;
+    for_each_square(block, pass.settings.tile, [&](PixelRect tile) {
+        pass.grid.shuffle_columns(tile, columns);
+        for (int pattern = 0; pattern < tile.width(); ++pattern) {
+            set.clear();
+            pass.grid.for_each_rook(tile, columns, pattern, [&](int x, int y) { set.add(x, y); });
+            if (set.size() > 0)
+                visit(tile);
+        }
+    });
+}
+
+/// PR with the pattern of its settings.
+template <class Visit>
+void for_each_pr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
+    if (pass.settings.pattern == Pattern::rooks)
+        for_each_rooks_set(pass, block, set, visit);
+    else
+        for_each_tile_set(pass, block, set, visit);
+}
+
+/// G-PT: each gradient of a pixel has a set of its own, the pixel and its neighbour: T = {k, n} [Kettunen 2015].
+/// Calls `visit(inner, gradient)`, where `gradient` is the member of PixelSample that the set is for. Neighbours
+/// outside the image have none.
+template <class Visit>
+void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
+    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
+    if (p.x + 1 < pass.size.x) {
+        set.assign({p.x, p.y, p.x + 2, p.y + 1});
+        visit(pixel, &PixelSample::dx);
+    }
+    if (p.y + 1 < pass.size.y) {
+        set.assign({p.x, p.y, p.x + 1, p.y + 2});
+        visit(pixel, &PixelSample::dy);
+    }
+}
+
+/// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
+/// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all)`; T is `all`,
+/// row by row.
+template <class Visit>
+void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
+    pass.grid.for_each_part(block, [&](PixelRect inner) {
+        const PixelRect all = inner.with_halo(pass.size);
+        set.assign(all);
+        visit(inner, all);
+    });
+}
+
+} // namespace tessera

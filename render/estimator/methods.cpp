@@ -1,0 +1,82 @@
+#include "render/estimator/method_sets.h"
+#include "render/estimator/pass.h"
+
+namespace tessera {
+
+/// Path tracing: T = {k}. The weights 1/R are then those of emitter against BSDF sampling, which every base path
+/// has already taken [Veach 1997].
+void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+            trace_pixel(pass, worker.tracer, x, y, worker.path);
+            const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
+            add_sample(pass, x, y, sample, worker, film);
+        }
+}
+
+/// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
+/// generalized path reusing [Bauszat 2017, 3.1].
+void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
+    for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
+        share_light(pass, pass.settings.roulette, worker);
+        for (int i = 0; i < worker.set.size(); ++i) {
+            const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
+            add_sample(pass, p.x, p.y, worker.set.sample(i, worker.reuse), worker, film);
+        }
+    });
+}
+
+/// Gradient-domain path tracing [Kettunen 2015]: the primal is path tracing's, each gradient is the difference of
+/// two neighbours that share the light of their base paths. Counted are the shifts to the pixel itself.
+void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+            const BasePath& path = worker.base.at(x, y);
+            PixelSample sample{path.radiance(), Rgb(0), Rgb(0), path.very_direct};
+            for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
+                share_light(pass, RouletteKind::none, worker);
+                sample.*gradient = worker.set.radiance[1] - worker.set.radiance[0];
+                sample.reuse += worker.set.reuse[0];
+            });
+            add_sample(pass, x, y, sample, worker, film);
+        }
+}
+
+namespace {
+
+/// Adds what the inner pixels of worker.set got. `all` is the rectangle of the set.
+void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
+    for (int y = inner.y0; y < inner.y1; ++y)
+        for (int x = inner.x0; x < inner.x1; ++x) {
+            const int i = (y - all.y0) * all.width() + x - all.x0;
+            const Rgb* here = worker.set.radiance.data() + i;
+            PixelSample sample = worker.set.sample(i, worker.reuse);
+            if (x + 1 < all.x1)
+                sample.dx = here[1] - here[0];
+            if (y + 1 < all.y1)
+                sample.dy = here[all.width()] - here[0];
+            if (pass.settings.primal == PrimalSource::base)
+                sample.primal = worker.base.at(x, y).radiance();
+            add_sample(pass, x, y, sample, worker, film);
+        }
+}
+
+} // namespace
+
+/// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
+/// gradients are the differences of these shares: sum of (c_n - c_m) / R.
+void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
+    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all) {
+        share_light(pass, pass.settings.roulette, worker);
+        add_tile(pass, inner, all, worker, film);
+    });
+}
+
+} // namespace tessera

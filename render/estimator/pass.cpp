@@ -1,0 +1,114 @@
+#include "render/estimator/pass.h"
+
+#include <cmath>
+
+namespace tessera {
+
+namespace {
+
+/// The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
+glm::vec2 subpixel_of(std::uint64_t seed, int index) {
+    const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(0, Draw::direction);
+    const auto in_unit = [](double a) { return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f); };
+    return {in_unit(start.x + index * 0.7548776662466927), in_unit(start.y + index * 0.5698402909980532)};
+}
+
+Rgb light_along(const Ray& ray, const Tracer& tracer) {
+    Vertex scratch;
+    return tracer.light_along(ray, scratch, RayKind::camera).radiance;
+}
+
+} // namespace
+
+Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
+           const ReusePlan& plan, int index_)
+    : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
+      projection_(camera, size_), subpixel_(subpixel_of(settings_.seed, index_)) {}
+
+Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
+    const int n = settings.very_direct_grid;
+    Rgb sum(0);
+    for (int i = 0; i < n * n; ++i)
+        sum +=
+            light_along(camera_ray(x, y, (glm::vec2(i % n, i / n) + subpixel_) / static_cast<float>(n)), tracer);
+    return sum / static_cast<float>(n * n);
+}
+
+void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
+    rect_ = rect;
+    const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
+    if (paths_.size() < count)
+        paths_.resize(count);
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+            trace_pixel(pass, tracer, x, y, paths_[index(x, y)]);
+}
+
+std::vector<PixelRect> blocks_of(const Pass& pass) {
+    constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
+    const int tile = pass.settings.tile;
+    const int edge = tile * std::max(1, usual_edge / tile);
+    const glm::ivec2 origin = pass.grid.origin;
+    std::vector<PixelRect> blocks;
+    for (int y = origin.y; y < pass.size.y; y += edge)
+        for (int x = origin.x; x < pass.size.x; x += edge)
+            if (!PixelRect{x, y, x + edge, y + edge}.clipped(pass.size).empty())
+                blocks.push_back({x, y, x + edge, y + edge});
+    return blocks;
+}
+
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    switch (pass.settings.method) {
+    case Method::pt:
+        return render_pt(pass, block, worker, film);
+    case Method::pr:
+        return render_pr(pass, block, worker, film);
+    case Method::gpt:
+        return render_gpt(pass, block, worker, film);
+    case Method::gpr:
+        return render_gpr(pass, block, worker, film);
+    }
+}
+
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
+    trace_base_path(tracer, pass.camera_ray(x, y), pass.pixel_angle(), pass.random(x, y), path);
+    if (is_finite(path.radiance() + path.very_direct))
+        return;
+    tracer.counters.refuse({pass.index, y, x});
+    path.reset(path.random, path.light_samples());
+}
+
+void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look) {
+    const PixelRect area = block.clipped(pass.size);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            look(x, y) = light_along(pass.camera_ray(x, y, glm::vec2(0.5f)), tracer);
+}
+
+void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
+    if (film.has_lamp_edge(x, y))
+        sample.very_direct = pass.very_direct(worker.tracer, x, y);
+    film.add(x, y, pass.index, sample, worker.counters);
+}
+
+ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker) {
+    const BasePath& path = *worker.set.paths[static_cast<std::size_t>(k)];
+    const Rgb light = worker.reuse.shared_light(path);
+    ReuseDecision decision;
+    if (is_black(light)) {
+        ++worker.counters.dark_paths;
+        return decision;
+    }
+    decision.survival = roulette.survival(light);
+    if (path.random.draw(0, Draw::reuse_survival) < decision.survival)
+        decision.scale = 1 / decision.survival;
+    ++(decision.survives() ? worker.counters.reused_paths : worker.counters.skipped_paths);
+    worker.set.count(decision, k);
+    return decision;
+}
+
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
+    share_light(pass, kind, worker, [](int, const ReuseDecision&) {});
+}
+
+} // namespace tessera

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "render/estimator/film.h"
+#include "render/estimator/path_reuse.h"
+#include "render/estimator/reuse_policy.h"
+#include "render/estimator/sampling_set.h"
+#include "render/estimator/settings.h"
+#include "render/estimator/tile_grid.h"
+
+#include <vector>
+
+namespace tessera {
+
+/// One sample a pixel of a whole image: what all its blocks have in common.
+class Pass {
+public:
+    /// `index` counts passes from 0. Keeps references to scene, settings and plan.
+    Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+         const ReusePlan& plan, int index);
+
+    const Scene& scene;
+    const RenderSettings& settings;
+    const glm::ivec2 size;
+    const int index;
+    const TileGrid grid;
+
+    /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that
+    /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
+    /// low-discrepancy sequence.
+    Ray camera_ray(int x, int y) const { return camera_ray(x, y, subpixel_); }
+    /// The same at another position within the pixel, in [0, 1]^2.
+    Ray camera_ray(int x, int y, glm::vec2 subpixel) const { return projection_.ray(glm::vec2(x, y) + subpixel); }
+
+    /// Very direct light of a pixel by a grid of camera rays, each where camera_ray() is in its cell.
+    Rgb very_direct(const Tracer& tracer, int x, int y) const;
+
+    float pixel_angle() const { return projection_.pixel_angle(); }
+
+    Random random(int x, int y) const {
+        return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
+                      static_cast<std::uint32_t>(index));
+    }
+
+private:
+    Projection projection_;
+    glm::vec2 subpixel_;
+};
+
+/// The base paths of a rectangle of pixels.
+class BaseBlock {
+public:
+    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect);
+    const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
+
+private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>((y - rect_.y0) * rect_.width() + x - rect_.x0);
+    }
+
+    PixelRect rect_{0, 0, 0, 0};
+    std::vector<BasePath> paths_; // never shrinks, so that vertices keep their memory
+};
+
+/// What a worker carries from block to block: memory and counts.
+struct Worker {
+    Worker(const Scene& scene, const RenderSettings& settings)
+        : tracer{scene, counters, settings}, reuse(tracer, settings, settings.weight_threshold) {}
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    Counters counters;
+    double cpu_seconds = 0;
+    Tracer tracer;
+    PathReuse reuse;
+    BaseBlock base;
+    BasePath path;
+    SamplingSet set;
+};
+
+/// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
+/// image.
+std::vector<PixelRect> blocks_of(const Pass& pass);
+
+/// Renders one block of blocks_of() into the film with the pass's method.
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+
+/// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
+/// would spoil all pixels that share it.
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
+
+/// Very direct light of the block's pixels, along a ray through the middle of each.
+void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look);
+
+/// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
+/// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the
+/// passes, it would depend on where samples lie, and pixels with light from a mere speck would become too bright.)
+void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film);
+
+/// Whether base path k of worker.set is reused. Counted.
+ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);
+
+/// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
+/// holds what each has got.
+/// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
+///              a path that is not adds nothing anywhere [Bauszat 2017, 3.3]
+/// @param watch is called as watch(k, decision) when the light of path k has been shared out; worker.reuse then
+///              knows how that went
+template <class Watch>
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
+    SamplingSet& set = worker.set;
+    set.collect(worker.base);
+    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
+    worker.reuse.begin(set.paths);
+    for (int k = 0; k < set.size(); ++k) {
+        const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
+        worker.reuse.share(k, decision.scale, set.radiance);
+        set.count(worker.reuse.outcomes(), k);
+        watch(k, decision);
+    }
+}
+/// The same, unwatched.
+void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
+
+// The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.
+void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
+
+} // namespace tessera

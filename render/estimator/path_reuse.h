@@ -1,0 +1,97 @@
+#pragma once
+
+#include "render/estimator/shift.h"
+
+#include <span>
+
+namespace tessera {
+
+/// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
+/// pixel m
+///   sum over base paths k in T and their light paths x of  c_m(x) / R(x),  R(x) = sum over n in T of r_n(x)
+/// where c_m and r_m are value and density of x shifted to m: the balance heuristic over all pixels of T
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. A method is a choice of T; differences between pixels of one T are
+/// gradients.
+class PathReuse {
+public:
+    /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this
+    ///                          share of the even weight 1/|T| if no new edge were blocked is shared
+    ///                          out with a probability in proportion to it [after Bekaert 2002];
+    ///                          0: all are
+    PathReuse(const Tracer& tracer, const ShiftSettings& settings, float weight_threshold)
+        : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold), shift_(tracer, settings) {}
+
+    /// Begins with another sampling set.
+    /// @param set  the base paths of T, one a pixel, at most most_lanes; they must stay until the next begin()
+    void begin(std::span<const BasePath* const> set);
+
+    /// @param base      the path whose light is shared out, an index into the set
+    /// @param scale     factor on what is shared: one over the probability that this path is reused; 0: it is
+    ///                  not, and only the light that is never shifted is added, to the base's own
+    ///                  pixel
+    /// @param radiance  one a pixel of T; what the path brings is added
+    void share(int base, float scale, std::span<Rgb> radiance);
+
+    /// What of a path's radiance is shifted to others, ...
+    Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
+    /// ... in luminance (negative: the path sees nothing), ...
+    float shared_luminance(const BasePath& path) const {
+        return path.empty() ? -1 : luminance(shared_light(path));
+    }
+    /// ... and what is not.
+    Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }
+
+    /// How the shifts of the last share() to each pixel of T ended; meaningless for the base's own. Empty: no
+    /// shift was tried.
+    std::span<const ShiftOutcome> outcomes() const { return {outcomes_.values.data(), tried_ ? set_.size() : 0}; }
+
+    // --- what became of the light paths of the last share(), for who wants to look; only where a shift was tried
+    // ---
+
+    const LightPaths& light_paths() const { return light_; }
+    const OffsetPaths& offset_paths() const { return paths_; }
+    /// 1/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
+    /// shared out.
+    float weight(int slot, float scale) const {
+        return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot) : 0;
+    }
+    /// From now on what the shifts do is noted in `trace`, anew at each share(); null: no longer.
+    void record(OffsetTrace* trace) {
+        trace_ = trace;
+        shift_.record(trace);
+    }
+
+private:
+    bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
+    void shift_to_all(int base);
+    void replay_to_all(int base);
+    void trace_replay(int m);
+    void judge(int base);
+    void play_weight_roulette(const Random& random);
+    void balance(int base, float scale, std::span<Rgb> radiance) const;
+    float density_sum(int slot) const;
+    bool is_shared(int slot) const {
+        return light_.is_alive(slot) && slot_scale_[static_cast<std::size_t>(slot)] > 0;
+    }
+
+    Tracer tracer_;
+    ShiftSettings settings_;
+    float weight_threshold_;
+    std::span<const BasePath* const> set_;
+    PrimaryVertices primary_; ///< what the pixels of T see; empty until it is needed
+    Shift shift_;
+    LightPaths light_;
+    OffsetPaths paths_;
+    PendingEdges edges_;
+    BasePath replayed_;
+    LightPaths replayed_light_;
+    std::vector<float>
+        slot_scale_; ///< one over the probability that the roulette on small weights kept it; 0: it did not
+    OutcomeLanes outcomes_;
+    bool tried_ = false;
+    OffsetTrace* trace_ = nullptr;
+    LaneMask arrived_; ///< where anything came through
+    LaneMask lost_;    ///< where an edge was blocked
+};
+
+} // namespace tessera

@@ -1,0 +1,102 @@
+#include "render/estimator/reuse_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Pixels that should share where V = l = 1: of 10, 20 and more the best on the Cornell box, kitchen, bathroom and
+/// veach-ajar together.
+constexpr double sharers = 20;
+
+} // namespace
+
+ReusePlan::ReusePlan(glm::ivec2 size, const RenderSettings& settings)
+    : tile_(settings.tile), adapts_(settings.adapt_tile), size_(size),
+      cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge) {}
+
+void ReusePlan::learn(const Image<float>& luminance) {
+    if (!adapts_)
+        return;
+    for (int y = 0; y < luminance.height(); ++y)
+        for (int x = 0; x < luminance.width(); ++x)
+            learn(x, y, luminance(x, y));
+}
+
+void ReusePlan::learn(int x, int y, float luminance) {
+    const double l = luminance;
+    if (l < 0)
+        return;
+    Cell& cell = cells_(x / cell_edge, y / cell_edge);
+    cell.paths += 1;
+    cell.lit += l > 0;
+    cell.sum += l;
+    cell.squares += l * l;
+}
+
+/// That of the pixel in its middle.
+glm::ivec2 ReusePlan::cell_of(PixelRect tile) const {
+    const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
+    return glm::clamp(middle, glm::ivec2(0), size_ - 1) / cell_edge;
+}
+
+PixelRect ReusePlan::evidence(PixelRect tile) const {
+    const glm::ivec2 from = cell_of(tile) * cell_edge;
+    return PixelRect{from.x, from.y, from.x + cell_edge, from.y + cell_edge}.clipped(size_);
+}
+
+int ReusePlan::part_edge(PixelRect tile) const {
+    if (!adapts_)
+        return tile_;
+    const glm::ivec2 at = cell_of(tile);
+    const Cell& cell = cells_(at.x, at.y);
+    if (!(cell.sum > 0))
+        return tile_;
+    const double relative_variance = cell.squares * cell.paths / (cell.sum * cell.sum) - 1;
+    const double edge = std::sqrt(sharers * std::max(relative_variance, 0.0) * cell.paths / cell.lit);
+    // A whole number of parts, all of nearly the same size.
+    const int parts = static_cast<int>(std::ceil(tile_ / std::clamp(edge, 1.0, static_cast<double>(tile_))));
+    return (tile_ + parts - 1) / parts;
+}
+
+namespace {
+
+/// Of the luminance of what the paths share.
+float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const> set) {
+    double sum = 0, squares = 0; // the squares of a float may be beyond floats
+    for (const BasePath* path : set) {
+        const double l = luminance(reuse.shared_light(*path));
+        sum += l;
+        squares += l * l;
+    }
+    const double count = static_cast<double>(set.size()), mean = sum / count;
+    return static_cast<float>(std::sqrt(std::max(squares / count - mean * mean, 0.0)));
+}
+
+} // namespace
+
+ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
+                             std::span<const BasePath* const> set)
+    : q_min_(settings.q_min) {
+    switch (kind) {
+    case RouletteKind::relative:
+        threshold_ = settings.rr_scale * standard_deviation(reuse, set);
+        break;
+    case RouletteKind::absolute:
+        threshold_ = settings.rr_delta;
+        break;
+    case RouletteKind::none:
+        break;
+    }
+}
+
+float ReuseRoulette::survival(Rgb light) const {
+    const float l = luminance(light);
+    return l < threshold_ ? std::max(l / threshold_, q_min_) : 1;
+}
+
+} // namespace tessera

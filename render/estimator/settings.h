@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace tessera {
+
+inline constexpr int most_edges = 64; ///< of a light path
+
+/// What decides how far base paths go and what they look for.
+struct PathSettings {
+    int max_depth = 8;      ///< edges of a light path; 1: emission only [1, 64]
+    int light_samples = 1;  ///< points on lights drawn at every vertex [1, 16]
+    int roulette_depth = 0; ///< edges beyond which a path goes on by Russian roulette; 0: never by it [0, 64]
+
+    bool operator==(const PathSettings&) const = default;
+};
+
+/// How a base path is taken to another pixel.
+enum class ShiftKind : std::uint8_t {
+    half_vector,        ///< half vectors are copied until two vertices can be connected [Kettunen 2015]
+    reconnection,       ///< x_1 to x_2 alone; direct light stays where it is [Bekaert 2002]
+    replay,             ///< the offset takes the same random numbers, all the way [Hua 2019, 3.1]
+    replay_reconnection ///< random numbers are replayed until two vertices can be connected [Hua 2019, 3.1]
+};
+
+struct ShiftSettings {
+    ShiftKind shift = ShiftKind::half_vector;
+    float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015] [0, 1]
+    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at x_1 [0, 1000]
+
+    bool operator==(const ShiftSettings&) const = default;
+};
+
+enum class Method : std::uint8_t { pt, pr, gpt, gpr };
+inline constexpr Method all_methods[] = {Method::pt, Method::pr, Method::gpt, Method::gpr};
+
+/// "pt", "pr", "gpt", "gpr": the names of the command line.
+std::string_view short_name(Method method);
+/// "Path tracing", ...: the names of the panel.
+std::string_view long_name(Method method);
+/// Empty: no such method.
+std::optional<Method> method_from_name(std::string_view short_name);
+
+/// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
+enum class Pattern : std::uint8_t {
+    tile, ///< a square of `tile` x `tile` pixels
+    rooks ///< `tile` pixels on a square of that edge, one in each row and column [Bekaert 2002]
+};
+
+/// What decides on the probability with which a base path is reused.
+enum class RouletteKind : std::uint8_t {
+    relative, ///< its luminance against the noise of its sampling set (reuse_roulette.h)
+    absolute, ///< its luminance against rr_delta [Bauszat 2017, 3.3]
+    none      ///< every path is reused
+};
+
+/// Where G-PR has its primal image from.
+enum class PrimalSource : std::uint8_t {
+    reuse, ///< what the sampling sets share out
+    base   ///< each pixel's own base path
+};
+
+/// Everything beside the scene, the camera and the size that decides the picture's bits. What each setting is
+/// called, and its limits: settings_table.h.
+struct RenderSettings : PathSettings, ShiftSettings {
+    Method method = Method::gpr;
+    int tile = 6;           ///< pixels along a tile's edge [1, 16]
+    bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_plan.h)
+    bool jitter = true;     ///< the grid of tiles is moved every pass
+    Pattern pattern = Pattern::tile;
+    RouletteKind roulette = RouletteKind::relative;
+    float rr_scale = 1;         ///< relative roulette's threshold, in standard deviations of the sampling set
+    float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
+    float q_min = 0.1f;         ///< least probability that a path is reused (0, 1]
+    float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none [0, 1]
+    int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge [1, 8]
+    PrimalSource primal = PrimalSource::reuse;
+    std::uint64_t seed = 0;
+
+    bool operator==(const RenderSettings&) const = default;
+};
+
+/// Whether the method measures gradients.
+inline bool has_gradients(Method method) {
+    return method == Method::gpt || method == Method::gpr;
+}
+
+/// Whether its pixels share the light of base paths by tiles or patterns.
+inline bool reuses_paths(Method method) {
+    return method == Method::pr || method == Method::gpr;
+}
+
+/// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.
+inline bool has_tiles_to_cut(const RenderSettings& s) {
+    return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
+}
+
+} // namespace tessera

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/estimator/reuse_policy.h"
+#include "render/estimator/settings.h"
+
+#include <vector>
+
+namespace tessera {
+
+/// Which pixels of one pass share their light: a grid of tiles, what these are cut into, and N-rooks patterns.
+class TileGrid {
+public:
+    /// `pass` counts from 0. Keeps references to settings and plan, which is the one that this pass had.
+    TileGrid(glm::ivec2 size, const RenderSettings& settings, const ReusePlan& plan, int pass);
+
+    /// Where the grid begins, in (-tile, 0]: with jitter, moved every pass, so that no pixel is always at a tile's
+    /// edge.
+    const glm::ivec2 origin;
+    const glm::ivec2 size; ///< of the image
+
+    /// The tile of a pixel; it may reach beyond the image.
+    PixelRect tile_at(glm::ivec2 pixel) const;
+    /// The square of the tile, cut by the plan and at the image's border, that the pixel is in.
+    PixelRect part_at(glm::ivec2 pixel) const;
+    /// The edge of the squares into which a tile is cut.
+    int part_edge(PixelRect tile) const { return plan_.part_edge(tile); }
+
+    /// Calls `visit(part)` for the squares, not empty, into which the plan cuts the tiles of a block.
+    template <class Visit>
+    void for_each_part(PixelRect block, Visit&& visit) const {
+        for_each_square(block, settings_.tile, [&](PixelRect tile) {
+            for_each_square(tile, part_edge(tile), [&](PixelRect part) {
+                if (const PixelRect inner = part.clipped(size); !inner.empty())
+                    visit(inner);
+            });
+        });
+    }
+
+    /// A permutation of the columns of a tile, another one for every tile and pass [Fisher and Yates 1938].
+    void shuffle_columns(PixelRect tile, std::vector<int>& columns) const;
+    /// N-rooks patterns: N pixels on an N x N square, one in each row and column. Moved along the rows, one
+    /// permutation makes N patterns, in which every pixel of the square occurs once [Bekaert 2002]. Calls
+    /// `visit(x, y)` for the pixels of pattern `index` that lie in the image.
+    template <class Visit>
+    void for_each_rook(PixelRect tile, const std::vector<int>& columns, int index, Visit&& visit) const {
+        const int n = tile.width();
+        for (int row = 0; row < n; ++row) {
+            const int x = tile.x0 + (columns[static_cast<std::size_t>(row)] + index) % n, y = tile.y0 + row;
+            if (x >= 0 && x < size.x && y >= 0 && y < size.y)
+                visit(x, y);
+        }
+    }
+    /// Which of the patterns of its tile a pixel is in.
+    int pattern_at(glm::ivec2 pixel, PixelRect tile, const std::vector<int>& columns) const;
+
+private:
+    const RenderSettings& settings_;
+    const ReusePlan& plan_;
+    int pass_;
+};
+
+} // namespace tessera

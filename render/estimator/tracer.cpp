@@ -1,0 +1,117 @@
+#include "render/estimator/tracer.h"
+
+#include "render/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace tessera {
+
+namespace {
+
+/// The value at barycentric coordinates of an attribute given at the corners.
+template <class T>
+T interpolate(T a, T b, T c, glm::vec2 barycentric) {
+    return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
+}
+
+/// Derivatives of the position by u and v over a triangle. False: uv says nothing of directions.
+bool position_derivatives(const ShapeRecord& shape, glm::uvec3 t, glm::vec3& by_u, glm::vec3& by_v) {
+    const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
+    const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
+    by_u = edge1; // without uvs, barycentric coordinates are the uv
+    by_v = edge2;
+    if (!shape.uvs)
+        return true;
+    const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
+    const float determinant = d1.x * d2.y - d1.y * d2.x;
+    by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
+    by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
+    return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
+}
+
+/// The unit normal that relief makes of `normal`, on the same side.
+glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
+    glm::vec3 bent;
+    if (relief.kind == Relief::Kind::bump) {
+        // The surface moved along its normal by the height h: dp/du + n dh/du, with dp/du made tangent to the
+        // normal of shading [Blinn 1978].
+        const glm::vec2 gradient = relief.scale * relief.map.gradient(at);
+        bent = glm::cross(by_u + normal * (gradient.x - glm::dot(normal, by_u)),
+                          by_v + normal * (gradient.y - glm::dot(normal, by_v)));
+    } else {
+        const glm::vec3 coded = 2.0f * relief.map.evaluate(at) - 1.0f;
+        const glm::vec3 tangent = glm::normalize(by_u - normal * glm::dot(normal, by_u));
+        bent = coded.x * tangent + coded.y * glm::cross(normal, tangent) + coded.z * normal;
+    }
+    const float length = glm::length(bent);
+    if (!(length > 0) || !std::isfinite(length))
+        return normal;
+    return bent * std::copysign(1 / length, glm::dot(bent, normal));
+}
+
+/// Bsdf::terminator for normals bent by an angle with this cosine [Estevez 2019, 12.3].
+float terminator_of(const Relief& relief, float cosine) {
+    const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
+    return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
+}
+
+} // namespace
+
+LightPoint Vertex::light_toward(glm::vec3 direction) const {
+    const bool front = glm::dot(geometric_normal, direction) > 0;
+    return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
+}
+
+void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) {
+    const ShapeRecord& shape = scene.record(hit.shape);
+    v.position = ray.origin + hit.distance * ray.direction;
+    if (hit.distance > 8 * scene.radius()) {
+        // From so far away, that is less exact than steps off surfaces allow for.
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        v.position =
+            interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
+    }
+    v.geometric_normal = hit.geometric_normal;
+    glm::vec3 normal = v.geometric_normal;
+    if (shape.normals) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        const glm::vec3 n0 = shape.normals[t.x], n1 = shape.normals[t.y], n2 = shape.normals[t.z];
+        if (glm::dot(n0 + n1 + n2, v.geometric_normal) < 0)
+            v.geometric_normal = -v.geometric_normal; // as front_normal() has it
+        const glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
+        const float length = glm::length(n);
+        normal = length > 0 ? n * (1 / length) : v.geometric_normal;
+    }
+    SurfacePoint at{hit.barycentric};
+    if (shape.uvs) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
+    }
+    if (shape.colors) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        at.vertex_color = interpolate(shape.colors[t.x], shape.colors[t.y], shape.colors[t.z], hit.barycentric);
+    }
+    // In its place, as a copy of what was only just written, number by number, has to wait.
+    new (&v.bsdf) Bsdf(shape.material->resolve(at));
+    v.bsdf.terminator = -1;
+    glm::vec3 bent = normal;
+    if (shape.material->relief) {
+        glm::vec3 by_u, by_v;
+        if (position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v)) {
+            bent = bend(*shape.material->relief, at, normal, by_u, by_v);
+            v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
+        }
+    }
+    const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
+    const Frame frame(side * bent);
+    if (v.bsdf.is_bent())
+        v.bsdf.unbent_normal = frame.to_local(side * normal);
+    v.to_previous = frame.to_local(-ray.direction);
+    v.frame = frame;
+    v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;
+    v.emitter_pdf_a = shape.emitter_pdf_a;
+}
+
+} // namespace tessera

@@ -1,0 +1,146 @@
+#pragma once
+
+#include "render/estimator/counters.h"
+#include "render/estimator/settings.h"
+#include "render/sampling/sampling.h"
+#include "render/scene/light.h"
+#include "render/scene/scene.h"
+#include "render/surface/bsdf.h"
+
+#include <optional>
+
+namespace tessera {
+
+class Scene;
+struct Hit;
+struct Ray;
+
+/// A point of a path on a surface, with everything that a scattering there needs: textures are looked up once.
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 geometric_normal; ///< unit, of the triangle, on its front side
+    Frame frame;                ///< of shading; on a two-sided material on the side of to_previous
+    Bsdf bsdf;
+    glm::vec3 to_previous;   ///< unit, in `frame`
+    Rgb emitted{0};          ///< radiance given off on the front side; black: no light
+    float emitter_pdf_a = 0; ///< density of emitter sampling here, per area; 0: no light
+
+    glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
+    glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
+
+    /// The light of this vertex toward a unit direction (world, away from the surface); black from behind.
+    LightPoint light_toward(glm::vec3 direction) const;
+};
+
+/// Makes `vertex` the one at `hit` on `ray`. (In place: a vertex is large, and paths are made of them.)
+void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& vertex);
+
+/// Shoots the rays of paths and counts them; knows the lights as emitter sampling sees them.
+struct Tracer {
+    const Scene& scene;
+    Counters& counters;
+    PathSettings settings;
+
+    /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
+    /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
+    /// that of all light samples of a vertex together, which is what the balance heuristic weighs [Veach
+    /// 1997, 9.2.2].
+    bool sample_light(glm::vec3 receiver, const Random& random, int index, int sample, LightPoint& light) const {
+        if (!scene.lights().sample(receiver, random, index + sample * (most_edges + 1), light))
+            return false;
+        light.pdf *= density_factor();
+        return true;
+    }
+
+    /// The light of a vertex toward a unit direction (world, away from the surface); black from behind.
+    LightPoint light_of(const Vertex& vertex, glm::vec3 direction) const {
+        LightPoint light = vertex.light_toward(direction);
+        light.pdf *= density_factor();
+        return light;
+    }
+
+    /// The light of the environment from a unit direction; black: none.
+    LightPoint environment_toward(glm::vec3 direction) const {
+        LightPoint light = scene.lights().environment_toward(direction);
+        light.pdf *= density_factor();
+        return light;
+    }
+
+    float density_factor() const { return static_cast<float>(settings.light_samples); }
+
+    /// Makes `vertex` what the ray meets first. False: it leaves the scene.
+    bool closest(const Ray& ray, Vertex& vertex, RayKind kind) const {
+        ++counters.rays[static_cast<std::size_t>(kind)];
+        Hit hit;
+        if (!scene.intersector().closest(ray, hit))
+            return false;
+        make_vertex(scene, hit, ray, vertex);
+        return true;
+    }
+
+    enum class Met : std::uint8_t { light, darkness, infinity };
+
+    /// The same for a ray on which only a light is of interest: `vertex` is made where it meets one.
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind) const {
+        if (!scene.lights().may_be_hit(ray))
+            return Met::darkness;
+        ++counters.rays[static_cast<std::size_t>(kind)];
+        Hit hit;
+        if (!scene.intersector().closest(ray, hit))
+            return Met::infinity;
+        if (scene.record(hit.shape).emitter_pdf_a <= 0)
+            return Met::darkness;
+        make_vertex(scene, hit, ray, vertex);
+        return Met::light;
+    }
+
+    /// The light that a ray runs into; black: none. `scratch` is overwritten.
+    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind) const {
+        switch (closest_light(ray, scratch, kind)) {
+        case Met::light:
+            return light_of(scratch, -ray.direction);
+        case Met::infinity:
+            return environment_toward(ray.direction);
+        case Met::darkness:
+            break;
+        }
+        return {};
+    }
+
+    /// The ray that leaves a vertex in a unit direction (world).
+    Ray leave(const Vertex& from, glm::vec3 direction) const {
+        return {scene.intersector().off_surface(from.position, from.geometric_normal, direction), direction};
+    }
+
+    /// The stretch between two surfaces, which lie in the unit direction `direction` of each other.
+    Segment between(glm::vec3 from, glm::vec3 from_normal, glm::vec3 to, glm::vec3 to_normal,
+                    glm::vec3 direction) const {
+        return {scene.intersector().off_surface(from, from_normal, direction),
+                scene.intersector().off_surface(to, to_normal, -direction)};
+    }
+
+    /// The stretch from a surface to a light that lies in the unit direction `direction` of it.
+    Segment toward_light(const Vertex& from, const LightPoint& light, glm::vec3 direction) const {
+        if (!light.is_at_infinity())
+            return between(from.position, from.geometric_normal, light.position, light.normal, direction);
+        const float way_out = 1.01f * (glm::distance(from.position, scene.center()) + scene.radius());
+        const glm::vec3 start = scene.intersector().off_surface(from.position, from.geometric_normal, direction);
+        return {start, start + way_out * direction};
+    }
+
+    bool occluded(const Segment& segment, RayKind kind) const {
+        ++counters.rays[static_cast<std::size_t>(kind)];
+        return scene.intersector().occluded(segment);
+    }
+
+    /// The same for new edges of shifts that share an end, or are parallel: packets.
+    void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const {
+        std::uint64_t rays = 0;
+        for (int lane = 0; lane < count; ++lane)
+            rays += asked[lane] != 0;
+        counters.rays[static_cast<std::size_t>(RayKind::shift_edge)] += rays;
+        scene.intersector().occluded(segments, asked, count, blocked);
+    }
+};
+
+} // namespace tessera

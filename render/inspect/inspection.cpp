@@ -1,0 +1,152 @@
+#include "render/inspect/inspection.h"
+
+#include "render/estimator/method_sets.h"
+#include "render/estimator/pass.h"
+#include "render/inspect/onlooker.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace tessera {
+
+namespace {
+
+/// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
+/// for each; of PT and G-PT those of the pixel.
+template <class Visit>
+void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
+    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
+    const auto visit_inner = [&](PixelRect inner, auto) { visit(inner); };
+    switch (pass.settings.method) {
+    case Method::pt:
+        set.assign(pixel);
+        return visit(pixel);
+    case Method::pr:
+        return for_each_pr_set(pass, tile, set, visit);
+    case Method::gpt:
+        return for_each_gpt_set(pass, p, set, visit_inner);
+    case Method::gpr:
+        return for_each_gpr_set(pass, tile, set, visit_inner);
+    }
+}
+
+PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
+    PixelRect around{pixels[0].x, pixels[0].y, pixels[0].x + 1, pixels[0].y + 1};
+    for (glm::ivec2 p : pixels)
+        around = {std::min(around.x0, p.x), std::min(around.y0, p.y), std::max(around.x1, p.x + 1),
+                  std::max(around.y1, p.y + 1)};
+    return around;
+}
+
+/// Shares the light of worker.set, and looks on; closely at what `pixel` gets.
+InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
+    InspectedSet result{worker.set.pixels, {}, {}, {}};
+    for (glm::ivec2 p : result.pixels)
+        result.is_border.push_back(!inner.contains(p));
+    worker.base.trace(pass, worker.tracer, bounds(result.pixels));
+    Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
+    const RouletteKind kind =
+        reuses_paths(pass.settings.method) ? pass.settings.roulette : RouletteKind::none; // as in the methods
+    share_light(pass, kind, worker, onlooker);
+    return result;
+}
+
+/// Whether the film refuses what the pixel got: its light, or a difference to that of a neighbour.
+bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
+    // The image's last pixel has no neighbours: with base paths as the primal, nothing is made of what it got.
+    if (settings.method == Method::gpr && settings.primal == PrimalSource::base && pixel == set.pixels.back())
+        return false;
+    const auto is_bad = [&](glm::ivec2 p) { return set.index_of(p) >= 0 && !is_finite(set.radiance(p)); };
+    return is_bad(pixel) || (has_gradients(settings.method) &&
+                             (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
+}
+
+} // namespace
+
+int InspectedSet::index_of(glm::ivec2 pixel) const {
+    const auto found = std::find(pixels.begin(), pixels.end(), pixel);
+    return found == pixels.end() ? -1 : static_cast<int>(found - pixels.begin());
+}
+
+Rgb InspectedSet::radiance(int m, int count) const {
+    Rgb sum(0);
+    for (int k = 0; k < count; ++k)
+        sum += shift(k, m).value;
+    return sum;
+}
+
+std::vector<const InspectedShift*> InspectedSet::to(glm::ivec2 pixel) const {
+    std::vector<const InspectedShift*> result;
+    for (int k = 0; k < size(); ++k)
+        result.push_back(&shift(k, index_of(pixel)));
+    return result;
+}
+
+std::vector<const InspectedShift*> InspectedSet::from(glm::ivec2 pixel) const {
+    std::vector<const InspectedShift*> result;
+    const int k = index_of(pixel);
+    for (int m = 0; m < size(); ++m)
+        if (m != k)
+            result.push_back(&shift(k, m));
+    return result;
+}
+
+int TileInspection::base_count() const {
+    int count = 0;
+    for (const InspectedSet& set : sets)
+        count += set.size();
+    return count;
+}
+
+Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+                   const ReusePlan& plan, int index, glm::ivec2 pixel) {
+    const Pass pass(scene, camera, size, settings, plan, index);
+    Worker worker(scene, settings);
+    Inspection result{pixel, size, index, settings.method, {}, Rgb(0), Rgb(0), false, {}};
+    // Not by trace_pixel(), which empties a path that is to be refused.
+    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y), pass.pixel_angle(),
+                    pass.random(pixel.x, pixel.y), worker.path);
+    result.path = look_at(worker.path);
+    result.radiance = worker.path.radiance();
+    result.very_direct = worker.path.very_direct;
+    result.is_refused = !is_finite(result.radiance + result.very_direct);
+    for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
+        if (inner.contains(pixel) && worker.set.contains(pixel))
+            result.sets.push_back(look_at(pass, inner, pixel, worker));
+    });
+    for (const InspectedSet& set : result.sets)
+        result.is_refused = result.is_refused || is_refused(set, pixel, settings);
+    return result;
+}
+
+TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
+                            const RenderSettings& settings, const ReusePlan& plan, int index, glm::ivec2 pixel) {
+    const Pass pass(scene, camera, size, settings, plan, index);
+    Worker worker(scene, settings);
+    const PixelRect tile = reuses_paths(settings.method) ? pass.grid.tile_at(pixel)
+                                                         : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
+    TileInspection result{tile, index, settings, {}};
+    for_each_set_of_tile(pass, pixel, worker.set,
+                         [&](PixelRect inner) { result.sets.push_back(look_at(pass, inner, {}, worker)); });
+    return result;
+}
+
+ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+                      int pass, glm::ivec2 pixel, std::stop_token stop) {
+    ReusePlan plan(size, settings);
+    if (!settings.adapt_tile || !has_tiles_to_cut(settings) || settings.tile == 1)
+        return plan;
+    const PixelRect seen = plan.evidence(TileGrid(size, settings, plan, pass).tile_at(pixel));
+    Worker worker(scene, settings);
+    for (int i = 0; i < pass && !stop.stop_requested(); ++i) {
+        const Pass earlier(scene, camera, size, settings, plan, i); // no base path depends on the plan
+        for (int y = seen.y0; y < seen.y1; ++y)
+            for (int x = seen.x0; x < seen.x1; ++x) {
+                trace_pixel(earlier, worker.tracer, x, y, worker.path);
+                plan.learn(x, y, worker.reuse.shared_luminance(worker.path));
+            }
+    }
+    return plan;
+}
+
+} // namespace tessera

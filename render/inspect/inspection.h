@@ -1,0 +1,124 @@
+#pragma once
+
+#include "render/estimator/pass.h"
+#include "render/estimator/reuse_policy.h"
+#include "render/scene/scene.h"
+
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// A vertex of a base path as one looks at it. Densities as in BaseVertex; radiances are toward the vertex before.
+struct InspectedVertex : SeenVertex {
+    bool goes_on;      ///< there is a next vertex, or the environment; the next four are meaningless otherwise
+    bool escapes;      ///< toward the environment
+    glm::vec3 to_next; ///< unit, world
+    bool is_delta;
+    float pdf_w;
+    Rgb throughput;                      ///< of the path through this vertex: product of f cos / (pdf survival)
+    float survival;                      ///< probability of the roulette on path length
+    Rgb sampled;                         ///< direct light by emitter sampling, with its MIS weight
+    Rgb hit;                             ///< direct light by BSDF sampling, with its MIS weight
+    std::vector<glm::vec3> light_points; ///< on surfaces, those that bring light
+};
+
+/// One vertex of a light path that was shifted, in the numbers that the shift calculated with. The base path's own
+/// have a Jacobian and a ratio of 1.
+struct InspectedStep {
+    SeenVertex vertex;
+    bool is_joined; ///< it is the base path's own vertex, seen from the offset
+    /// Jacobian, pdf_w, ratio and value so far; the last one's with the light that the path ends at.
+    OffsetStep shifted;
+};
+
+/// One base path shifted to another pixel. A base path carries several light paths; `ratio`, `jacobian`, `weight`
+/// and `steps` are those of the one that brings most.
+struct InspectedShift {
+    glm::ivec2 from, to; ///< pixels; equal: what the base path brings to its own pixel
+    bool is_tried; ///< not where the path is dark or the roulette ended it: it brings only what is not shared
+    ShiftOutcome outcome; ///< meaningless where it was not tried
+    float ratio; ///< r_m, no unit: density of the shifted path with its Jacobian over the base's; 1 for the base
+    float jacobian;                   ///< |J| of that: the product of all steps'; 0: it came to no end
+    float weight;                     ///< 1/R, over the probability of survival
+    Rgb value;                        ///< what the pixel gets: sum over light paths of c_m times weight, radiance
+    std::vector<glm::vec3> offset;    ///< y_1, y_2, ... of the offset path, as far as it came
+    std::vector<glm::vec3> beyond;    ///< the base path from where they join it; empty: they did not get there
+    std::vector<InspectedStep> steps; ///< of one light path, at the inspected pixel only
+    std::string_view ending;          ///< how that finds its light; empty: it came to no end
+};
+
+/// A base path of a sampling set.
+struct InspectedBase {
+    std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: nothing is seen, or it is refused
+    Rgb radiance;                      ///< what it brings if nobody shares; without very direct light
+    ReuseDecision reuse;
+};
+
+/// How the light of a sampling set was shared out. Lists have one entry a pixel.
+struct InspectedSet {
+    std::vector<glm::ivec2> pixels;
+    std::vector<char> is_border; ///< 1: the pixel only lends its path, and gets its light in another set
+    std::vector<InspectedBase> bases;
+    std::vector<InspectedShift> shifts; ///< of base k to pixel m: [k * pixels.size() + m]; k = m: its own
+
+    int size() const { return static_cast<int>(pixels.size()); }
+    int index_of(glm::ivec2 pixel) const; ///< -1: it is not in the set
+    const InspectedBase& base(int k) const { return bases[static_cast<std::size_t>(k)]; }
+    const InspectedShift& shift(int k, int m) const { return shifts[static_cast<std::size_t>(k * size() + m)]; }
+    /// All that a pixel gets from the first `bases` base paths.
+    Rgb radiance(int m, int bases) const;
+    Rgb radiance(glm::ivec2 pixel) const { return radiance(index_of(pixel), size()); }
+    /// From every base path to a pixel, its own among them, ...
+    std::vector<const InspectedShift*> to(glm::ivec2 pixel) const;
+    /// ... and of a pixel's base path to all others.
+    std::vector<const InspectedShift*> from(glm::ivec2 pixel) const;
+};
+
+/// One sample of one pixel, done again.
+struct Inspection {
+    glm::ivec2 pixel, size;
+    int pass;
+    Method method;
+    std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: the camera ray leaves the scene
+    Rgb radiance;                      ///< of the pixel's own base path, without very direct light
+    Rgb very_direct;
+    bool is_refused; ///< the path, or what the pixel and its neighbours got, is not finite: it was left out
+    /// Those that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below).
+    std::vector<InspectedSet> sets;
+};
+
+/// All sampling sets of a tile in one pass, done again, in the order in which the pass takes them.
+struct TileInspection {
+    PixelRect tile; ///< may reach beyond the image; of PT and G-PT the pixel alone
+    int pass;
+    RenderSettings settings;
+    std::vector<InspectedSet> sets;
+
+    /// Base paths of all sets together.
+    int base_count() const;
+};
+
+/// Takes the sample of a pass at one pixel again, with the passes' own code, and looks at it. Quick: no more than
+/// the pixel's tile is traced.
+/// @param plan  the one that this pass had
+/// @param pass  counts from 0
+Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+                   const ReusePlan& plan, int pass, glm::ivec2 pixel);
+
+/// The same for the tile of the pixel.
+TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
+                            const RenderSettings& settings, const ReusePlan& plan, int pass, glm::ivec2 pixel);
+
+/// The plan that a pass of a render had, as far as the tile of one pixel goes: bit for bit, and good for no other
+/// tile. It is learnt again from the base paths of the passes before, of the few pixels that decide on that tile;
+/// this costs as much as path tracing some 16 x 16 pixels as often.
+/// @param pass  counts from 0
+/// @param stop  ends it early: it has then learnt less, and is good for nothing
+ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+                      int pass, glm::ivec2 pixel, std::stop_token stop = {});
+
+} // namespace tessera

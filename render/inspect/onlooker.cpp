@@ -1,0 +1,166 @@
+#include "render/inspect/onlooker.h"
+
+namespace tessera {
+
+namespace {
+
+InspectedVertex look_at(const BasePath& path, int i, Rgb throughput) {
+    const BaseVertex& x = path[i];
+    InspectedVertex v{x.vertex,   i + 1 < path.size() || x.escapes,
+                      x.escapes,  glm::vec3(0),
+                      x.is_delta, x.pdf_w,
+                      throughput, x.survival,
+                      Rgb(0),     Rgb(0),
+                      {}};
+    for (const LightSample& light : path.lights(i)) {
+        v.sampled += light.brings;
+        if (!is_black(light.brings) && !light.light.is_at_infinity())
+            v.light_points.push_back(light.light.position);
+    }
+    if (v.goes_on) {
+        v.to_next = x.vertex.to_world(x.to_next);
+        v.hit = x.hit_brings;
+    }
+    return v;
+}
+
+/// The base path's own way along one of its light paths.
+std::vector<InspectedStep> steps_of(const BasePath& path, int last, const Rgb& carried) {
+    std::vector<InspectedStep> steps;
+    Rgb throughput(1);
+    for (int i = 0; i <= last && i < path.size(); ++i) {
+        const BaseVertex& x = path[i];
+        if (i < last)
+            throughput *= x.throughput();
+        steps.push_back({x.vertex, false, {i, x.pdf_w, x.is_delta, 1, 1, i < last ? throughput : carried}});
+    }
+    return steps;
+}
+
+} // namespace
+
+std::vector<InspectedVertex> look_at(const BasePath& path) {
+    std::vector<InspectedVertex> result;
+    Rgb throughput(1);
+    for (int i = 0; i < path.size(); ++i) {
+        if (i + 1 < path.size() || path[i].escapes)
+            throughput *= path[i].throughput();
+        result.push_back(look_at(path, i, throughput));
+    }
+    return result;
+}
+
+Onlooker::Onlooker(Worker& worker, int pixel, InspectedSet& result)
+    : worker_(worker), result_(result), pixel_(pixel) {
+    worker_.reuse.record(&trace_);
+}
+
+Onlooker::~Onlooker() {
+    worker_.reuse.record(nullptr);
+}
+
+void Onlooker::operator()(int base, const ReuseDecision& decision) {
+    result_.bases.push_back({look_at(path(base)), path(base).radiance(), decision});
+    for (int m = 0; m < worker_.set.size(); ++m)
+        result_.shifts.push_back(shift(base, m, decision.scale));
+}
+
+InspectedShift Onlooker::shift(int base, int m, float scale) const {
+    const auto pixel = [&](int i) { return worker_.set.pixels[static_cast<std::size_t>(i)]; };
+    const auto outcomes = worker_.reuse.outcomes();
+    InspectedShift s{pixel(base), pixel(m), !outcomes.empty(), ShiftOutcome::ok, 0, 0, 0, Rgb(0), {}, {}, {}, {}};
+    if (base == m && !path(base).empty())
+        s.value = worker_.reuse.kept_light(path(base));
+    if (!s.is_tried)
+        return s;
+    if (base != m)
+        s.outcome = outcomes[static_cast<std::size_t>(m)];
+    int slot = add_light_paths(base, m, scale, s);
+    if (base != m) {
+        add_places(base, m, s);
+        slot = slot < 0 ? first_attempt(m) : slot;
+    }
+    if (slot >= 0)
+        add_steps(base, m, slot, s);
+    return s;
+}
+
+/// The slot of the light path that brings most; -1: none brings anything.
+int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) const {
+    const LightPaths& light = worker_.reuse.light_paths();
+    const OffsetPaths& offsets = worker_.reuse.offset_paths();
+    float most = 0;
+    int best = -1;
+    for (int slot = light.first_shared(); slot <= light.last_alive(); ++slot) {
+        if (!light.is_alive(slot))
+            continue;
+        const float weight = worker_.reuse.weight(slot, scale);
+        const Rgb value = weight * (base == m ? light.carried(slot) : offsets.value(slot, m));
+        s.value += value;
+        if (luminance(value) <= most)
+            continue;
+        most = luminance(value);
+        best = slot;
+        s.weight = weight;
+        s.ratio = base == m ? 1 : offsets.density(slot, m);
+    }
+    return best;
+}
+
+/// A light path that came to its end, but was blocked.
+int Onlooker::first_attempt(int m) const {
+    const std::vector<OffsetTrace::End>& ends = trace_[m].ends;
+    for (std::size_t slot = 0; slot < ends.size(); ++slot)
+        if (ends[slot].is_there && ends[slot].last.ratio > 0)
+            return static_cast<int>(slot);
+    return -1;
+}
+
+void Onlooker::add_places(int base, int m, InspectedShift& s) const {
+    for (const SeenVertex& y : trace_[m].vertices)
+        s.offset.push_back(y.position);
+    if (s.offset.empty() && !path(m).empty())
+        s.offset.push_back(path(m)[0].vertex.position);
+    const int join = worker_.reuse.light_paths().join();
+    if (join == 0 || static_cast<int>(s.offset.size()) < join)
+        return;
+    for (int i = join; i < path(base).size(); ++i)
+        s.beyond.push_back(path(base)[i].vertex.position);
+}
+
+/// The Jacobian, and vertex by vertex what the shift noted.
+void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
+    const LightPaths& light = worker_.reuse.light_paths();
+    std::vector<InspectedStep> steps;
+    if (base == m) {
+        const int last = light.has_join() && slot == light.tail_slot() ? light.join() : light.vertex_of(slot);
+        steps = steps_of(path(base), last, light.carried(slot));
+    } else {
+        const OffsetTrace::Path& y = trace_[m];
+        const OffsetTrace::End& end = y.ends[static_cast<std::size_t>(slot)];
+        const auto add = [&](const OffsetStep& step) {
+            steps.push_back({y.vertices[static_cast<std::size_t>(step.vertex)], false, step});
+        };
+        const int bounces = end.joins ? end.join.vertex : end.last.vertex;
+        for (int i = 0; i < bounces; ++i)
+            add(y.bounces[static_cast<std::size_t>(i)]);
+        add(end.joins ? end.join : end.last);
+        if (end.joins)
+            steps.push_back({path(base)[end.last.vertex].vertex, true, end.last});
+    }
+    s.jacobian = 1;
+    for (const InspectedStep& step : steps)
+        s.jacobian *= step.shifted.jacobian;
+    s.ending = ending_of(slot);
+    if (base == pixel_ || m == pixel_)
+        s.steps = std::move(steps);
+}
+
+std::string_view Onlooker::ending_of(int slot) const {
+    const LightPaths& light = worker_.reuse.light_paths();
+    if (light.has_join() && slot == light.tail_slot())
+        return "all lamps further on";
+    return slot == light.hit_slot(light.vertex_of(slot)) ? "meets a lamp" : "lamp sampled";
+}
+
+} // namespace tessera

@@ -1,0 +1,174 @@
+#include "render/io/exr.h"
+
+#include "render/io/files.h"
+#include "render/io/files.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr int rows_at_once = 64; // of what is read: OpenEXR itself can neither be watched nor stopped
+
+constexpr const char* channel_names[] = {"R", "G", "B"};
+
+/// "" and "R": "R"; "primal" and "R": "primal.R".
+std::string channel_name(const std::string& layer, const std::string& channel) {
+    return layer.empty() ? channel : layer + "." + channel;
+}
+
+/// Where OpenEXR finds channel `channel` of an image whose first pixel is (first_x, first_y) of the file.
+Imf::Slice slice(const RgbImage& image, int channel, int first_x = 0, int first_y = 0) {
+    const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(image.width());
+    const auto first_pixel =
+        static_cast<std::ptrdiff_t>(sizeof(Rgb)) * first_x + static_cast<std::ptrdiff_t>(row) * first_y;
+    // OpenEXR takes pointers to mutable memory for writing, too, and does not write there.
+    char* base = reinterpret_cast<char*>(const_cast<float*>(&image.data()->x) + channel);
+    return {Imf::FLOAT, base - first_pixel, sizeof(Rgb), row, 1, 1, 0.0};
+}
+
+void check_layers(const ExrFile& file) {
+    if (file.layers.empty() || file.layers.front().image.empty())
+        throw std::runtime_error("there is no image to write");
+    const RgbImage& first = file.layers.front().image;
+    for (const ExrLayer& layer : file.layers)
+        if (layer.image.width() != first.width() || layer.image.height() != first.height())
+            throw std::runtime_error("layer \"" + layer.name + "\" differs in size from the first");
+}
+
+void write_layers(const std::filesystem::path& path, const ExrFile& file) {
+    check_layers(file);
+    const RgbImage& first = file.layers.front().image;
+    Imf::Header header(first.width(), first.height());
+    header.compression() = Imf::NO_COMPRESSION; // noise hardly gets smaller, and takes seconds to try
+    for (const auto& [name, text] : file.attributes)
+        header.insert(name, Imf::StringAttribute(text));
+    Imf::FrameBuffer buffer;
+    for (const ExrLayer& layer : file.layers) {
+        for (int i = 0; i < 3; ++i) {
+            const std::string name = channel_name(layer.name, channel_names[i]);
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            buffer.insert(name, slice(layer.image, i));
+        }
+    }
+    Imf::OutputFile output(path.c_str(), header);
+    output.setFrameBuffer(buffer);
+    output.writePixels(first.height());
+}
+
+/// The names of the layers that `channels` makes up, in the order of the file: the plain one first.
+std::vector<std::string> layer_names(const Imf::ChannelList& channels) {
+    std::vector<std::string> names;
+    if ((channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B")) ||
+        channels.findChannel("Y"))
+        names.push_back("");
+    for (auto c = channels.begin(); c != channels.end(); ++c) {
+        const std::string name = c.name();
+        if (!name.ends_with(".R"))
+            continue;
+        const std::string layer = name.substr(0, name.size() - 2);
+        if (channels.findChannel(layer + ".G") && channels.findChannel(layer + ".B"))
+            names.push_back(layer);
+    }
+    return names;
+}
+
+struct Size {
+    int width, height;
+};
+
+Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
+    const auto width = std::int64_t{window.max.x} - window.min.x + 1;
+    const auto height = std::int64_t{window.max.y} - window.min.y + 1;
+    check_image_size(width, height, file_bytes);
+    return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch) {
+    const auto row = [&](std::int64_t n) { return static_cast<int>(std::min<std::int64_t>(first + n, last)); };
+    const std::int64_t count = std::int64_t{last} - first + 1;
+    for (std::int64_t done = 0; done < count; done += rows_at_once) {
+        if (watch && !watch(static_cast<float>(done) / static_cast<float>(count)))
+            throw std::runtime_error("it is wanted no more");
+        part.readPixels(row(done), row(done + rows_at_once - 1));
+    }
+}
+
+ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
+    Imf::MultiPartInputFile input(path.c_str());
+    Imf::InputPart part(input, 0);
+    const Imf::Header& header = part.header();
+    const Imath::Box2i window = header.dataWindow();
+    const Size size = size_of(window, std::filesystem::file_size(path));
+    ExrFile file;
+    for (const std::string& name : layer_names(header.channels()))
+        file.layers.push_back({name, RgbImage(size.width, size.height)});
+    if (file.layers.empty())
+        throw std::runtime_error("it has no R, G and B channels");
+    Imf::FrameBuffer buffer;
+    for (const ExrLayer& layer : file.layers) {
+        const bool is_grey = layer.name.empty() && !header.channels().findChannel("R");
+        for (int i = 0; i < (is_grey ? 1 : 3); ++i)
+            buffer.insert(is_grey ? "Y" : channel_name(layer.name, channel_names[i]),
+                          slice(layer.image, i, window.min.x, window.min.y));
+    }
+    part.setFrameBuffer(buffer);
+    read_rows(part, window.min.y, window.max.y, watch);
+    for (ExrLayer& layer : file.layers)
+        if (layer.name.empty() && !header.channels().findChannel("R"))
+            for (Rgb& pixel : layer.image)
+                pixel = Rgb(pixel.r);
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+            file.attributes[a.name()] = text->value();
+    return file;
+}
+
+} // namespace
+
+const RgbImage* find_layer(const ExrFile& file, const std::string& name) {
+    const auto has_name = [&](const ExrLayer& layer) { return layer.name == name; };
+    const auto found = std::find_if(file.layers.begin(), file.layers.end(), has_name);
+    return found == file.layers.end() ? nullptr : &found->image;
+}
+
+const RgbImage& require_layer(const ExrFile& file, const std::string& name, const std::filesystem::path& path) {
+    if (const RgbImage* image = find_layer(file, name))
+        return *image;
+    std::string message = path.string() + " has no layer \"" + name + "\", only:";
+    for (const ExrLayer& layer : file.layers)
+        message += " \"" + layer.name + "\"";
+    throw std::runtime_error(message);
+}
+
+void write_exr(const std::filesystem::path& path, const ExrFile& file) {
+    try {
+        TemporaryFile temporary(path);
+        write_layers(temporary.path(), file);
+        temporary.commit();
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
+    }
+}
+
+ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch) {
+    try {
+        return read_layers(path, watch);
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+    }
+}
+
+} // namespace tessera

@@ -1,0 +1,153 @@
+#include "render/io/files.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+// No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
+constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
+
+} // namespace
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
+    const std::string size = std::to_string(width) + " by " + std::to_string(height) + " pixels";
+    if (width < 1 || height < 1)
+        throw std::runtime_error("an image of " + size + " has none");
+    if (width > most_pixels / height)
+        throw std::runtime_error("an image of " + size + " is too large");
+    if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
+        throw std::runtime_error("the file is too short for " + size);
+}
+
+std::ifstream open_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) // opens as a file does, and is then of endless size
+        throw std::runtime_error("it is a folder, not a file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw std::runtime_error("the file cannot be opened");
+    return stream;
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+    std::ifstream stream = open_file(file);
+    stream.seekg(0, std::ios::end);
+    const std::streamoff size = stream.tellg();
+    if (size < 0)
+        throw std::runtime_error("the file cannot be read");
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    stream.seekg(0);
+    if (!stream.read(bytes.data(), size))
+        throw std::runtime_error("the file cannot be read");
+    return bytes;
+}
+
+namespace {
+
+/// The process that made "NAME.PID-COUNT.tmp" for this NAME; 0: it is no such file.
+int maker_of(const std::string& file, const std::string& name) {
+    int process = 0, count = 0, used = 0;
+    if (file.rfind(name + ".", 0) != 0 ||
+        std::sscanf(file.c_str() + name.size(), ".%d-%d.tmp%n", &process, &count, &used) != 2)
+        return 0;
+    return name.size() + static_cast<std::size_t>(used) == file.size() ? process : 0;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+void remove_leftovers(const std::filesystem::path& final_path) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_of(final_path), ignored)) {
+        const int process = maker_of(entry.path().filename().string(), final_path.filename().string());
+        if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+/// What the system still holds of a file or folder goes to the disk. The error, or 0: some file systems cannot do
+/// so, and say EINVAL.
+int write_through(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return errno;
+    const int error = ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
+    ::close(file);
+    return error;
+}
+
+} // namespace
+
+TemporaryFile::TemporaryFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
+    remove_leftovers(final_);
+    static std::atomic<int> count = 0;
+    temporary_ = final_;
+    temporary_ += "." + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
+}
+
+TemporaryFile::~TemporaryFile() {
+    std::error_code ignored;
+    if (!temporary_.empty())
+        std::filesystem::remove(temporary_, ignored);
+}
+
+void TemporaryFile::commit() {
+    // On the disk before it takes the old one's place: else a power cut could leave neither. A full or broken disk
+    // may say so only now.
+    if (const int error = write_through(temporary_))
+        throw std::filesystem::filesystem_error("cannot be written", final_, {error, std::generic_category()});
+    std::filesystem::rename(temporary_, final_);
+    write_through_folder(folder_of(final_));
+    temporary_.clear();
+}
+
+void write_through_folder(const std::filesystem::path& folder) {
+    write_through(folder); // a folder that may not be read cannot be helped
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    TemporaryFile temporary(path);
+    std::ofstream out(temporary.path(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out)
+        throw std::runtime_error(path.string() + ": cannot be written");
+    temporary.commit();
+}
+
+void check_writable(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw std::runtime_error(path.string() + ": is a folder, not a file to write to");
+    // Trying is the only test that holds for root, full disks and odd file systems alike: with the very name that
+    // the file will be written under at first, which is no other run's.
+    const TemporaryFile trial(path);
+    if (!std::ofstream(trial.path(), std::ios::binary))
+        throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+} // namespace tessera

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string>
+
+namespace tessera {
+
+/// A file to be read from its beginning; throws std::runtime_error.
+std::ifstream open_file(const std::filesystem::path& file);
+
+/// All of a file's bytes; throws std::runtime_error.
+std::string read_bytes(const std::filesystem::path& file);
+
+/// ".exr": the end of the file's name, in lower case.
+std::string extension_of(const std::filesystem::path& file);
+
+/// Throws std::runtime_error unless a file of that many bytes can hold an image of that size, and this program
+/// too.
+void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes);
+
+/// A file that is written under a temporary name beside its own and takes its own name only when it is complete.
+/// So whatever happens, there is never half a file under that name.
+class TemporaryFile {
+public:
+    /// Removes what killed processes of this machine have left of the same file.
+    explicit TemporaryFile(std::filesystem::path final_path);
+    ~TemporaryFile(); ///< removes the file unless it was committed
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const std::filesystem::path& path() const { return temporary_; }
+
+    /// The file is on the disk when it takes its name, and under that name when this returns: whatever is written
+    /// later may rely on it, power cuts included. Throws std::filesystem::filesystem_error.
+    void commit();
+
+private:
+    std::filesystem::path final_;
+    std::filesystem::path temporary_;
+};
+
+/// Writes such a file and commits it. Throws std::runtime_error that names the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// Makes sure that what was last made or renamed in the folder is there after a power cut, where the file system
+/// can.
+void write_through_folder(const std::filesystem::path& folder);
+
+/// Throws std::runtime_error that names the file where none can be made at `path`: better before a render than
+/// after it. Touches no other file.
+void check_writable(const std::filesystem::path& path);
+
+} // namespace tessera

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "render/io/text.h"
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tessera {
+
+/// As text, on one line, or with `indent` blanks a level. What is not UTF-8, as names of files may be, becomes
+/// U+FFFD: the library's own dump() throws.
+std::string to_text(const nlohmann::json& value, int indent = -1);
+std::string to_text(const nlohmann::ordered_json& value, int indent = -1);
+
+/// A text of JSON, for messages that point into it.
+class JsonText {
+public:
+    /// `name` stands in messages. Both must live as long as this.
+    JsonText(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+
+    const std::string& text() const { return text_; }
+
+    /// What it says. Throws LoadError with file, line and column.
+    nlohmann::ordered_json parse() const;
+
+    /// Where the value of a path such as "panes/2/method" begins, or the innermost one around it that is there;
+    /// bytes from the beginning. The text must be valid.
+    std::size_t place_of(std::string_view path) const;
+
+    /// The value at a path alone, all else made blank: places in it are those in the whole.
+    std::string only(std::string_view path) const;
+
+    /// Its line and column.
+    FilePosition position_of(std::string_view path) const;
+
+    /// Throws LoadError there. npos: at no place.
+    [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
+
+private:
+    FilePosition position_at(std::size_t offset) const;
+
+    const std::string& text_;
+    const std::string& name_;
+};
+
+} // namespace tessera

@@ -1,0 +1,109 @@
+#include "render/io/pfm.h"
+
+#include "render/io/text.h"
+#include "render/io/files.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace tessera {
+
+namespace {
+
+constexpr std::string_view white_space = " \t\r\n";
+
+struct Header {
+    int width, height;
+    int channels; ///< 3 or 1
+    bool is_little_endian;
+};
+
+/// The header's next word, taken from the bytes with the one character that ends it.
+std::string_view take_word(std::string_view& bytes) {
+    bytes.remove_prefix(std::min(bytes.find_first_not_of(white_space), bytes.size()));
+    const std::size_t length = bytes.find_first_of(white_space);
+    if (length == std::string_view::npos)
+        throw std::runtime_error("the file ends within its header");
+    const std::string_view word = bytes.substr(0, length);
+    bytes.remove_prefix(length + 1);
+    return word;
+}
+
+double take_number(std::string_view& bytes, const std::string& name) {
+    const std::string_view word = take_word(bytes);
+    const std::optional<double> number = parse_number(word);
+    if (!number)
+        throw std::runtime_error("its " + name + " is not a number: '" + std::string(word.substr(0, 40)) + "'");
+    return *number;
+}
+
+/// In pixels; what is no size of an image gets its message from check_image_size.
+std::int64_t take_length(std::string_view& bytes, const std::string& name) {
+    const double number = take_number(bytes, name);
+    if (std::trunc(number) != number)
+        throw std::runtime_error("its " + name + " is not a whole number of pixels");
+    return static_cast<std::int64_t>(std::clamp(number, -1e15, 1e15));
+}
+
+/// Takes the header from the bytes, so that the pixels are left.
+Header take_header(std::string_view& bytes) {
+    const std::size_t file_bytes = bytes.size();
+    if (!bytes.starts_with("PF") && !bytes.starts_with("Pf"))
+        throw std::runtime_error("it is not a PFM file, which begins with PF or Pf");
+    const std::string_view kind = take_word(bytes);
+    if (kind.size() != 2)
+        throw std::runtime_error("it is of kind '" + std::string(kind.substr(0, 40)) + "', not PF or Pf");
+    const std::int64_t width = take_length(bytes, "width"), height = take_length(bytes, "height");
+    check_image_size(width, height, file_bytes);
+    const double scale = take_number(bytes, "scale");
+    if (scale == 0)
+        throw std::runtime_error("its scale is 0, and gives no byte order");
+    // One character ends the header, where lines do not end in two.
+    if (bytes.data()[-1] == '\r' && bytes.starts_with('\n'))
+        bytes.remove_prefix(1);
+    return {static_cast<int>(width), static_cast<int>(height), kind == "PF" ? 3 : 1, scale < 0};
+}
+
+float read_float(const char* bytes, bool is_little_endian) {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i)
+        bits = bits << 8 | static_cast<unsigned char>(bytes[is_little_endian ? 3 - i : i]);
+    return std::bit_cast<float>(bits);
+}
+
+} // namespace
+
+RgbImage parse_pfm(std::string_view bytes) {
+    const Header header = take_header(bytes);
+    const std::size_t pixel_bytes = sizeof(float) * static_cast<std::size_t>(header.channels);
+    const std::size_t expected =
+        pixel_bytes * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+    if (bytes.size() != expected)
+        throw std::runtime_error("it has " + std::to_string(bytes.size()) + " bytes of pixels, not the " +
+                                 std::to_string(expected) + " of " + std::to_string(header.width) + " by " +
+                                 std::to_string(header.height) + " pixels");
+    RgbImage image(header.width, header.height);
+    const char* pixel = bytes.data();
+    for (int y = header.height - 1; y >= 0; --y)
+        for (int x = 0; x < header.width; ++x, pixel += pixel_bytes)
+            for (int i = 0; i < 3; ++i)
+                image(x, y)[i] =
+                    read_float(pixel + (header.channels == 3 ? sizeof(float) * static_cast<std::size_t>(i) : 0),
+                               header.is_little_endian);
+    return image;
+}
+
+RgbImage read_pfm(const std::filesystem::path& path) {
+    try {
+        return parse_pfm(read_bytes(path));
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+    }
+}
+
+} // namespace tessera

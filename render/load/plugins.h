@@ -1,0 +1,72 @@
+#pragma once
+
+#include "render/load/load_context.h"
+#include "render/surface/texture.h"
+
+#include <iterator>
+#include <string_view>
+
+namespace tessera {
+
+/// A row of a table of plugins: the type in the file, and what reads it.
+template <class Function>
+struct Plugin {
+    std::string_view type;
+    Function read;
+};
+
+/// Null: there is no such plugin.
+template <class Function, std::size_t count>
+const Plugin<Function>* find_plugin(const Plugin<Function> (&table)[count], std::string_view type) {
+    for (const Plugin<Function>& plugin : table)
+        if (plugin.type == type)
+            return &plugin;
+    return nullptr;
+}
+
+/// A <bsdf>. An unknown plugin becomes a diffuse marking colour, with a note.
+Material read_bsdf(LoadContext& context, const XmlElement& element);
+
+/// The index in scene.materials of a <bsdf>, which is read when it is met for the first time.
+int material_of(LoadContext& context, const XmlElement& element);
+
+/// The index of the material of a shape that names none: grey, or black where the shape gives light.
+int default_material(LoadContext& context, bool gives_light);
+
+/// The index in scene.area_lights of the <emitter> nested in a shape, -1 when it is none that a shape can be.
+int add_shape_emitter(LoadContext& context, const XmlElement& element);
+
+/// An <emitter> that belongs to no shape.
+void add_scene_emitter(LoadContext& context, const XmlElement& element);
+
+// The emitters of daylight; the model is that of [Preetham 1999], scaled to the brightness of the one that Mitsuba
+// uses, with a note.
+void read_sunsky(LoadContext& context, Properties& properties);
+void read_sky(LoadContext& context, Properties& properties);
+void read_sun(LoadContext& context, Properties& properties);
+
+/// Adds a <shape> to the scene; one of an unknown plugin is left out, with a note.
+void add_shape(LoadContext& context, const XmlElement& element);
+
+/// A <texture>. An unknown plugin becomes a marking colour, with a note.
+Texture read_texture(LoadContext& context, const XmlElement& element);
+
+/// The image file of a plugin, read later and shared by all that name it. `srgb`: what its bytes are.
+std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& properties, bool srgb);
+
+/// A parameter that is a colour, a texture or a reference to a texture.
+Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
+
+/// The same for a share of light: a constant above 1 is cut, with a note; one below 0 throws LoadError.
+Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
+
+/// Stands for what this program does not know, so that it meets the eye.
+inline constexpr Rgb marking_color{1.0f, 0.0f, 1.0f};
+
+/// An <integrator>: of its settings only the depth belongs to the scene; methods are chosen in the program.
+void read_integrator(LoadContext& context, const XmlElement& element);
+
+/// A <sensor> with its film: camera and size.
+void read_sensor(LoadContext& context, const XmlElement& element);
+
+} // namespace tessera

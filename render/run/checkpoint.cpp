@@ -1,0 +1,92 @@
+#include "render/run/checkpoint.h"
+
+#include "render/io/files.h"
+#include "render/io/memory.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace tessera {
+
+namespace {
+
+/// The file: this, the identity, the state. Read by the program that wrote it, on the machine that wrote it.
+struct Header {
+    char magic[8] = {'T', 'S', 'S', 'R', 'C', 'K', 'P', '1'};
+    std::uint64_t identity_bytes = 0;
+    std::uint64_t state_bytes = 0;
+    std::uint64_t checksum = 0; ///< of identity and state
+};
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+void write(std::ofstream& out, std::span<const std::byte> bytes) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+} // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const Memory& memory) {
+    Header header;
+    header.identity_bytes = identity.size();
+    std::uint32_t sum = checksum(bytes_of(identity));
+    for (std::span<const std::byte> piece : memory) {
+        header.state_bytes += piece.size();
+        sum = checksum(piece, sum);
+    }
+    header.checksum = sum;
+    TemporaryFile temporary(path);
+    std::ofstream out(temporary.path(), std::ios::binary);
+    write(out, std::as_bytes(std::span(&header, 1)));
+    write(out, bytes_of(identity));
+    for (std::span<const std::byte> piece : memory)
+        write(out, piece);
+    out.close();
+    if (!out)
+        throw std::runtime_error(path.string() + ": cannot be written");
+    temporary.commit();
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+    const auto fail = [&](const char* why) { throw std::runtime_error(path.string() + ": " + why); };
+    std::ifstream in(path, std::ios::binary);
+    Header header;
+    if (!in || !in.read(reinterpret_cast<char*>(&header), sizeof header) ||
+        std::memcmp(header.magic, Header().magic, sizeof header.magic) != 0)
+        fail("is not a checkpoint");
+    // Sizes are looked at before memory is asked for.
+    const std::uint64_t rest = std::filesystem::file_size(path) - sizeof header;
+    if (header.identity_bytes > rest || header.state_bytes != rest - header.identity_bytes)
+        fail("is damaged: its length is not what its head says");
+    Checkpoint checkpoint;
+    checkpoint.identity.resize(header.identity_bytes);
+    checkpoint.state.resize(header.state_bytes);
+    in.read(checkpoint.identity.data(), static_cast<std::streamsize>(header.identity_bytes));
+    in.read(reinterpret_cast<char*>(checkpoint.state.data()), static_cast<std::streamsize>(header.state_bytes));
+    if (!in || checksum(checkpoint.state, checksum(bytes_of(checkpoint.identity))) != header.checksum)
+        fail("is damaged");
+    return checkpoint;
+}
+
+bool fits(const Checkpoint& checkpoint, const Memory& memory) {
+    std::size_t size = 0;
+    for (std::span<std::byte> piece : memory)
+        size += piece.size();
+    return size == checkpoint.state.size();
+}
+
+void restore(const Checkpoint& checkpoint, const Memory& memory) {
+    if (!fits(checkpoint, memory))
+        throw std::runtime_error("the checkpoint is of another size");
+    auto next = checkpoint.state.begin();
+    for (std::span<std::byte> piece : memory) {
+        std::copy_n(next, piece.size(), piece.begin());
+        next += static_cast<std::ptrdiff_t>(piece.size());
+    }
+}
+
+} // namespace tessera

@@ -1,0 +1,51 @@
+#include "render/run/first_hits.h"
+
+#include "render/estimator/tracer.h"
+
+#include <cmath>
+
+namespace tessera {
+
+namespace {
+
+constexpr int albedo_samples = 16;
+
+/// The directional albedo, by BSDF sampling: the mean of f cos / pdf over all next directions, which for a diffuse
+/// surface is the same for each. The numbers are evenly spread [Roberts 2018].
+Rgb albedo_of(const Vertex& vertex) {
+    Rgb sum(0);
+    for (int i = 0; i < albedo_samples; ++i) {
+        const float n = static_cast<float>(i) + 0.5f;
+        const auto part = [&](float step) { return std::fmod(n * step, 1.0f); };
+        const auto sample =
+            vertex.bsdf.sample(vertex.to_previous, n / albedo_samples, {part(0.7548776662f), part(0.5698402910f)});
+        if (sample)
+            sum += sample->f_cos / sample->pdf_w;
+    }
+    return sum / static_cast<float>(albedo_samples);
+}
+
+} // namespace
+
+FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, std::stop_token stop) {
+    FirstHits hits{RgbImage(size.x, size.y, Rgb(0)), RgbImage(size.x, size.y, Rgb(0)), {size.x, size.y, 0.0f}};
+    const Projection projection(camera, size);
+    for (int y = 0; y < size.y; ++y) {
+        if (stop.stop_requested())
+            return {};
+        for (int x = 0; x < size.x; ++x) {
+            const Ray ray = projection.ray(glm::vec2(x, y) + 0.5f);
+            Hit hit;
+            if (!scene.intersector().closest(ray, hit))
+                continue;
+            Vertex vertex;
+            make_vertex(scene, hit, ray, vertex);
+            hits.albedo(x, y) = albedo_of(vertex);
+            hits.normal(x, y) = vertex.frame.to_world({0, 0, 1});
+            hits.depth(x, y) = hit.distance;
+        }
+    }
+    return hits;
+}
+
+} // namespace tessera

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "render/estimator/settings.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
+
+#include <memory>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+namespace tessera {
+
+/// Everything that decides the picture: goes into the header of every image and into the stats.
+nlohmann::json settings_json(const SceneSource& scene, const RenderSettings& settings, glm::ivec2 size, int spp,
+                             float alpha);
+
+/// What a picture shows.
+struct PictureSubject {
+    SceneSource source;
+    std::shared_ptr<const Scene> scene;
+    Camera camera; ///< the scene's, or another
+};
+
+/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and a
+/// checksum of the scene's file and of a few samples of a small picture: so it knows meshes, textures and the
+/// program itself by what they do, wherever the files lie.
+std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
+                             ThreadPool& pool);
+
+/// How `theirs` differs from `mine`: "another scene", "another camera", "width 640, not 320"; empty: it does not.
+std::string identity_difference(const std::string& theirs, const std::string& mine);
+
+} // namespace tessera

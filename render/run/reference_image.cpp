@@ -1,0 +1,93 @@
+#include "render/run/reference_image.h"
+
+#include "render/io/json_text.h"
+#include "render/io/memory.h"
+
+#include <stdexcept>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr const char* half_names[] = {"half1", "half2"};
+constexpr const char* reference_attribute = "tessera:reference";
+constexpr const char* scene_attribute = "tessera:scene";
+
+} // namespace
+
+FloorFreeError error_of(const ReferenceImage& reference) {
+    return measure_reference_error(reference.halves[0], reference.halves[1]);
+}
+
+RgbImage variance_of(const ReferenceImage& reference) {
+    RgbImage variance = reference.halves[0];
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+        const Rgb half = 0.5f * (variance.data()[i] - reference.halves[1].data()[i]);
+        variance.data()[i] = half * half;
+    }
+    return variance;
+}
+
+RgbImage mean_of(const RgbImage& a, const RgbImage& b) {
+    RgbImage mean = a;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        mean.data()[i] = 0.5f * (a.data()[i] + b.data()[i]);
+    return mean;
+}
+
+std::uint32_t checksum_of(const ReferenceImage& reference) {
+    std::uint32_t sum = 0;
+    for (const RgbImage& half : reference.halves)
+        sum = checksum(std::as_bytes(std::span(half.data(), half.size())), sum);
+    return sum;
+}
+
+void write_reference(const std::filesystem::path& path, const ReferenceImage& reference) {
+    const FloorFreeError error = error_of(reference);
+    const nlohmann::ordered_json about{{"seeds", reference.seeds},
+                                       {"relmse", error.relative_mse},
+                                       {"relmse_standard_error", error.standard_error}};
+    ExrFile file{{{"", reference.mean}}, {}};
+    for (std::size_t i = 0; i < 2; ++i)
+        file.layers.push_back({half_names[i], reference.halves[i]});
+    file.layers.push_back({"variance", variance_of(reference)});
+    file.attributes = {{"tessera:version", TESSERA_VERSION},
+                       {"tessera:settings", reference.settings},
+                       {"tessera:camera", reference.camera},
+                       {reference_attribute, to_text(about)}};
+    if (reference.scene)
+        file.attributes[scene_attribute] = to_string(*reference.scene);
+    write_exr(path, file);
+}
+
+bool is_reference(const std::filesystem::path& path) {
+    return read_exr(path).attributes.count(reference_attribute) > 0;
+}
+
+ReferenceImage read_reference(const std::filesystem::path& path) {
+    ExrFile file = read_exr(path);
+    ReferenceImage reference;
+    for (std::size_t i = 0; i < 2; ++i)
+        reference.halves[i] = require_layer(file, half_names[i], path);
+    reference.mean = require_layer(file, "", path);
+    try {
+        reference.seeds = nlohmann::json::parse(file.attributes[reference_attribute]).at("seeds");
+    } catch (const nlohmann::json::exception&) {
+        throw std::runtime_error(
+            fmt::format("{}: is no reference: its header does not say which seeds it has", path.string()));
+    }
+    reference.settings = file.attributes["tessera:settings"];
+    reference.camera = file.attributes["tessera:camera"];
+    reference.scene = scene_of(file);
+    return reference;
+}
+
+std::optional<SceneChecksums> scene_of(const ExrFile& file) {
+    const auto found = file.attributes.find(scene_attribute);
+    return found == file.attributes.end() ? std::nullopt : scene_checksums_from(found->second);
+}
+
+} // namespace tessera

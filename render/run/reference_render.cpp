@@ -1,0 +1,130 @@
+#include "render/run/reference_render.h"
+
+#include "render/io/json_text.h"
+#include "render/run/checkpoint.h"
+#include "render/run/picture_identity.h"
+#include "render/scene/camera.h"
+
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
+    RenderSettings settings = recipe.settings;
+    settings.seed += i;
+    return Render(subject.scene, subject.camera, recipe.size, settings);
+}
+
+} // namespace
+
+RenderSettings reference_settings() {
+    RenderSettings settings;
+    settings.method = Method::gpr;
+    settings.tile = 8;
+    settings.seed = first_reference_seed;
+    return settings;
+}
+
+std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
+                                     glm::ivec2 size, int depth) {
+    return folder / fmt::format("{}-{}x{}-d{}.exr", scene_name, size.x, size.y, depth);
+}
+
+std::filesystem::path reference_checkpoint(const std::filesystem::path& output) {
+    return output.string() + ".checkpoint";
+}
+
+ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject subject,
+                                 const ReferenceRecipe& recipe, ThreadPool& pool)
+    : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe),
+      pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
+      identity_(picture_identity(subject_, recipe.settings, recipe.size, pool)) {
+    if (std::filesystem::exists(reference_checkpoint(output_)))
+        resume();
+}
+
+bool ReferenceRender::run(const Watch& go_on) {
+    auto last = Clock::now();
+    while (!is_complete()) {
+        if (!go_on(*this)) {
+            write();
+            return false;
+        }
+        Render& behind = halves_[halves_[1].spp() < halves_[0].spp()];
+        behind.pass(pool_);
+        if (std::chrono::duration<double>(Clock::now() - last).count() >= recipe_.checkpoint_seconds) {
+            write();
+            last = Clock::now();
+        }
+    }
+    return true;
+}
+
+double ReferenceRender::seconds_left() const {
+    const int done = spp() - spp_resumed_;
+    return done == 0 ? std::numeric_limits<double>::infinity() : seconds() / done * (recipe_.spp - spp());
+}
+
+FloorFreeError ReferenceRender::error_so_far() const {
+    const auto image = [&](const Render& half) {
+        return reconstruct(half.images(), recipe_.reconstruction).image;
+    };
+    return measure_reference_error(image(halves_[0]), image(halves_[1]));
+}
+
+ReferenceImage ReferenceRender::finish() {
+    ReferenceImage reference;
+    reference.settings = to_text(
+        settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction.alpha));
+    reference.camera = camera_json(subject_.camera);
+    reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
+    for (std::size_t i = 0; i < 2; ++i) {
+        reference.halves[i] = reconstruct(halves_[i].take_images(), recipe_.reconstruction).image;
+        reference.seeds[i] = halves_[i].settings().seed;
+    }
+    reference.mean = mean_of(reference.halves[0], reference.halves[1]);
+    write_reference(output_, reference);
+    std::filesystem::remove(reference_checkpoint(output_)); // not before the picture is there
+    return reference;
+}
+
+Memory ReferenceRender::memory() {
+    Memory memory = halves_[0].memory();
+    append(memory, halves_[1].memory());
+    return memory;
+}
+
+void ReferenceRender::write() {
+    write_checkpoint(reference_checkpoint(output_), identity_, memory());
+}
+
+void ReferenceRender::resume() {
+    const std::filesystem::path file = reference_checkpoint(output_);
+    const Checkpoint checkpoint = read_checkpoint(file);
+    const auto refuse = [&](const std::string& what) {
+        throw std::runtime_error(
+            fmt::format("{} is of {}; without that file the reference is begun anew", file.string(), what));
+    };
+    if (const std::string difference = identity_difference(checkpoint.identity, identity_); !difference.empty())
+        refuse(difference);
+    if (!fits(checkpoint, memory()))
+        refuse("another version of the program");
+    restore(checkpoint, memory());
+    if (spp() > recipe_.spp + 1)
+        throw std::runtime_error(
+            fmt::format("{} has {} spp already, and {} are asked for", file.string(), spp(), recipe_.spp));
+    spp_resumed_ = spp();
+    seconds_resumed_ = seconds_of_halves();
+}
+
+} // namespace tessera

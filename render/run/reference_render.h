@@ -1,0 +1,84 @@
+#pragma once
+
+#include "recon/reconstruct.h"
+#include "render/run/picture_identity.h"
+#include "render/run/reference_image.h"
+#include "render/run/render.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// The seeds of a reference are this and the next, unless others are asked for.
+inline constexpr std::uint64_t first_reference_seed = 1001;
+
+/// G-PR with large tiles, which few samples of a reference make up for.
+RenderSettings reference_settings();
+
+/// How a reference is made.
+struct ReferenceRecipe {
+    RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
+    glm::ivec2 size{640, 360};
+    int spp = 512;                                           ///< of both halves together; one more if it is odd
+    ReconstructionSettings reconstruction{.norm = Norm::l2}; ///< linear, and so without bias
+    double checkpoint_seconds = 60;                          ///< wall time between checkpoints
+};
+
+/// FOLDER/SCENE-WxH-dDEPTH.exr, where references of a scene lie.
+std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
+                                     glm::ivec2 size, int depth);
+
+/// The file beside a reference from which it goes on when its making was ended early.
+std::filesystem::path reference_checkpoint(const std::filesystem::path& output);
+
+/// A reference in the making: two halves that grow together, and a checkpoint. Whatever ends the program, the next
+/// one for the same file goes on from there, and comes to the same bits as one that was never ended.
+class ReferenceRender {
+public:
+    /// Goes on from the checkpoint, if there is one. Throws std::runtime_error for one of another subject or other
+    /// settings, or that cannot be read. `pool` must live as long.
+    ReferenceRender(std::filesystem::path output, PictureSubject subject, const ReferenceRecipe& recipe,
+                    ThreadPool& pool);
+
+    /// Is asked before each pass whether to go on.
+    using Watch = std::function<bool(const ReferenceRender&)>;
+
+    /// Until it is complete, or `go_on` says no; then after a last checkpoint. True: it is complete.
+    bool run(const Watch& go_on);
+
+    int spp() const { return halves_[0].spp() + halves_[1].spp(); } ///< of both halves
+    int spp_wanted() const { return recipe_.spp; }
+    int spp_resumed() const { return spp_resumed_; }                          ///< those of the checkpoint
+    double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time of passes since
+    double seconds_left() const;                                              ///< infinite before the first pass
+    /// That of the mean, were it to be complete now; both halves need a sample. Costs two reconstructions.
+    FloorFreeError error_so_far() const;
+    /// As they are so far.
+    const std::array<Render, 2>& halves() const { return halves_; }
+
+    /// Once it is complete: writes it, and only then takes the checkpoint away. Nothing may follow.
+    ReferenceImage finish();
+
+private:
+    bool is_complete() const { return spp() >= recipe_.spp && halves_[0].spp() == halves_[1].spp(); }
+    double seconds_of_halves() const { return halves_[0].seconds() + halves_[1].seconds(); }
+    Memory memory();
+    void write();
+    void resume();
+
+    std::filesystem::path output_;
+    PictureSubject subject_;
+    ReferenceRecipe recipe_;
+    ThreadPool& pool_;
+    std::array<Render, 2> halves_;
+    std::string identity_;
+    int spp_resumed_ = 0;
+    double seconds_resumed_ = 0;
+};
+
+} // namespace tessera

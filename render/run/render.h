@@ -1,0 +1,58 @@
+#pragma once
+
+#include "render/estimator/film.h"
+#include "render/estimator/reuse_policy.h"
+#include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
+
+#include <memory>
+#include <stop_token>
+
+namespace tessera {
+
+/// A render in progress: a film and the passes it has seen.
+class Render {
+public:
+    /// Throws std::invalid_argument for a size or settings outside their limits.
+    Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
+           const RenderSettings& settings);
+
+    /// Takes one more sample at every pixel. False: stopped on the way; the render is then good for nothing more.
+    bool pass(ThreadPool& pool, std::stop_token stop = {});
+
+    int spp() const { return spp_; }
+    double seconds() const { return seconds_; }         ///< wall time of all passes
+    double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
+    const Counters& counters() const { return counters_; }
+    const RenderSettings& settings() const { return settings_; }
+    const std::shared_ptr<const Scene>& scene() const { return scene_; }
+    const Camera& camera() const { return camera_; }
+    glm::ivec2 size() const { return size_; }
+    GradientImages images() const { return with_patch(film_.means(spp_)); }
+    /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
+    /// counts stay.
+    GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
+    ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
+    /// What the newest pass knew of where tiles are to be cut.
+    std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
+    /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
+    /// filled with this goes on with the same bits.
+    Memory memory();
+
+private:
+    GradientImages with_patch(GradientImages images) const;
+
+    std::shared_ptr<const Scene> scene_;
+    Camera camera_;
+    glm::ivec2 size_;
+    RenderSettings settings_;
+    Film film_;
+    ReusePlan plan_;
+    std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
+    Counters counters_;
+    int spp_ = 0;
+    double seconds_ = 0;
+    double cpu_seconds_ = 0;
+};
+
+} // namespace tessera

@@ -1,0 +1,114 @@
+#include "render/run/thread_pool.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <exception>
+
+#include <sys/resource.h>
+
+namespace tessera {
+
+namespace {
+
+/// Later by so many of the system's steps.
+void give_way(int steps) {
+    constexpr int last = 19;
+    errno = 0;
+    const int now = getpriority(PRIO_PROCESS, 0); // on Linux: of the calling thread
+    if (errno == 0)
+        setpriority(PRIO_PROCESS, 0, std::min(now + steps, last));
+}
+
+} // namespace
+
+void work_in_background() {
+    give_way(10);
+}
+
+void work_behind_others() {
+    give_way(15);
+}
+
+struct ThreadPool::Loop {
+    int count;
+    const std::function<void(int, int)>& body;
+    std::stop_token stop;
+    std::atomic<int> next{0};
+    int workers_inside = 0;   // guarded by ThreadPool::mutex_
+    std::exception_ptr error; // likewise
+
+    void run(int worker, std::mutex& mutex) {
+        for (int i = next++; i < count && !stop.stop_requested(); i = next++) {
+            try {
+                body(i, worker);
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (!error)
+                    error = std::current_exception();
+                next = count;
+            }
+        }
+    }
+};
+
+ThreadPool::ThreadPool(int threads, Priority priority) {
+    const int wanted = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    for (int worker = 1; worker < wanted; ++worker)
+        threads_.emplace_back([=, this] { work(worker, priority); });
+}
+
+ThreadPool::~ThreadPool() {
+    {
+        const std::lock_guard lock(mutex_);
+        quit_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+void ThreadPool::parallel_for(int count, const std::function<void(int, int)>& body, std::stop_token stop) {
+    const std::lock_guard callers(callers_);
+    Loop loop{count, body, std::move(stop), {}, 0, {}};
+    {
+        const std::lock_guard lock(mutex_);
+        loop_ = &loop;
+        ++generation_;
+    }
+    wake_.notify_all();
+    loop.run(0, mutex_);
+    std::unique_lock lock(mutex_);
+    loop_ = nullptr; // whoever has not come by now need not
+    done_.wait(lock, [&] { return loop.workers_inside == 0; });
+    if (loop.error)
+        std::rethrow_exception(loop.error);
+}
+
+void ThreadPool::work(int worker, Priority priority) {
+    if (priority == Priority::background)
+        work_in_background();
+    std::uint64_t seen = 0;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [&] { return quit_ || (loop_ && generation_ != seen); });
+        if (quit_)
+            return;
+        seen = generation_;
+        Loop& loop = *loop_;
+        ++loop.workers_inside;
+        lock.unlock();
+        loop.run(worker, mutex_);
+        lock.lock();
+        if (--loop.workers_inside == 0)
+            done_.notify_all();
+    }
+}
+
+ParallelFor ThreadPool::loops() {
+    return [this](int count, const std::function<void(int)>& body) {
+        parallel_for(count, [&body](int i, int) { body(i); });
+    };
+}
+
+} // namespace tessera

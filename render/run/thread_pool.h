@@ -1,0 +1,59 @@
+#pragma once
+
+#include "recon/parallel.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace tessera {
+
+/// Makes the calling thread give way to those of normal priority: what draws for the user comes first, and gets a
+/// core as soon as it has something to do. Where that cannot be done, nothing happens.
+void work_in_background();
+
+/// The same to those that work in background, too: where these want all cores, it has about a quarter of the time.
+void work_behind_others();
+
+/// Threads that run the iterations of one loop at a time. Own threads, not TBB's, so that the thread sanitizer
+/// sees every synchronisation.
+class ThreadPool {
+public:
+    /// Whether the pool's own threads give way to others (work_in_background).
+    enum class Priority { normal, background };
+
+    /// `threads` >= 1 threads work on a loop, the caller among them; 0: one a hardware thread.
+    explicit ThreadPool(int threads = 0, Priority priority = Priority::normal);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    int size() const { return static_cast<int>(threads_.size()) + 1; }
+
+    /// Runs body(i, worker) for i in [0, count), worker in [0, size()); returns when all are done. Once `stop` is
+    /// asked for, iterations not yet begun are left out. The first exception thrown by a body is thrown again
+    /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
+    void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
+
+    /// The same for those who need not know the worker: solvers, loaders. The pool must live as long.
+    ParallelFor loops();
+
+private:
+    struct Loop;
+    void work(int worker, Priority priority);
+
+    std::mutex callers_; // held by the caller whose loop runs
+    std::mutex mutex_;   // guards what follows
+    std::condition_variable wake_;
+    std::condition_variable done_;
+    Loop* loop_ = nullptr;
+    std::uint64_t generation_ = 0;
+    bool quit_ = false;
+    std::vector<std::thread> threads_;
+};
+
+} // namespace tessera

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+/// The purposes for which a path draws random numbers at one vertex. Every purpose has its own dimension, so
+/// that a path drawn again takes the same numbers whatever it skips.
+enum class Draw : std::uint32_t {
+    emitter, ///< for light sample j > 0 of a vertex: of that many times 65 vertices further on
+             ///< (Tracer::sample_light)
+    emitter_position,
+    emitter_cell,
+    lobe,
+    direction,
+    path_survival,   ///< roulette on path length
+    reuse_survival,  ///< roulette on reuse
+    weight_survival, ///< roulette on small weights; a slot in place of a vertex
+    count
+};
+
+/// Random numbers as a function of (seed, pixel, sample, vertex, purpose): no state, so the picture is the same
+/// for any number of threads and any order of work. SplitMix64 [Steele 2014] with the path's key as its start.
+class Random {
+public:
+    Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
+        : key_(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ (std::uint64_t{sample} << 32 | pixel))) {}
+
+    /// Uniform in [0, 1).
+    float draw(int vertex, Draw purpose) const {
+        return to_unit(static_cast<std::uint32_t>(bits(vertex, purpose) >> 32));
+    }
+
+    /// Uniform in [0, 1)^2.
+    glm::vec2 draw_2d(int vertex, Draw purpose) const {
+        const std::uint64_t b = bits(vertex, purpose);
+        return {to_unit(static_cast<std::uint32_t>(b >> 32)), to_unit(static_cast<std::uint32_t>(b))};
+    }
+
+    static std::uint64_t mix(std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+
+private:
+    static float to_unit(std::uint32_t b) { return static_cast<float>(b >> 8) * 0x1p-24f; }
+
+    std::uint64_t bits(int vertex, Draw purpose) const {
+        const auto dimension = static_cast<std::uint64_t>(vertex) * static_cast<std::uint64_t>(Draw::count) +
+                               static_cast<std::uint64_t>(purpose) + 1;
+        return mix(key_ + dimension * 0x9e3779b97f4a7c15u);
+    }
+
+    std::uint64_t key_;
+};
+
+inline constexpr float pi = 3.14159265358979323846f;
+inline constexpr float inv_pi = 1 / pi;
+
+/// An orthonormal frame; `normal` is its z axis.
+struct Frame {
+    glm::vec3 tangent;
+    glm::vec3 bitangent;
+    glm::vec3 normal;
+
+    Frame() = default;
+
+    /// A frame around a unit normal [Duff 2017].
+    explicit Frame(glm::vec3 n) : normal(n) {
+        const float sign = std::copysign(1.0f, n.z);
+        const float a = -1.0f / (sign + n.z);
+        const float b = n.x * n.y * a;
+        tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+        bitangent = {b, sign + n.y * n.y * a, -n.y};
+    }
+
+    glm::vec3 to_local(glm::vec3 world) const {
+        return {glm::dot(world, tangent), glm::dot(world, bitangent), glm::dot(world, normal)};
+    }
+    glm::vec3 to_world(glm::vec3 local) const {
+        return local.x * tangent + local.y * bitangent + local.z * normal;
+    }
+};
+
+/// Sine and cosine of an angle in [-pi/4, pi/4], by their series; to the last bit but one.
+inline glm::vec2 sin_cos_quarter(float angle) {
+    const float a2 = angle * angle;
+    const float sine =
+        angle * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));
+    const float cosine = 1 + a2 * (-0.5f + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 * (1.0f / 40320))));
+    return {sine, cosine};
+}
+
+/// Uniform on the unit disk, by concentric rings [Shirley and Chiu 1997].
+inline glm::vec2 sample_disk(glm::vec2 u) {
+    const float x = 2 * u.x - 1;
+    const float y = 2 * u.y - 1;
+    const bool wide = std::abs(x) > std::abs(y);
+    const float radius = wide ? x : y;
+    if (radius == 0)
+        return {0, 0};
+    const glm::vec2 sc = radius * sin_cos_quarter(pi / 4 * ((wide ? y : x) / radius));
+    return wide ? glm::vec2(sc.y, sc.x) : sc;
+}
+
+/// A direction about +z with pdf_w = cos / pi.
+inline glm::vec3 sample_cosine_hemisphere(glm::vec2 u) {
+    const glm::vec2 d = sample_disk(u);
+    return {d.x, d.y, std::sqrt(std::max(1 - d.x * d.x - d.y * d.y, 0.0f))};
+}
+
+/// Barycentric coordinates (of the second and third corner), uniform on a triangle.
+inline glm::vec2 sample_triangle(glm::vec2 u) {
+    const float root = std::sqrt(1 - u.x);
+    return {1 - root, u.y * root};
+}
+
+/// Chooses an index in proportion to its weight, in a time that does not depend on how many there are
+/// [Walker 1974, Vose 1991].
+class AliasTable {
+public:
+    AliasTable() = default;
+    /// Weights are not negative; where all are 0, all probabilities are 0 and nothing may be chosen.
+    explicit AliasTable(const std::vector<double>& weights);
+
+    bool empty() const { return entries_.empty(); }
+    std::size_t size() const { return entries_.size(); }
+    float probability(std::size_t i) const { return entries_[i].probability; }
+
+    /// With random numbers in [0, 1)^2. One of its own for the threshold: of one float, many entries would leave
+    /// few bits for it.
+    std::size_t choose(glm::vec2 u) const {
+        const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
+        const std::size_t first = slot < entries_.size() ? slot : entries_.size() - 1;
+        return u.y < entries_[first].threshold ? first : entries_[first].alias;
+    }
+
+private:
+    struct Entry {
+        float threshold; // below it this entry, else `alias`
+        std::uint32_t alias;
+        float probability;
+    };
+    std::vector<Entry> entries_;
+};
+
+} // namespace tessera

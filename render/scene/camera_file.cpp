@@ -1,0 +1,161 @@
+#include "render/io/files.h"
+#include "render/io/json_text.h"
+#include "render/io/text.h"
+#include "render/scene/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr std::array known_fields = {"to_world", "fov", "fov_axis", "origin", "target", "up"};
+
+/// Points at the field's value.
+[[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& what) {
+    text.fail_at(text.place_of(field), what);
+}
+
+float number(const JsonText& text, const std::string& field, const json& value) {
+    if (!value.is_number())
+        fail(text, field, fmt::format("'{}' must be made of numbers, not of {}", field, value.type_name()));
+    const float result = static_cast<float>(value.get<double>());
+    if (!std::isfinite(result))
+        fail(text, field, fmt::format("'{}' has a number that is too large", field));
+    return result;
+}
+
+const json& required(const JsonText& text, const json& object, const std::string& field) {
+    const auto found = object.find(field);
+    if (found == object.end())
+        text.fail_at(text.place_of(""), fmt::format("the camera has no '{}'", field));
+    return *found;
+}
+
+glm::mat4 read_matrix(const JsonText& text, const json& value) {
+    if (!value.is_array() || value.size() != 16)
+        fail(text, "to_world",
+             value.is_array() ? fmt::format("'to_world' must be 16 numbers; here are {}", value.size())
+                              : fmt::format("'to_world' must be 16 numbers, not {}", value.type_name()));
+    glm::mat4 m;
+    for (int i = 0; i < 16; ++i)
+        m[i % 4][i / 4] = number(text, "to_world", value[static_cast<std::size_t>(i)]);
+    for (int column = 0; column < 4; ++column)
+        if (m[column][3] != (column == 3 ? 1.0f : 0.0f))
+            fail(text, "to_world", "the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row");
+    return m;
+}
+
+/// Against the volume of a box with the axes' lengths, so that units do not matter.
+bool is_flat(const glm::mat4& m) {
+    const glm::dmat3 axes{glm::mat3(m)};
+    const double volume = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
+    return !(std::abs(glm::determinant(axes)) > 1e-6 * volume);
+}
+
+/// Nine digits tell every float from its neighbours; the point keeps the sign of -0.
+std::string exact(float x) {
+    std::string text = fmt::format("{:.9g}", x);
+    if (text.find_first_of(".e") == std::string::npos)
+        text += ".0";
+    return text;
+}
+
+std::string triple(glm::vec3 v) {
+    return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
+}
+
+/// Row by row, as in files. The last row is kept where it is one (with the signs of its zeros), else replaced: it
+/// means nothing to a camera, but no other is read.
+std::array<std::string, 16> rows(glm::mat4 m) {
+    if (glm::row(m, 3) != glm::vec4(0, 0, 0, 1))
+        m = glm::row(m, 3, glm::vec4(0, 0, 0, 1));
+    std::array<std::string, 16> numbers;
+    for (int i = 0; i < 16; ++i)
+        numbers[static_cast<std::size_t>(i)] = exact(m[i % 4][i / 4]);
+    return numbers;
+}
+
+} // namespace
+
+Camera parse_camera(const std::string& json_text, const std::string& name) {
+    const JsonText text(json_text, name);
+    const json object = text.parse();
+    if (!object.is_object())
+        text.fail_at(0, fmt::format("a camera file holds one object {{...}}, not {}", object.type_name()));
+    for (const auto& [field, value] : object.items())
+        if (std::find(known_fields.begin(), known_fields.end(), field) == known_fields.end())
+            fail(text, field, fmt::format("a camera has no field '{}'", field));
+    Camera camera;
+    camera.to_world = read_matrix(text, required(text, object, "to_world"));
+    if (is_flat(camera.to_world))
+        fail(text, "to_world", "the camera's transform is flat");
+    camera.fov = number(text, "fov", required(text, object, "fov"));
+    if (!(camera.fov > 0 && camera.fov < 180))
+        fail(text, "fov", "the field of view must be between 0 and 180 degrees");
+    if (const auto axis = object.find("fov_axis"); axis != object.end()) {
+        const auto known = axis->is_string() ? fov_axis_from_name(axis->get<std::string>()) : std::nullopt;
+        if (!known)
+            fail(text, "fov_axis", "'fov_axis' must be \"x\", \"y\", \"diagonal\", \"smaller\" or \"larger\"");
+        camera.fov_axis = *known;
+    }
+    return camera;
+}
+
+Camera read_camera(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        throw LoadError({file.string(), 0, 0}, "this is a folder, not a camera file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw LoadError({file.string(), 0, 0},
+                        std::string("cannot open the camera file: ") + std::strerror(errno));
+    return parse_camera({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, file.string());
+}
+
+std::string camera_json(const Camera& camera) {
+    const std::array<std::string, 16> m = rows(camera.to_world);
+    std::string matrix;
+    for (std::size_t i = 0; i < 16; i += 4)
+        matrix += fmt::format("{}\n    {}, {}, {}, {}", i > 0 ? "," : "", m[i], m[i + 1], m[i + 2], m[i + 3]);
+    const glm::vec3 origin(camera.to_world[3]);
+    const glm::vec3 forward = glm::normalize(glm::vec3(camera.to_world[2]));
+    const glm::vec3 up = glm::normalize(glm::vec3(camera.to_world[1]));
+    return fmt::format("{{\n  \"to_world\": [{}\n  ],\n  \"fov\": {},\n  \"fov_axis\": \"{}\",\n"
+                       "  \"origin\": {},\n  \"target\": {},\n  \"up\": {}\n}}\n",
+                       matrix, exact(camera.fov), to_string(camera.fov_axis), triple(origin),
+                       triple(origin + forward), triple(up));
+}
+
+void write_camera(const std::filesystem::path& file, const Camera& camera) {
+    TemporaryFile temporary(file);
+    std::ofstream stream(temporary.path(), std::ios::binary);
+    stream << camera_json(camera);
+    stream.close();
+    if (!stream)
+        throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+    temporary.commit();
+}
+
+std::string camera_xml(const Camera& camera) {
+    return fmt::format("<float name=\"fov\" value=\"{}\"/>\n<string name=\"fov_axis\" value=\"{}\"/>\n"
+                       "<transform name=\"to_world\">\n    <matrix value=\"{}\"/>\n</transform>\n",
+                       exact(camera.fov), to_string(camera.fov_axis), fmt::join(rows(camera.to_world), " "));
+}
+
+} // namespace tessera

@@ -1,0 +1,193 @@
+#include "render/session/session_pane.h"
+
+#include "render/run/thread_pool.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+// What a pane shows at once, before its render begins.
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double looks_period = 1 / 15.0; // seconds for a first look of each pane, while a camera moves
+
+} // namespace
+
+/// A look: one sample a pixel of a small image. It is reconstructed before it is shown, as the next may be there
+/// before another thread had done so.
+void Session::look(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop) {
+    const Clock::time_point start = Clock::now();
+    const int divisor = pane.looks.divisor(generation, request.size);
+    const glm::ivec2 size = (request.size + divisor - 1) / divisor;
+    Render coarse(request.scene, request.camera, size, request.settings);
+    if (!coarse.pass(pool_, stop))
+        return;
+    const auto snapshot = snapshot_of(coarse, generation, divisor);
+    {
+        const std::lock_guard lock(mutex_);
+        snapshot->reconstructed_with = pane.reconstruction;
+    }
+    auto made = std::make_shared<Reconstruction>(
+        reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.loops(), stop));
+    if (made->image.empty())
+        return; // stopped
+    snapshot->reconstruction = std::move(made);
+    snapshot->reconstruction_spp = snapshot->spp;
+    snapshot->reconstruction_seconds = snapshot->seconds;
+    publish(pane, snapshot);
+    pane.looks.count(generation, divisor, std::chrono::duration<double>(Clock::now() - start).count(),
+                     look_budget());
+}
+
+/// Seconds that a pane's first look may take, so that all panes have one in time. Takes the lock.
+double Session::look_budget() const {
+    const std::lock_guard lock(mutex_);
+    const auto in_use = std::count_if(panes_.begin(), panes_.end(),
+                                      [](const auto& pane) { return pane->request.scene != nullptr; });
+    return looks_period / static_cast<double>(std::max(in_use, std::ptrdiff_t{1}));
+}
+
+// How a session's passes become snapshots.
+
+std::shared_ptr<Snapshot> Session::snapshot_of(const Render& render, std::uint64_t generation, int divisor) {
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->generation = generation;
+    snapshot->divisor = divisor;
+    snapshot->spp = render.spp();
+    snapshot->seconds = render.seconds();
+    snapshot->cpu_seconds = render.cpu_seconds();
+    snapshot->settings = render.settings();
+    snapshot->scene = render.scene();
+    snapshot->camera = render.camera();
+    snapshot->plan = render.newest_plan();
+    snapshot->counters = render.counters();
+    snapshot->images = std::make_shared<GradientImages>(render.images());
+    if (ReuseMaps maps = render.reuse_maps(); !maps.empty())
+        snapshot->reuse = std::make_shared<ReuseMaps>(std::move(maps));
+    return snapshot;
+}
+
+/// One without a reconstruction gets that of the render's snapshot before, until there is a newer one.
+void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
+    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before, given up without the lock
+    std::shared_ptr<const GradientImages> reconstructed;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!pane.request.scene || (pane.generation != snapshot->generation && !snapshot->coarse()))
+            return;
+        if (snapshot->reconstruction) {
+            reconstructed = std::exchange(pane.reconstructed, snapshot->images);
+            pane.reconstructed_with = snapshot->reconstructed_with;
+        } else if (pane.latest && pane.latest->generation == snapshot->generation && !pane.latest->coarse()) {
+            snapshot->reconstruction = pane.latest->reconstruction;
+            snapshot->reconstructed_with = pane.latest->reconstructed_with;
+            snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
+            snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
+        }
+        std::swap(pane.latest, latest);
+    }
+    tell(); // first: the other thread may take this one's core
+    reconstruct_wake_.notify_one();
+}
+
+/// Calls on_publish. It is not to end a thread of the session, whatever goes wrong there.
+void Session::tell() {
+    try {
+        if (on_publish_)
+            on_publish_();
+    } catch (const std::exception& error) {
+        const std::lock_guard lock(mutex_);
+        messages_.push_back(fmt::format("the newest picture is not shown: {}", error.what()));
+    }
+}
+
+/// The pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again with
+/// later passes: the render itself has lost nothing.
+void Session::publish_passes(Pane& pane) {
+    try {
+        publish(pane, snapshot_of(*pane.render, pane.render_generation, 1));
+    } catch (const std::exception& error) {
+        report(fmt::format("pass {} is not shown: {}", pane.render->spp(), error.what()));
+    }
+    pane.published_spp = pane.render->spp();
+    pane.published_at = std::chrono::steady_clock::now();
+}
+
+// The session's second thread: pictures from primal and gradients, the newest snapshot first.
+
+void Session::reconstruct_loop(std::stop_token stop) {
+    work_in_background();
+    std::size_t turn = 0; // panes in turn, so that none starves
+    while (!stop.stop_requested()) {
+        Pane* pane = nullptr;
+        std::shared_ptr<const Snapshot> snapshot;
+        ReconstructionSettings settings;
+        std::stop_token solve_stop;
+        {
+            std::unique_lock lock(mutex_);
+            const auto find = [&] {
+                for (std::size_t i = 0; i < panes_.size() && !pane; ++i) {
+                    Pane* candidate = panes_[(turn + i) % panes_.size()].get();
+                    if (candidate->needs_reconstruction())
+                        pane = candidate;
+                }
+                return pane != nullptr;
+            };
+            if (!reconstruct_wake_.wait(lock, stop, find))
+                return;
+            ++turn;
+            snapshot = pane->latest;
+            settings = pane->reconstruction;
+            solve_stop = pane->solve_stop.get_token();
+            pane->solving_spp = snapshot->spp;
+            pane->solving_since = std::chrono::steady_clock::now();
+            pane->solving_share = 0;
+        }
+        reconstruct_snapshot(*pane, *snapshot, settings, solve_stop);
+    }
+}
+
+void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
+                                   std::stop_token stop) {
+    auto result = std::make_shared<Reconstruction>();
+    std::shared_ptr<const GradientImages> reconstructed = snapshot.images; // and then the one before
+    std::shared_ptr<const Snapshot> latest;
+    std::string failure;
+    try {
+        *result = pane.solver_for(snapshot, settings)
+                      .reconstruct(*snapshot.images, settings, serial_for, {stop, &pane.solving_share});
+    } catch (const std::exception& error) {
+        failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, error.what());
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        pane.solving_spp = 0;
+        // A newer picture of another size or request has no use for this one.
+        if (stop.stop_requested() || pane.latest->generation != snapshot.generation ||
+            pane.latest->divisor != snapshot.divisor)
+            return;
+        std::swap(pane.reconstructed, reconstructed);
+        pane.reconstructed_with = settings;
+        if (!failure.empty()) {
+            messages_.push_back(std::move(failure));
+        } else {
+            // The render may have gone on meanwhile: the newest snapshot gets this picture, labelled with its
+            // pass.
+            auto updated = std::make_shared<Snapshot>(*pane.latest);
+            updated->reconstruction = std::move(result);
+            updated->reconstructed_with = settings;
+            updated->reconstruction_spp = snapshot.spp;
+            updated->reconstruction_seconds = snapshot.seconds;
+            latest = std::exchange(pane.latest, std::move(updated));
+        }
+    }
+    tell();
+}
+
+} // namespace tessera

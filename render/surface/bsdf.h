@@ -1,0 +1,89 @@
+#pragma once
+
+#include "render/surface/diffuse.h"
+#include "render/surface/interfaces.h"
+#include "render/surface/layered.h"
+#include "render/surface/plastic.h"
+#include "render/surface/scattering.h"
+
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace tessera {
+
+/// What a surface does to light at one point, as plain numbers. Every alternative has
+///   evaluate(to_previous, to_next)        the non-delta part: f cos and pdf_w
+///   sample(to_previous, lobe, u)          a direction of any part; empty: light ends here
+///   evaluate_delta(to_previous, scatter)  the delta part of that kind: direction, value and probability
+///   roughness()                           of the roughest non-delta part, 1 for diffuse; 0: there is none
+/// Directions are unit, in the shading frame, and point away from the surface. Values hold for radiance that
+/// arrives along to_next and leaves along to_previous.
+struct Bsdf {
+    std::variant<Diffuse, RoughDiffuse, RoughConductor, SmoothConductor, SmoothDielectric, RoughDielectric,
+                 ThinDielectric, Plastic, Phong, Mixture, Coated>
+        kind = Diffuse{};
+
+    /// Where relief has bent the frame: the normal before that, in the frame. What is above the one surface and
+    /// below the other is cut off, or light would leak through.
+    glm::vec3 unbent_normal{0, 0, 1};
+    /// How much light is lost as it gets steep to the unbent normal, where else its shadow would have a sharp edge
+    /// [Estevez 2019]: the square of the roughness in that formula. 0: none is. Negative: the frame is not bent.
+    float terminator = -1;
+    bool is_bent() const { return terminator >= 0; }
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
+        BsdfValue v = std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
+        if (is_bent()) [[unlikely]]
+            v = is_cut(to_previous, to_next) ? BsdfValue{} : BsdfValue{v.f_cos * shadowing(to_next), v.pdf_w};
+        return v;
+    }
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
+        if (is_bent()) [[unlikely]]
+            return sample_bent(to_previous, lobe, u);
+        return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
+    }
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
+        DeltaValue v = std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+        if (is_bent())
+            v = is_cut(to_previous, v.to_next)
+                    ? DeltaValue{}
+                    : DeltaValue{v.to_next, v.value * shadowing(v.to_next), v.probability};
+        return v;
+    }
+    float roughness() const {
+        return std::visit([](const auto& b) { return b.roughness(); }, kind);
+    }
+
+    /// Where light is scattered through the surface: index on the far side over that on the side of to_previous,
+    /// by which such scatters have their half vector. 1: the non-delta part transmits nothing.
+    float relative_index(glm::vec3 to_previous) const {
+        return std::visit(
+            [&](const auto& b) {
+                if constexpr (requires { b.relative_index(to_previous); })
+                    return b.relative_index(to_previous);
+                else
+                    return 1.0f;
+            },
+            kind);
+    }
+
+private:
+    bool is_cut(glm::vec3 to_previous, glm::vec3 to_next) const {
+        return to_previous.z * glm::dot(unbent_normal, to_previous) <= 0 ||
+               to_next.z * glm::dot(unbent_normal, to_next) <= 0;
+    }
+    float shadowing(glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+};
+
+/// What kind of BSDF it is, in the words of scene files: "diffuse", "roughconductor", ...
+std::string_view kind_name(const Bsdf& bsdf);
+
+// Paths are made of these: plain numbers, and no more of them than a plastic takes. (libstdc++ visits up to 11
+// alternatives by a switch, more through a table of pointers.)
+static_assert(std::is_trivially_copyable_v<Bsdf>);
+static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 16);
+
+} // namespace tessera

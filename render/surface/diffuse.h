@@ -1,0 +1,63 @@
+#pragma once
+
+#include "render/sampling/sampling.h"
+#include "render/surface/scattering.h"
+
+#include <optional>
+
+namespace tessera {
+
+/// Lambert's law, on the upper side only.
+struct Diffuse {
+    Rgb reflectance{0};
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
+        if (to_previous.z <= 0 || to_next.z <= 0)
+            return {};
+        const float pdf_w = to_next.z * inv_pi;
+        return {reflectance * pdf_w, pdf_w};
+    }
+
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float, glm::vec2 u) const {
+        const glm::vec3 to_next = sample_cosine_hemisphere(u);
+        const BsdfValue v = evaluate(to_previous, to_next);
+        if (v.pdf_w <= 0 || is_black(v.f_cos))
+            return {};
+        return std::make_optional<BsdfSample>(to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
+    }
+
+    DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
+    float roughness() const { return 1; }
+};
+
+/// Diffuse V-shaped grooves with the light that goes from one wall to the other [Oren 1994], as Mitsuba's
+/// `roughdiffuse`; the upper side only.
+struct RoughDiffuse {
+    Rgb reflectance{0};
+    float sigma = 0;   ///< standard deviation of the slope's angle
+    bool fast = false; ///< without interreflection and two of the smaller terms
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
+    float roughness() const { return 1; }
+};
+
+/// The modified Phong model [Lafortune 1994], a diffuse part and a lobe about the mirror direction; the upper side
+/// only.
+struct Phong {
+    float exponent = 30;
+    Rgb diffuse_reflectance{0};
+    Rgb specular_reflectance{0};
+    float specular_weight = 0; ///< share of samples for the lobe
+
+    /// Reflectances that are above 1 together are scaled down to it.
+    Phong(float exponent, Rgb diffuse_reflectance, Rgb specular_reflectance);
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
+    float roughness() const;
+};
+
+} // namespace tessera

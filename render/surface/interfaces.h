@@ -1,0 +1,77 @@
+#pragma once
+
+#include "render/surface/microfacet.h"
+#include "render/surface/scattering.h"
+
+#include <optional>
+
+namespace tessera {
+
+/// Microfacets of a conductor; the upper side only.
+struct RoughConductor {
+    Microfacets facets;
+    Rgb eta{0}; ///< complex index of refraction over the outside's: eta + i k
+    Rgb k{1};
+    Rgb specular_reflectance{1};
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
+    float roughness() const { return facets.alpha; }
+};
+
+/// A perfectly smooth conductor, or with eta = 0 and k = 1 a perfect mirror; the upper side only.
+struct SmoothConductor {
+    Rgb eta{0};
+    Rgb k{1};
+    Rgb specular_reflectance{1};
+
+    BsdfValue evaluate(glm::vec3, glm::vec3) const { return {}; }
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
+    float roughness() const { return 0; }
+};
+
+/// A perfectly smooth boundary between two dielectrics. Radiance is divided by the square of the relative index
+/// where it crosses, as it is squeezed into another solid angle.
+struct SmoothDielectric {
+    float eta = 1.5f; ///< index inside (below the surface) over outside
+    Rgb specular_reflectance{1};
+    Rgb specular_transmittance{1};
+
+    BsdfValue evaluate(glm::vec3, glm::vec3) const { return {}; }
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
+    float roughness() const { return 0; }
+};
+
+/// A thin pane of a dielectric, as one surface: light is reflected, or goes straight on; the bounces between the
+/// two faces are summed.
+struct ThinDielectric {
+    float eta = 1.5f; ///< index of the pane over that around it
+    Rgb specular_reflectance{1};
+    Rgb specular_transmittance{1};
+
+    BsdfValue evaluate(glm::vec3, glm::vec3) const { return {}; }
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
+    float roughness() const { return 0; }
+};
+
+/// Microfacets of a boundary between two dielectrics [Walter 2007]. Radiance is divided by the square of the
+/// relative index where it crosses, as by SmoothDielectric.
+struct RoughDielectric {
+    Microfacets facets;
+    float eta =
+        1.5f; ///< index inside (below the surface) over outside; not 1: facets that do not bend hide nothing
+    Rgb specular_reflectance{1};
+    Rgb specular_transmittance{1};
+
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
+    float roughness() const { return facets.alpha; }
+    float relative_index(glm::vec3 to_previous) const { return to_previous.z > 0 ? eta : 1 / eta; }
+};
+
+} // namespace tessera

@@ -1,0 +1,134 @@
+#include "render/surface/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// A texture of which the luminance counts; quick where it is constant, and then grey.
+float scalar(const Texture& texture, const SurfacePoint& at) {
+    const Rgb* constant = std::get_if<Rgb>(&texture.kind);
+    return constant ? constant->r : luminance(texture.evaluate(at));
+}
+
+/// A texture of shares of light. Above 1, which only files of floats and scaled textures are, it makes energy, as
+/// in Mitsuba 3.
+Rgb share(const Texture& texture, const SurfacePoint& at) {
+    return glm::max(texture.evaluate(at), 0.0f);
+}
+
+Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
+    const float alpha = scalar(m.alpha, at);
+    if (alpha <= 0)
+        return {Diffuse{share(m.reflectance, at)}};
+    // RMS slope to the slope's angle, as Mitsuba has it.
+    return {RoughDiffuse{share(m.reflectance, at), alpha / std::sqrt(2.0f), m.fast}};
+}
+
+Bsdf resolve(const ConductorMaterial& m, const SurfacePoint& at) {
+    const float alpha = scalar(m.alpha, at);
+    const Rgb specular_reflectance = share(m.specular_reflectance, at);
+    if (alpha <= 0)
+        return {SmoothConductor{m.eta, m.k, specular_reflectance}};
+    return {RoughConductor{{m.distribution, std::max(alpha, smallest_alpha)}, m.eta, m.k, specular_reflectance}};
+}
+
+Bsdf resolve(const DielectricMaterial& m, const SurfacePoint& at) {
+    const Rgb reflectance = share(m.specular_reflectance, at), transmittance = share(m.specular_transmittance, at);
+    if (m.thin)
+        return {ThinDielectric{m.eta, reflectance, transmittance}};
+    const float alpha = scalar(m.alpha, at);
+    if (alpha > 0 && std::abs(m.eta - 1) > 1e-3f) // facets that bend no light are not seen
+        return {
+            RoughDielectric{{m.distribution, std::max(alpha, smallest_alpha)}, m.eta, reflectance, transmittance}};
+    return {SmoothDielectric{m.eta, reflectance, transmittance}};
+}
+
+Bsdf resolve(const PlasticMaterial& m, const SurfacePoint& at) {
+    return {Plastic(*m.coating, m.eta, m.facets, share(m.specular_reflectance, at),
+                    share(m.diffuse_reflectance, at), m.nonlinear)};
+}
+
+Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
+    return {Phong(std::max(scalar(m.exponent, at), 0.0f), share(m.diffuse_reflectance, at),
+                  share(m.specular_reflectance, at))};
+}
+
+Bsdf resolve(const MixtureMaterial& m, const SurfacePoint& at) {
+    return {Mixture{&m, at}};
+}
+
+Bsdf resolve(const CoatedMaterial& m, const SurfacePoint& at) {
+    return {Coated{&m, at}};
+}
+
+std::vector<const Texture*> textures(const DiffuseMaterial& m) {
+    return {&m.reflectance, &m.alpha};
+}
+std::vector<const Texture*> textures(const ConductorMaterial& m) {
+    return {&m.alpha, &m.specular_reflectance};
+}
+std::vector<const Texture*> textures(const DielectricMaterial& m) {
+    return {&m.specular_reflectance, &m.specular_transmittance, &m.alpha};
+}
+std::vector<const Texture*> textures(const PlasticMaterial& m) {
+    return {&m.diffuse_reflectance, &m.specular_reflectance};
+}
+std::vector<const Texture*> textures(const PhongMaterial& m) {
+    return {&m.exponent, &m.diffuse_reflectance, &m.specular_reflectance};
+}
+std::vector<const Texture*> textures(const MixtureMaterial& m) {
+    std::vector<const Texture*> all;
+    if (m.second_share)
+        all.push_back(&*m.second_share);
+    for (const std::shared_ptr<const Material>& part : m.parts)
+        for (const Texture* t : part->textures())
+            all.push_back(t);
+    return all;
+}
+std::vector<const Texture*> textures(const CoatedMaterial& m) {
+    std::vector<const Texture*> all = m.base->textures();
+    all.push_back(&m.sigma_a);
+    all.push_back(&m.specular_reflectance);
+    return all;
+}
+
+} // namespace
+
+float MixtureMaterial::weight(std::size_t part, const SurfacePoint& at) const {
+    if (!second_share)
+        return weights[part];
+    const float second = std::clamp(luminance(second_share->evaluate(at)), 0.0f, 1.0f);
+    return part == 1 ? second : 1 - second;
+}
+
+std::vector<const Texture*> Material::textures() const {
+    std::vector<const Texture*> all = std::visit([](const auto& m) { return tessera::textures(m); }, kind);
+    if (opacity)
+        all.push_back(&*opacity);
+    if (relief)
+        all.push_back(&relief->map);
+    return all;
+}
+
+bool Material::is_textured() const {
+    const std::vector<const Texture*> all = textures();
+    return std::any_of(all.begin(), all.end(), [](const Texture* t) { return !t->is_constant(); });
+}
+
+bool Material::is_transparent() const {
+    if (const auto* mixture = std::get_if<MixtureMaterial>(&kind))
+        return std::any_of(mixture->parts.begin(), mixture->parts.end(),
+                           [](const auto& part) { return part->is_transparent(); });
+    return std::holds_alternative<DielectricMaterial>(kind);
+}
+
+Bsdf Material::resolve(const SurfacePoint& at) const {
+    return std::visit([&](const auto& m) { return tessera::resolve(m, at); }, kind);
+}
+
+} // namespace tessera

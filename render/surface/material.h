@@ -1,0 +1,115 @@
+#pragma once
+
+#include "render/surface/bsdf.h"
+#include "render/surface/texture.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tessera {
+
+/// Lambert's law, or with alpha > 0 the diffuse grooves of Oren and Nayar.
+struct DiffuseMaterial {
+    Texture reflectance{Rgb(0.5f)};
+    Texture alpha{Rgb(0)}; ///< RMS slope of the grooves, the red channel counts
+    bool fast = false;     ///< the qualitative model of the grooves
+};
+
+/// A conductor; alpha = 0 means a perfect mirror, any above at least what microfacet theory can hold in floats.
+struct ConductorMaterial {
+    MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+    Texture alpha{Rgb(0)}; ///< roughness, by its luminance; constant 0: perfectly smooth
+    Rgb eta{0};            ///< index of refraction relative to the outside; eta = 0, k = 1: reflects all
+    Rgb k{1};              ///< absorption, likewise
+    Texture specular_reflectance{Rgb(1)};
+};
+
+/// A boundary between two dielectrics, or a thin pane.
+struct DielectricMaterial {
+    bool thin = false;               ///< always smooth
+    float eta = 1.5046f / 1.000277f; ///< inside over outside
+    Texture specular_reflectance{Rgb(1)};
+    Texture specular_transmittance{Rgb(1)};
+    MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+    Texture alpha{Rgb(0)}; ///< roughness, by its luminance; constant 0: perfectly smooth
+};
+
+/// A diffuse base under a dielectric coating.
+struct PlasticMaterial {
+    float eta = 1.49f / 1.000277f;                           ///< inside over outside
+    bool nonlinear = false;                                  ///< the colour deepens with each bounce inside
+    Microfacets facets{MicrofacetDistribution::beckmann, 0}; ///< of the coating; alpha = 0: smooth
+    std::shared_ptr<const Coating> coating;                  ///< of these eta and facets; not null
+    Texture diffuse_reflectance{Rgb(0.5f)};
+    Texture specular_reflectance{Rgb(1)};
+};
+
+/// A diffuse part and a lobe about the mirror direction.
+struct PhongMaterial {
+    Texture exponent{Rgb(30)}; ///< by its luminance
+    Texture diffuse_reflectance{Rgb(0.5f)};
+    Texture specular_reflectance{Rgb(0.2f)};
+};
+
+struct Material;
+
+/// A weighted sum of materials, whose opacity, relief and two-sidedness do not count.
+struct MixtureMaterial {
+    std::vector<std::shared_ptr<const Material>> parts; ///< transparent ones refract all alike
+    std::vector<float> weights{};                       ///< one a part, at most 1 together
+    /// With two parts: the weight of the second by its luminance, of the first what is left to 1; `weights` then
+    /// do not count.
+    std::optional<Texture> second_share{};
+
+    float weight(std::size_t part, const SurfacePoint& at) const;
+};
+
+/// A material under a smooth dielectric layer. The base's opacity, relief and two-sidedness do not count.
+struct CoatedMaterial {
+    float eta = 1.5046f / 1.000277f; ///< index of the layer over that outside
+    float thickness = 1;
+    Texture sigma_a{Rgb(0)}; ///< absorption per unit of thickness
+    Texture specular_reflectance{Rgb(1)};
+    std::shared_ptr<const Material> base; ///< opaque, not null
+};
+
+/// What bends the normals of shading.
+struct Relief {
+    enum class Kind : std::uint8_t {
+        bump,       ///< a height above the surface, in units of the scene; a matter of its luminance's gradient
+        normal_map, ///< normals in the frame of u, v and the normal, coded as (n + 1) / 2
+    };
+    Kind kind = Kind::bump;
+    Texture map;
+    float scale = 1;                 ///< factor on the height
+    bool softens_terminator = false; ///< light that is steep to the unbent normal is dimmed [Estevez 2019]
+};
+
+/// What a surface is made of, before textures are looked up.
+struct Material {
+    std::string name;
+    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, PlasticMaterial, PhongMaterial,
+                 MixtureMaterial, CoatedMaterial>
+        kind;
+    bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
+    std::optional<Texture> opacity{}; ///< share of light that meets the surface at all (luminance); nothing: all
+    std::optional<Relief> relief{};
+
+    /// The BSDF there, as plain numbers; those of mixtures and coatings refer to this material.
+    Bsdf resolve(const SurfacePoint& at) const;
+
+    /// The textures it looks up, constant ones and those of nested materials among them.
+    std::vector<const Texture*> textures() const;
+
+    /// Whether uv or vertex colours matter.
+    bool is_textured() const;
+
+    /// Whether light gets through (holes by its opacity do not count).
+    bool is_transparent() const;
+};
+
+} // namespace tessera

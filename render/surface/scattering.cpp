@@ -1,0 +1,43 @@
+#include "render/surface/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+
+namespace tessera {
+
+DielectricFresnel fresnel_dielectric(float cos_previous, float eta) {
+    const bool outside = cos_previous >= 0;
+    const float far_over_near = outside ? eta : 1 / eta;
+    const float near_over_far = outside ? 1 / eta : eta;
+    const float c = std::abs(cos_previous);
+    const float cos2 = 1 - (1 - c * c) * near_over_far * near_over_far; // Snell's law
+    if (cos2 <= 0)
+        return {1, 0, far_over_near};
+    const float t = std::sqrt(cos2);
+    const float parallel = (far_over_near * c - t) / (far_over_near * c + t);
+    const float perpendicular = (c - far_over_near * t) / (c + far_over_near * t);
+    const float reflectance =
+        far_over_near == 1 ? 0 : 0.5f * (parallel * parallel + perpendicular * perpendicular);
+    return {reflectance, outside ? -t : t, far_over_near};
+}
+
+Rgb fresnel_conductor(float cos_previous, Rgb eta, Rgb k) {
+    // The exact equations in terms of a^2 + b^2 and a [Born and Wolf, 14.2].
+    const float cos2 = cos_previous * cos_previous;
+    const float sin2 = 1 - cos2;
+    const Rgb n = eta * eta - k * k - sin2;
+    const Rgb a2_plus_b2 = glm::sqrt(glm::max(n * n + 4.0f * eta * eta * k * k, 0.0f));
+    const Rgb a = glm::sqrt(glm::max(0.5f * (a2_plus_b2 + n), 0.0f));
+
+    const Rgb s1 = a2_plus_b2 + cos2;
+    const Rgb s2 = 2.0f * cos_previous * a;
+    const Rgb p1 = a2_plus_b2 * cos2 + sin2 * sin2;
+    const Rgb p2 = s2 * sin2;
+    // The mean of (s1 - s2) / (s1 + s2), perpendicular, and of (p1 - p2) / (p1 + p2) of it, parallel.
+    return (s1 - s2) * p1 / ((s1 + s2) * (p1 + p2));
+}
+
+} // namespace tessera

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+struct Ray {
+    glm::vec3 origin;
+    glm::vec3 direction; ///< unit
+};
+
+/// Numbers side by side, one a pixel of a sampling set, for loops that the compiler turns into vector code. Loops
+/// run over whole vectors, to padded(count): what lies in the lanes beyond is never read for a result.
+inline constexpr int lanes_a_vector = 8;
+/// The largest tile with its halo, rounded up to whole vectors.
+inline constexpr int most_lanes = (17 * 17 + lanes_a_vector - 1) / lanes_a_vector * lanes_a_vector;
+
+inline int padded(int lanes) {
+    return (lanes + lanes_a_vector - 1) / lanes_a_vector * lanes_a_vector;
+}
+
+template <class T>
+struct alignas(64) LaneArray {
+    std::array<T, most_lanes> values{};
+
+    T& operator[](int lane) { return values[static_cast<std::size_t>(lane)]; }
+    const T& operator[](int lane) const { return values[static_cast<std::size_t>(lane)]; }
+};
+
+using FloatLanes = LaneArray<float>;
+using LaneMask = LaneArray<std::int32_t>; ///< -1: yes, 0: no
+
+struct Vec3Lanes {
+    FloatLanes x, y, z;
+
+    glm::vec3 operator[](int lane) const { return {x[lane], y[lane], z[lane]}; }
+    void set(int lane, glm::vec3 v) {
+        x[lane] = v.x;
+        y[lane] = v.y;
+        z[lane] = v.z;
+    }
+};
+
+/// Stretches of space that light must cross, open at both ends.
+struct SegmentLanes {
+    Vec3Lanes from, to;
+};
+
+} // namespace tessera

@@ -1,0 +1,273 @@
+#include "ui/charts/charts.h"
+#include "ui/gl/theme.h"
+#include "ui/state/words.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/common.hpp>
+
+namespace tessera {
+
+namespace {
+
+// Heights, in sizes of the font.
+constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
+
+const std::array<ChoiceItem, 3> kinds = {{
+    {words::charts[0], "Error", "relMSE of each pane's picture to the reference."},
+    {words::charts[1], "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
+    {words::charts[2], "Shifts",
+     "How the shifts of each pane ended: which share came through, and why others did not."},
+}};
+
+constexpr const char* help_of(ChartKind kind) {
+    switch (kind) {
+    case ChartKind::error:
+        return "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + 0.001) [Bauszat "
+               "2017, 4], against what it has taken; to a reference with halves (I - r1) (I - r2), in which the "
+               "reference's own noise cancels. Both axes are logarithmic.";
+    case ChartKind::efficiency:
+        return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of a method without bias becomes "
+               "level; the higher one needs less time for the same error. Both axes are logarithmic.";
+    case ChartKind::shifts:
+        return "The share of all shifts so far by how they ended, per cent. Both axes are logarithmic.";
+    }
+    return "";
+}
+
+/// Takes room of a height, as an item; where it is.
+ScreenRect take_room(float height) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f);
+    ImGui::Dummy({width, height});
+    return {{at.x, at.y}, {at.x + width, at.y + height}};
+}
+
+void coloured(ImU32 colour, const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+}
+
+/// "-1.02", or a dash while it is not known.
+std::string slope_text(double slope) {
+    char text[16] = "-";
+    if (std::isfinite(slope))
+        std::snprintf(text, sizeof text, "%.2f", slope);
+    return text;
+}
+
+/// "0.0123 ± 0.0004   slope -1.02": the newest point of a line.
+std::string figures_text(const ViewerState& state, const ChartSeries& series) {
+    if (series.points.empty())
+        return "no error yet";
+    const ChartPoint& newest = series.points.back();
+    char text[128], error[32] = "";
+    if (std::isfinite(newest.error) && newest.error > 0)
+        std::snprintf(error, sizeof error, " ± %.1g", newest.error);
+    std::snprintf(text, sizeof text, "%.3g%s%s   slope %s", newest.y, error,
+                  state.chart_kind == ChartKind::efficiency ? " /s" : "",
+                  slope_text(slope_of_last_decade(series)).c_str());
+    return text;
+}
+
+/// For each line of the plot the newest error or efficiency and the slope; and what all of them lack.
+void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
+                  const std::vector<ImU32>& colours) {
+    float widest = 0;
+    for (const ChartSeries& series : plot.series)
+        widest = std::max(widest, ImGui::CalcTextSize(series.label.c_str()).x);
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        coloured(colours[i], plot.series[i].label.c_str());
+        ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + widest + ImGui::GetFontSize());
+        ImGui::TextUnformatted(figures_text(state, plot.series[i]).c_str());
+        controls.note(
+            ("charts.figures" + std::to_string(i)).c_str(),
+            "The newest value with its standard error where that is known, and the slope of the line over "
+            "its last decade: -1 for an error that falls as noise does, 0 for its efficiency.");
+    }
+    const std::string caveat = chart_caveat(state);
+    if (caveat.empty())
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
+    ImGui::TextWrapped("%s", caveat.c_str());
+    ImGui::PopStyleColor();
+    controls.note("charts.caveat", "References made here, or by tessera reference, have two halves that are "
+                                   "independent of each other: errors against both are free of their noise.");
+}
+
+/// A line for each outcome, with the newest share in every pane that has a plot.
+void draw_shares(Controls& controls, const ViewerState& state, const Chart& chart,
+                 const std::vector<ImU32>& colours) {
+    const float font = ImGui::GetFontSize();
+    const auto column = [&](std::size_t plot) { return font * (7.5f + 4 * static_cast<float>(plot)); };
+    const std::vector<std::size_t> panes = shifting_panes(state);
+    for (std::size_t plot = 0; plot < panes.size(); ++plot) {
+        ImGui::SetCursorPosX(column(plot));
+        ImGui::TextDisabled("%s", pane_name(state, panes[plot]).c_str());
+        if (plot + 1 < panes.size())
+            ImGui::SameLine();
+    }
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        coloured(colours[i], chart.plots.front().series[i].label.c_str());
+        for (std::size_t plot = 0; plot < chart.plots.size(); ++plot) {
+            const auto& points = chart.plots[plot].series[i].points;
+            ImGui::SameLine(column(plot));
+            ImGui::Text("%.1f %%", points.empty() ? 0.0 : points.back().y);
+        }
+    }
+    controls.note("charts.shares", "The newest share of each outcome, a column for each pane.");
+}
+
+/// The chart that is chosen, `height` of all its plots together, and what it says in numbers.
+void draw_chart(Controls& controls, const ViewerState& state, float height) {
+    const Chart chart = viewer_chart(state);
+    const std::vector<ImU32> colours = line_colours(state);
+    if (chart.plots.empty()) {
+        ImGui::TextDisabled(state.chart_kind == ChartKind::shifts ? "No pane has shifted a path"
+                                                                  : "No reference to measure errors against");
+        return;
+    }
+    const float each = height / static_cast<float>(chart.plots.size());
+    for (std::size_t i = 0; i < chart.plots.size(); ++i) {
+        draw_plot(take_room(each), chart.plots[i], colours);
+        controls.note(
+            ("charts." + kinds[static_cast<std::size_t>(state.chart_kind)].id + (i > 0 ? std::to_string(i) : ""))
+                .c_str(),
+            help_of(state.chart_kind));
+    }
+    if (state.chart_kind == ChartKind::shifts)
+        draw_shares(controls, state, chart, colours);
+    else
+        draw_figures(controls, state, chart.plots.front(), colours);
+}
+
+float chart_height(const ViewerState& state) {
+    const float font = ImGui::GetFontSize();
+    if (state.chart_kind != ChartKind::shifts)
+        return font * plot_height;
+    const std::size_t plots = shifting_panes(state).size();
+    return font * (plots > 1 ? small_plot_height * static_cast<float>(plots) : plot_height);
+}
+
+/// Its bins, on a square root scale; the bright line is what the exposure makes white.
+void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposure) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto most = static_cast<float>(
+        std::max<std::size_t>(*std::max_element(histogram.bins.begin(), histogram.bins.end()), 1));
+    const float step = where.size().x / Histogram::bin_count;
+    for (int bin = 0; bin < Histogram::bin_count; ++bin) {
+        const float share = std::sqrt(static_cast<float>(histogram.bins[static_cast<std::size_t>(bin)]) / most);
+        const float left = where.min.x + step * static_cast<float>(bin);
+        list.AddRectFilled({left, glm::mix(where.max.y, where.min.y, share)}, {left + step, where.max.y},
+                           colours::dim_text);
+    }
+    const float stops = static_cast<float>(Histogram::last_stop - Histogram::first_stop);
+    const float white = (-exposure - Histogram::first_stop) / stops;
+    if (white > 0 && white < 1) {
+        const float at = glm::mix(where.min.x, where.max.x, white);
+        list.AddLine({at, where.min.y}, {at, where.max.y}, colours::accent);
+    }
+}
+
+void draw_histogram(Controls& controls, const ViewerState& state) {
+    const ScreenRect where = take_room(ImGui::GetFontSize() * histogram_height);
+    controls.note(
+        "charts.histogram",
+        "How many pixels of the active pane's picture have which luminance, from 2^-12 to 2^8, on a square "
+        "root scale. The bright line is what the exposure makes white.");
+    ImGui::GetWindowDrawList()->AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y},
+                                              IM_COL32(128, 128, 128, 25));
+    const auto& histogram = state.chart_of(state.active()).histogram;
+    if (!histogram)
+        return;
+    draw_bins(where, *histogram, state.tone.exposure);
+    ImGui::TextDisabled("%zu black   %zu negative   %zu not finite", histogram->black, histogram->negative,
+                        histogram->not_finite);
+}
+
+/// Which chart, and against what.
+void draw_choices(Controls& controls, ViewerState& state) {
+    static const std::array<ChoiceItem, 2> axes = {{
+        {words::chart_axes[0], "against seconds", "Wall time of a pane's own passes."},
+        {words::chart_axes[1], "against samples", "Samples a pixel."},
+    }};
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);
+    int kind = static_cast<int>(state.chart_kind), axis = state.charts_by_spp;
+    controls.bare_choice("charts.kind", kinds[static_cast<std::size_t>(kind)].label.c_str(), kinds, kind, width,
+                         "Which chart is shown.");
+    ImGui::SameLine();
+    controls.bare_choice("charts.axis", axes[static_cast<std::size_t>(axis)].label.c_str(), axes, axis, -FLT_MIN,
+                         "What it is shown against.");
+    state.chart_kind = static_cast<ChartKind>(kind);
+    state.charts_by_spp = axis == 1;
+}
+
+/// Where a reference comes from.
+void draw_reference_buttons(Controls& controls, ViewerState& state) {
+    if (controls.button("charts.open_reference", "Open a reference ...", "Chooses an EXR file."))
+        state.choosing = FilePurpose::reference;
+    ImGui::SameLine();
+    if (controls.button("charts.make_reference", "Make one ...", "Renders a reference of what the panes show."))
+        state.reference_making.show = true;
+}
+
+void draw_chart_buttons(Controls& controls, ViewerState& state) {
+    if (controls.button("charts.large", state.large_charts ? "Small" : "Large",
+                        state.large_charts ? "Draws them here again (Esc)."
+                                           : "Draws chart and histogram over the pictures instead of here."))
+        state.large_charts = !state.large_charts;
+    ImGui::SameLine();
+    if (controls.button("charts.save", "Save",
+                        "Writes the points of all panes and the histogram as CSV, the chart as SVG, and a picture "
+                        "of it as PNG, to the current folder."))
+        state.save_charts = true;
+}
+
+void draw_contents(Controls& controls, ViewerState& state) {
+    heading("Charts");
+    draw_choices(controls, state);
+    if (!state.large_charts)
+        draw_chart(controls, state, chart_height(state));
+    if (state.chart_kind != ChartKind::shifts && !state.companions.reference)
+        draw_reference_buttons(controls, state);
+    draw_chart_buttons(controls, state);
+    if (state.large_charts)
+        return;
+    heading("Histogram");
+    draw_histogram(controls, state);
+}
+
+} // namespace
+
+void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Charts", nullptr, side_panel_flags)) {
+        ImGui::GetWindowDrawList()->AddLine({where.min.x, where.min.y}, {where.max.x, where.min.y}, colours::line);
+        draw_contents(controls, state);
+    }
+    ImGui::End();
+}
+
+void draw_large_charts(const ScreenRect& where, Controls& controls, const ViewerState& state) {
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Large charts", nullptr, overlay_flags)) {
+        const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
+        const auto lines = static_cast<float>(line_colours(state).size() + 1); // one above, or the caveat below
+        ImGui::TextDisabled("%s", viewer_chart(state).title.c_str());
+        const float rest = (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
+        draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - rest, font * plot_height));
+        draw_histogram(controls, state);
+    }
+    ImGui::End();
+    controls.note_rect("charts.picture", where.min, where.max);
+}
+
+} // namespace tessera

@@ -1,0 +1,213 @@
+#include "recon/metrics.h"
+#include "ui/charts/charts.h"
+#include "ui/gl/tone.h"
+#include "ui/state/shift_outcomes.h"
+#include "ui/state/companions.h"
+#include "ui/state/words.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+using Scale = ChartAxis::Scale;
+
+Method method_of(const ViewerState& state, std::size_t pane) {
+    return state.panes[pane].settings.render.method;
+}
+
+std::string method_name(std::size_t pane, Method method) {
+    return fmt::format("{}  {}", pane + 1, paper_name(method));
+}
+
+const PassHistory<ShiftPoint>& shifts_of(const ViewerState& state, std::size_t pane) {
+    return state.chart_of(state.panes[pane]).shifts;
+}
+
+template <class Point>
+double x_of(const ViewerState& state, const Point& p) {
+    return state.charts_by_spp ? p.spp : p.seconds;
+}
+
+ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scale) {
+    return {state.charts_by_spp ? "samples a pixel" : "seconds", std::move(y_label), Scale::log, y_scale, {}, {}};
+}
+
+/// A line of the chart of errors.
+struct PaneLine {
+    std::size_t pane;
+    const ErrorCurve* curve; // null: the pane has none yet
+    std::string name;
+    std::size_t age; // lines of the pane that are newer
+};
+
+/// Which of the pane's lines: as much of its reconstruction as tells it from the others.
+std::string curve_name(std::size_t pane, const ErrorCurve& curve, const std::vector<ErrorCurve>& all) {
+    std::string name = method_name(pane, curve.method);
+    const auto norms = std::count_if(all.begin(), all.end(), [&](const ErrorCurve& other) {
+        return other.reconstruction.norm == curve.reconstruction.norm;
+    });
+    if (all.size() > 1)
+        name += fmt::format(", {}", to_string(curve.reconstruction.norm));
+    if (norms > 1)
+        name += fmt::format(" {:.3g}{}", curve.reconstruction.alpha,
+                            curve.reconstruction.joint_colour ? "" : " by channel");
+    return name;
+}
+
+std::vector<PaneLine> error_lines(const ViewerState& state) {
+    std::vector<PaneLine> lines;
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        for (std::size_t c = 0; c < curves.size(); ++c)
+            lines.push_back({i, &curves[c], curve_name(i, curves[c], curves), curves.size() - 1 - c});
+        if (curves.empty())
+            lines.push_back({i, nullptr, pane_name(state, i), 0});
+    }
+    return lines;
+}
+
+ChartPlot error_plot(const ViewerState& state) {
+    const bool is_error = state.chart_kind == ChartKind::error;
+    ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
+    for (const PaneLine& line : error_lines(state)) {
+        ChartSeries series{line.name, {}, false, true};
+        if (line.curve)
+            for (const ErrorPoint& p : line.curve->points())
+                series.points.push_back(
+                    {x_of(state, p), is_error ? p.error : efficiency_of(p), is_error ? p.standard_error : 0});
+        plot.series.push_back(std::move(series));
+    }
+    return plot;
+}
+
+ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
+    const std::vector<ShiftPoint>& points = shifts_of(state, pane).points();
+    const std::string name = method_name(pane, points.back().method);
+    ChartPlot plot = empty_plot(state, name + "  % of shifts", Scale::log);
+    for (ShiftOutcome outcome : seen_outcomes(state)) {
+        ChartSeries series{in_words(to_string(outcome)), {}, false, true};
+        for (const ShiftPoint& p : points)
+            series.points.push_back({x_of(state, p), 100 * p.shares[static_cast<std::size_t>(outcome)], 0});
+        plot.series.push_back(std::move(series));
+    }
+    return plot;
+}
+
+/// Darker on a light ground, where words are written in it.
+ImU32 readable(ImU32 colour, Theme theme) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(colour);
+    const float share = theme == Theme::light ? 0.72f : 1.0f;
+    return ImGui::ColorConvertFloat4ToU32({c.x * share, c.y * share, c.z * share, c.w});
+}
+
+/// Panes with one method are told apart by their brightness.
+ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(method_colour(method_of(state, pane)));
+    for (std::size_t i = 0; i < pane; ++i)
+        if (method_of(state, i) == method_of(state, pane))
+            c.w *= 0.6f;
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+/// The newest of a pane's lines in its colour, older ones fainter.
+ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(pane_colour(state, line.pane));
+    c.w *= 1 / (1 + 0.8f * static_cast<float>(line.age));
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+} // namespace
+
+std::string pane_name(const ViewerState& state, std::size_t pane) {
+    return method_name(pane, method_of(state, pane));
+}
+
+std::string chart_caveat(const ViewerState& state) {
+    if (!state.companions.reference)
+        return {};
+    std::string text = caveat_of(*state.companions.reference);
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        const std::size_t all = curves.empty() ? 0 : curves.back().points().back().not_finite;
+        if (all > state.companions.reference->not_finite)
+            text += fmt::format("{}Pane {}: {} pixels are not finite, and left out.", text.empty() ? "" : " ",
+                                i + 1, all);
+    }
+    return text;
+}
+
+double efficiency_of(const ErrorPoint& point) {
+    return 1 / (point.error * point.seconds);
+}
+
+std::vector<std::size_t> shifting_panes(const ViewerState& state) {
+    std::vector<std::size_t> panes;
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        if (!shifts_of(state, i).points().empty())
+            panes.push_back(i);
+    return panes;
+}
+
+std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
+    std::vector<ShiftOutcome> seen;
+    for (int i = 0; i < shift_outcome_count; ++i) {
+        const bool any = std::any_of(state.charts.begin(), state.charts.end(), [&](const PaneChart& chart) {
+            const auto& points = chart.shifts.points();
+            return !points.empty() && points.back().shares[static_cast<std::size_t>(i)] > 0;
+        });
+        if (any)
+            seen.push_back(static_cast<ShiftOutcome>(i));
+    }
+    return seen;
+}
+
+Chart viewer_chart(const ViewerState& state) {
+    const glm::ivec2 size = state.request_size();
+    Chart chart{fmt::format("{}: {}x{}", state.scene_name, size.x, size.y), {}};
+    if (state.chart_kind == ChartKind::shifts) {
+        for (std::size_t pane : shifting_panes(state))
+            chart.plots.push_back(shift_plot(state, pane));
+    } else if (state.companions.reference) {
+        chart.plots.push_back(error_plot(state));
+    }
+    return chart;
+}
+
+std::vector<ImU32> line_colours(const ViewerState& state) {
+    std::vector<ImU32> colours;
+    if (state.chart_kind == ChartKind::shifts)
+        for (ShiftOutcome outcome : seen_outcomes(state))
+            colours.push_back(readable(outcome_colour(outcome), state.theme));
+    else
+        for (const PaneLine& line : error_lines(state))
+            colours.push_back(readable(line_colour(state, line), state.theme));
+    return colours;
+}
+
+ChartPlot histogram_plot(const ViewerState& state) {
+    ChartPlot plot{"luminance", "pixels", Scale::log, Scale::linear, {}, {}};
+    const auto pane = static_cast<std::size_t>(state.active_pane);
+    const auto& histogram = state.chart_of(state.panes[pane]).histogram;
+    if (!histogram)
+        return plot;
+    ChartSeries series{"pixels of " + pane_name(state, pane), {}, false, true};
+    for (int bin = 0; bin < Histogram::bin_count; ++bin)
+        series.points.push_back({static_cast<double>(Histogram::low_end(bin)),
+                                 static_cast<double>(histogram->bins[static_cast<std::size_t>(bin)]), 0});
+    plot.series.push_back(std::move(series));
+    return plot;
+}
+
+double slope_of_last_decade(const ChartSeries& series) {
+    std::vector<glm::dvec2> points;
+    for (const ChartPoint& p : series.points)
+        if (p.x >= 0.1 * series.points.back().x)
+            points.emplace_back(p.x, p.y);
+    return log_log_slope(points);
+}
+
+} // namespace tessera

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include <glm/vec2.hpp>
+
+#include <imgui.h>
+
+namespace tessera {
+
+/// Of a window beside the pictures: it stays where it is, and scrolls.
+inline constexpr ImGuiWindowFlags side_panel_flags =
+    (ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
+/// Of one over them.
+inline constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                                  ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+
+/// Where a control was drawn, in screen units.
+struct ControlRect {
+    glm::vec2 min{0};
+    glm::vec2 max{0};
+    glm::vec2 center() const { return (min + max) * 0.5f; }
+    bool operator==(const ControlRect&) const = default;
+};
+
+/// One entry of a choice.
+struct ChoiceItem {
+    std::string id;    ///< unique in the choice
+    std::string label; ///< as listed
+    std::string help;
+};
+
+/// The widgets of the viewer: each has an id, a tooltip, and a row of its own with a label unless said otherwise,
+/// and tells whether it changed its value. Notes where each was drawn, so that tests and scripts can point at it
+/// by id.
+class Controls {
+public:
+    /// `time` in seconds.
+    void begin_frame(double time);
+
+    /// Wide as the row; the choice's items are noted as "id/item id" while the list is open.
+    bool choice(const char* id, const char* label, std::span<const ChoiceItem> items, int& index,
+                const char* help);
+    /// The same of a given width and without a label, showing `shown` instead of the item's label.
+    bool bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index, float width,
+                     const char* help);
+    bool slider(const char* id, const char* label, int& value, int least, int most, const char* help);
+    bool slider(const char* id, const char* label, float& value, float least, float most, const char* format,
+                const char* help);
+    /// Logarithmic. If `least` is 0, the left end is 0 and reads "off".
+    bool log_slider(const char* id, const char* label, float& value, float least, float most, const char* help);
+    /// What is typed is taken with Enter, and when the control is left.
+    bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
+    bool number(const char* id, const char* label, double& value, double least, double most, const char* help);
+    bool number(const char* id, const char* label, std::uint64_t& value, const char* help);
+    /// Taken likewise; empty text shows `hint`.
+    bool text(const char* id, const char* label, std::string& value, const char* hint, const char* help);
+    bool toggle(const char* id, const char* label, bool& value, const char* help);
+    /// No row of its own: as wide as its label, or `width`.
+    bool button(const char* id, const char* label, const char* help, float width = 0);
+
+    /// A row's label, for what is drawn without these widgets: the item after it fills the row.
+    void label(const char* text) const;
+    /// Notes and explains the item just drawn: for what is drawn without these widgets. Without help only what
+    /// explains itself, such as a menu.
+    void note(const char* id, const char* help);
+
+    /// The same of an area that is no item.
+    void note_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
+
+    /// Ids of what has been noted without help since the last frame began.
+    const std::set<std::string, std::less<>>& unexplained() const { return unexplained_; }
+
+    /// By id, of this frame or the last whole one.
+    const std::map<std::string, ControlRect, std::less<>>& rects() const { return rects_; }
+
+    /// Whether a tooltip is about to appear, so that a frame is due soon though nothing happens.
+    bool tooltip_pending() const { return tooltip_pending_; }
+
+private:
+    template <class Value>
+    const Value& draft_of(const char* id, const Value& value) const;
+    template <class Value>
+    bool take_draft(const char* id, const Value& draft, bool at_once, Value& value);
+    template <class Value>
+    bool typed_number(const char* id, const char* label, Value& value, Value least, Value most, const char* help);
+
+    std::map<std::string, ControlRect, std::less<>> rects_;
+    std::string hovered_;
+    std::string hovered_before_;
+    double hovered_since_ = 0;
+    double time_ = 0;
+    bool tooltip_pending_ = false;
+    std::set<std::string, std::less<>> unexplained_;
+
+    // What is being typed: the value itself changes when that is taken.
+    std::string draft_id_;
+    std::variant<int, double, std::uint64_t, std::string> draft_;
+};
+
+/// A heading in a panel, with a line.
+void heading(const char* text);
+
+/// A window over everything, in the middle of the screen until it is moved, as high as what `draw` draws in it.
+/// @param width  in heights of a line
+void draw_dialog(const char* title, glm::vec2 screen, float width, const std::function<void()>& draw);
+
+/// A paragraph of less weight than what it explains.
+void dim_text(const std::string& text);
+
+} // namespace tessera

@@ -1,0 +1,99 @@
+#include "ui/gl/theme.h"
+#include "ui/inside/inside.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+namespace {
+
+std::string set_text(const InspectedSet& set, glm::ivec2 pixel) {
+    const std::vector<const InspectedShift*> arriving = set.to(pixel);
+    const auto bring = std::count_if(arriving.begin(), arriving.end(), [](const InspectedShift* s) {
+        return s->from != s->to && !is_black(s->value);
+    });
+    const ReuseDecision& own = set.base(set.index_of(pixel)).reuse;
+    return "   |   " + std::to_string(bring) + " of " + std::to_string(set.size() - 1) +
+           " other base paths reach it: it gets " + short_text(set.radiance(pixel)) + ", its own path " +
+           (own.is_dark()    ? "is dark"
+            : own.survives() ? "is reused x " + short_text(own.scale)
+                             : "is not reused (q = " + short_text(own.survival) + ")");
+}
+
+std::string headline(const Inspection& i) {
+    std::string line = std::string(paper_name(i.method)) + "   pixel (" + short_text(i.pixel) + ")   pass " +
+                       std::to_string(i.pass) + "   own path " + short_text(i.radiance);
+    for (const InspectedSet& set : i.sets)
+        line += set_text(set, i.pixel);
+    return line + (i.is_refused ? "   REFUSED: not finite" : "");
+}
+
+/// What there is to say while there is nothing to show.
+const char* waiting_text(const Inspector& inspector) {
+    return !inspector.sample        ? "click on a pixel"
+           : inspector.sample->pass ? "going through the passes before it ..."
+                                    : "waiting for the first whole pass";
+}
+
+/// `is_elsewhere`: the inspection is of a request that no pane shows, or none any more.
+void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
+    static const std::vector<ChoiceItem> directions = {
+        {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
+        {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
+    };
+    int direction = static_cast<int>(inspector.direction);
+    const std::string& shown = directions[static_cast<std::size_t>(direction)].label;
+    if (controls.bare_choice("inspector.direction", shown.c_str(), directions, direction,
+                             ImGui::GetFontSize() * 13, "Which shifts are drawn and listed.")) {
+        inspector.direction = static_cast<Inspector::Direction>(direction);
+        inspector.chosen = -1;
+    }
+    ImGui::SameLine();
+    bool follows = inspector.follows;
+    if (ImGui::Checkbox("follow", &follows))
+        inspector.follow(follows);
+    controls.note(
+        "inspector.follow",
+        inspector.sample && inspector.sample->pass
+            ? "This sample is of a given pass, and stays. Following leaves it for the newest pass at its "
+              "pixel, of what the pane shows now."
+            : "Looks at the newest pass, again and again; else at the one that was the newest "
+              "when the pixel was chosen.");
+    ImGui::SameLine();
+    if (controls.button("inspector.close", "Close", "Ends the path inspector (I)."))
+        inspector.active = false;
+    ImGui::SameLine();
+    if (inspector.inspection)
+        ImGui::TextUnformatted(
+            ((is_elsewhere ? "of another picture:   " : "") + headline(*inspector.inspection)).c_str());
+    else
+        ImGui::TextDisabled("%s", waiting_text(inspector));
+}
+
+} // namespace
+
+void draw_inspector_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
+    Inspector& inspector = state.inspector;
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Path inspector", nullptr, overlay_flags | ImGuiWindowFlags_NoScrollWithMouse)) {
+        draw_top_row(controls, inspector, !state.shows_request(inspector.generation));
+        if (inspector.inspection) {
+            const ImVec2 room = ImGui::GetContentRegionAvail();
+            const float gap = ImGui::GetStyle().ItemSpacing.x;
+            const float space = std::min(room.y * 1.5f, room.x * 0.3f), rest = room.x - space - 2 * gap;
+            draw_vertex_table(inspector, rest * 0.52f, controls);
+            ImGui::SameLine();
+            draw_shift_table(inspector, rest * 0.48f, controls);
+            ImGui::SameLine();
+            const SpaceSubject subject{inspector.inspection->path, shown_shifts(inspector), inspector.shown_row(),
+                                       inspector.scene_radius};
+            draw_space_view({space, room.y}, subject, state.space, controls);
+        }
+    }
+    ImGui::End();
+}
+
+} // namespace tessera

@@ -1,0 +1,206 @@
+#include "ui/gl/theme.h"
+#include "ui/inside/drawing.h"
+#include "ui/inside/inside.h"
+#include "ui/state/shift_outcomes.h"
+#include "ui/state/words.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+namespace {
+
+void draw_controls(Controls& controls, ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    const float wide = ImGui::GetFontSize() * 4;
+    if (controls.button("slow.hold", slow.held ? "Play" : "Hold",
+                        "Lets the base paths arrive one after the other, or stops there (Shift+Space).", wide))
+        slow.held = !slow.held;
+    ImGui::SameLine();
+    if (controls.button("slow.back", "<", "One base path back, and waits (<)."))
+        slow.step(-1);
+    ImGui::SameLine();
+    if (controls.button("slow.step", ">", "The next base path, and waits (>)."))
+        slow.step(1);
+    ImGui::SameLine();
+    if (controls.button("slow.tile", "Next tile", "The next tile to the right, of the newest pass (Shift+J)."))
+        slow.start({slow.slot, slow.tile ? slow.next_pixel(state.request_size()) : glm::ivec2(0), {}});
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    ImGui::SliderFloat("##slow.speed", &slow.speed, SlowMotion::least_speed, SlowMotion::most_speed,
+                       "%.3g paths a second", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    controls.note("slow.speed", "How many base paths arrive a second.");
+    ImGui::SameLine();
+    if (controls.button("slow.close", "Close", "Ends the slow motion (J)."))
+        slow.active = false;
+}
+
+std::string rect_text(const PixelRect& r) {
+    return std::to_string(r.width()) + " x " + std::to_string(r.height()) + " pixels at (" + std::to_string(r.x0) +
+           ", " + std::to_string(r.y0) + ")";
+}
+
+/// "G-PR, pass 12: tile of 6 x 6 pixels at (120, 54), cut into 4; part 2 has 16 base paths, 7 of them from the
+/// border".
+std::string tile_text(const SlowMotion& slow) {
+    const TileInspection& tile = *slow.tile;
+    const InspectedSet& set = slow.set();
+    const auto border = std::count(set.is_border.begin(), set.is_border.end(), 1);
+    const RenderSettings& settings = tile.settings;
+    const bool rooks = settings.method == Method::pr && settings.pattern == Pattern::rooks;
+    std::string text = std::string(paper_name(settings.method)) + ", pass " + std::to_string(tile.pass) + ":  ";
+    text += reuses_paths(settings.method) ? "tile of " + rect_text(tile.tile)
+                                          : "pixel (" + short_text(glm::ivec2(tile.tile.x0, tile.tile.y0)) + ")";
+    if (tile.sets.size() > 1)
+        text += std::string(rooks                           ? ", N-rooks pattern "
+                            : reuses_paths(settings.method) ? ", part "
+                                                            : ", gradient ") +
+                std::to_string(slow.place().set + 1) + " of " + std::to_string(tile.sets.size());
+    text += ":  " + std::to_string(set.size()) + " base paths";
+    return border > 0 ? text + ", " + std::to_string(border) + " of them from its border" : text;
+}
+
+/// "Base path 5 of 49, of pixel (123, 57): carries 0.21; survives the roulette, q = 0.4: weighs x 2.5".
+std::string base_text(const SlowMotion& slow) {
+    const InspectedSet& set = slow.set();
+    const int k = slow.place().base;
+    const InspectedBase& base = set.base(k);
+    const ReuseDecision& reuse = base.reuse;
+    const std::string text = "Base path " + std::to_string(k + 1) + " of " + std::to_string(set.size()) +
+                             ", pixel (" + short_text(set.pixels[static_cast<std::size_t>(k)]) + "):  ";
+    if (reuse.is_dark())
+        return text +
+               (is_black(base.radiance) ? "dark, there is nothing to reuse" : "carries nothing to be shared");
+    return text + "carries " + short_text(base.radiance) +
+           (!reuse.survives()     ? ";  skipped by the roulette (q = " + short_text(reuse.survival) + ")"
+            : reuse.survival >= 1 ? ";  reused (q = 1)"
+                                  : ";  reused: survives the roulette with q = " + short_text(reuse.survival) +
+                                        ", so weighs x " + short_text(reuse.scale));
+}
+
+/// How the shifts of the base path ended, in the outcomes' colours.
+void draw_outcomes(const InspectedSet& set, int k) {
+    std::array<int, shift_outcome_count> counts{};
+    for (int m = 0; m < set.size(); ++m)
+        if (m != k && set.shift(k, m).is_tried)
+            ++counts[static_cast<std::size_t>(set.shift(k, m).outcome)];
+    int all = 0;
+    for (int n : counts)
+        all += n;
+    if (all == 0) {
+        ImGui::TextDisabled(set.size() > 1 ? "no shift is tried" : "nobody to share with");
+        return;
+    }
+    ImGui::Text("%d of %d shifts succeed", counts[0], all);
+    const float font = ImGui::GetFontSize();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] == 0)
+            continue;
+        ImGui::SameLine(0, font);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddCircleFilled({at.x + font * 0.3f, at.y + font * 0.55f}, font * 0.28f,
+                                                    outcome_colour(static_cast<ShiftOutcome>(i)), 12);
+        ImGui::SetCursorScreenPos({at.x + font * 0.8f, at.y});
+        ImGui::Text("%s %d", in_words(to_string(static_cast<ShiftOutcome>(i))).c_str(), counts[i]);
+    }
+}
+
+/// What the base path gives to whom, and what the pixel has by then.
+std::string share_text(const InspectedSet& set, int k) {
+    Rgb others(0);
+    float least = 0, most = 0;
+    for (int m = 0; m < set.size(); ++m) {
+        const InspectedShift& s = set.shift(k, m);
+        if (m == k || s.weight <= 0)
+            continue;
+        others += s.value;
+        least = least > 0 ? std::min(least, s.weight) : s.weight;
+        most = std::max(most, s.weight);
+    }
+    std::string text =
+        "Own pixel gets " + short_text(set.shift(k, k).value) + ", the others together " + short_text(others);
+    if (most > 0)
+        text += ";  weights " + short_text(least) + (most > least ? " .. " + short_text(most) : "");
+    return text;
+}
+
+void draw_story(const ViewerState& state, Controls& controls) {
+    const SlowMotion& slow = state.slow_motion;
+    const InspectedSet& set = slow.set();
+    const int k = slow.place().base;
+    ImGui::TextUnformatted(tile_text(slow).c_str());
+    controls.note("slow.tile_text",
+                  "Which pixels share their base paths. White: the tile; turquoise: the pixels that "
+                  "get their light here; orange: a border that only lends its paths.");
+    ImGui::TextUnformatted(base_text(slow).c_str());
+    controls.note("slow.base_text",
+                  "The base path at hand: its pixel has a white frame; orange and crossed out: the "
+                  "roulette on reuse has ended it; grey: it carries nothing.");
+    draw_outcomes(set, k);
+    if (!set.base(k).reuse.survives())
+        return;
+    ImGui::TextUnformatted(share_text(set, k).c_str());
+    controls.note("slow.share_text",
+                  "Luminance of the radiance that pixels get of this base path; weights are 1/R over "
+                  "the probability of survival, of the light path that brings most (no unit). In "
+                  "the pixels: above the light, below the weight.");
+}
+
+/// Over all base paths of the tile: how many have arrived, and how many are skipped.
+void draw_progress(const SlowMotion& slow, float width) {
+    const int count = slow.tile->base_count();
+    const float height = std::floor(ImGui::GetFontSize() * 0.5f), step = width / static_cast<float>(count);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    int n = 0;
+    for (const InspectedSet& set : slow.tile->sets)
+        for (const InspectedBase& base : set.bases) {
+            const ImU32 colour = base.reuse.survives()  ? outcome_colour(ShiftOutcome::ok)
+                                 : base.reuse.is_dark() ? outcome_colour(ShiftOutcome::no_light)
+                                                        : IM_COL32(255, 196, 92, 255);
+            const float x = at.x + step * static_cast<float>(n), gap = step > 3 ? 1.0f : 0.0f;
+            list.AddRectFilled({x, at.y}, {x + step - gap, at.y + height},
+                               with_alpha(colour, n <= slow.current ? 1 : 0.25f));
+            ++n;
+        }
+    ImGui::Dummy({width, height});
+}
+
+} // namespace
+
+void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
+    const SlowMotion& slow = state.slow_motion;
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Slow motion", nullptr, overlay_flags | ImGuiWindowFlags_NoScrollWithMouse)) {
+        draw_controls(controls, state);
+        if (!has_slow_motion(state)) {
+            ImGui::TextDisabled("waiting for the first whole pass");
+        } else {
+            const ImVec2 room = ImGui::GetContentRegionAvail();
+            const float space = std::min(room.y * 1.6f, room.x * 0.38f);
+            ImGui::BeginChild("slow.story", {room.x - space - ImGui::GetStyle().ItemSpacing.x, 0});
+            draw_progress(slow, ImGui::GetContentRegionAvail().x);
+            controls.note("slow.progress",
+                          "All base paths of the tile: green reused, orange skipped by the roulette, "
+                          "grey dark; faint ones are still to come.");
+            ImGui::PushTextWrapPos(0);
+            draw_story(state, controls);
+            ImGui::PopTextWrapPos();
+            ImGui::EndChild();
+            ImGui::SameLine();
+            const int k = slow.place().base;
+            SpaceSubject subject{slow.set().base(k).path, {}, -1, state.scene->radius()};
+            for (int m = 0; m < slow.set().size(); ++m)
+                if (m != k)
+                    subject.shifts.push_back(&slow.set().shift(k, m));
+            draw_space_view({space, room.y}, subject, state.space, controls);
+        }
+    }
+    ImGui::End();
+}
+
+} // namespace tessera

@@ -1,0 +1,173 @@
+#include "ui/inside/drawing.h"
+#include "ui/inside/inside.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr ImU32 background = IM_COL32(20, 22, 26, 255), border = IM_COL32(58, 61, 70, 255);
+constexpr ImU32 normal_colour = IM_COL32(120, 190, 255, 220), camera_colour = IM_COL32(226, 228, 233, 200);
+constexpr ImU32 lamp_colour = IM_COL32(255, 226, 92, 255);
+constexpr float field = 40; // degrees, across the smaller side
+
+/// All that is to be in view: the path, the shifts that bring light, and what the camera sees.
+std::vector<glm::vec3> extent_of(const SpaceSubject& subject, const SpaceView& view) {
+    std::vector<glm::vec3> all;
+    for (const InspectedVertex& x : subject.path) {
+        all.push_back(x.position);
+        all.insert(all.end(), x.light_points.begin(), x.light_points.end());
+    }
+    for (const InspectedShift* s : subject.shifts)
+        if (!is_black(s->value)) {
+            all.insert(all.end(), s->offset.begin(), s->offset.end());
+            all.insert(all.end(), s->beyond.begin(), s->beyond.end());
+        }
+    if (!view.surroundings || all.empty())
+        return all;
+    all.emplace_back(view.surroundings->camera.to_world[3]);
+    constexpr std::size_t step = 16;
+    for (std::size_t i = 0; i < view.surroundings->points.size(); i += step)
+        all.push_back(view.surroundings->points[i]);
+    return all;
+}
+
+/// How far along one axis of the picture (its left or up) a camera that looks ahead must stand, and how far back,
+/// so that all points lie within `slope` of the middle: |p.axis - e.axis| <= slope (p.ahead - e.ahead).
+glm::vec2 stand_for(const std::vector<glm::vec3>& points, glm::vec3 axis, glm::vec3 ahead, float slope) {
+    float plus = -1e30f, minus = -1e30f;
+    for (glm::vec3 p : points) {
+        plus = std::max(plus, glm::dot(p, axis) / slope - glm::dot(p, ahead));
+        minus = std::max(minus, -glm::dot(p, axis) / slope - glm::dot(p, ahead));
+    }
+    return {slope * (plus - minus) * 0.5f, -(plus + minus) * 0.5f};
+}
+
+/// Shows everything from where it looks; at first from beside the camera and above it.
+void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubject& subject, SpaceView& view) {
+    Camera camera = view.looked || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
+    camera.fov = field;
+    camera.fov_axis = FovAxis::smaller;
+    glm::vec3 middle(0);
+    for (glm::vec3 p : points)
+        middle += p / static_cast<float>(points.size());
+    if (!view.looked) { // turned about what it is to show
+        camera.to_world[3] =
+            glm::vec4(middle - subject.scene_radius * glm::normalize(glm::vec3(camera.to_world[2])), 1);
+        view.camera.set_home(camera, middle, subject.scene_radius);
+        view.camera.orbit({-0.3f, 0.13f}, 1);
+        camera = view.camera.camera();
+    }
+    view.looked = view.looked || view.surroundings;
+    view.fits = false;
+    const auto axis = [&](int i) { return glm::normalize(glm::vec3(camera.to_world[i])); };
+    constexpr float used = 0.8f; // of the picture: names stand beside points
+    const glm::vec2 slope = used * std::tan(glm::radians(field * 0.5f)) * size / std::min(size.x, size.y);
+    const glm::vec2 left = stand_for(points, axis(0), axis(2), slope.x),
+                    up = stand_for(points, axis(1), axis(2), slope.y);
+    const float least = 0.05f * subject.scene_radius;
+    const float ahead = std::min({left.y, up.y, glm::dot(middle, axis(2)) - least});
+    camera.to_world[3] = glm::vec4(left.x * axis(0) + up.x * axis(1) + ahead * axis(2), 1);
+    view.camera.set_home(camera, middle, subject.scene_radius);
+}
+
+void use_mouse(const ScreenRect& rect, SpaceView& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 moved(io.MouseDelta.x, io.MouseDelta.y), size = rect.size();
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0)
+        view.camera.dolly(std::pow(0.88f, io.MouseWheel));
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        view.fits = true;
+    if (!ImGui::IsItemActive() || moved == glm::vec2(0))
+        return;
+    const glm::vec2 at(io.MousePos.x - rect.min.x, io.MousePos.y - rect.min.y);
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift)
+        view.camera.pan(at - moved, at, glm::ivec2(size));
+    else if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        view.camera.orbit(moved, size.y);
+}
+
+void draw_surroundings(const SceneLines& lines, const Surroundings& around) {
+    const float width = std::max(std::floor(ImGui::GetFontSize() * 0.12f), 1.0f);
+    for (std::size_t i = 0; i < around.points.size(); ++i) {
+        const Rgb c = 40.0f + 110.0f * glm::clamp(around.albedo[i], Rgb(0), Rgb(1));
+        lines.dot(around.points[i], IM_COL32(int(c.r), int(c.g), int(c.b), 150), width);
+    }
+    for (glm::vec3 lamp : around.lamps) {
+        lines.point(lamp, lamp_colour, ImGui::GetFontSize() * 0.2f);
+        lines.point(lamp, background, ImGui::GetFontSize() * 0.1f);
+    }
+}
+
+/// A pyramid from the camera through the corners of its picture.
+void draw_camera(const SceneLines& lines, const Surroundings& around, float length) {
+    const Projection projection(around.camera, around.size);
+    const glm::vec2 size(around.size);
+    const glm::vec2 corners[] = {{0, 0}, {size.x, 0}, size, {0, size.y}};
+    const glm::vec3 eye(around.camera.to_world[3]);
+    const auto end = [&](int i) {
+        const Ray ray = projection.ray(corners[i % 4]);
+        return ray.origin + length * ray.direction;
+    };
+    const float width = ImGui::GetFontSize() * 0.08f;
+    for (int i = 0; i < 4; ++i) {
+        lines.line(eye, end(i), camera_colour, width);
+        lines.line(end(i), end(i + 1), camera_colour, width);
+    }
+    lines.name(eye, "camera", camera_colour);
+}
+
+void draw_normals(const SceneLines& lines, const std::vector<InspectedVertex>& path, float length) {
+    for (const InspectedVertex& x : path)
+        lines.line(x.position, x.position + length * x.normal, normal_colour, ImGui::GetFontSize() * 0.1f);
+}
+
+void draw_scene(const PictureFrame& frame, const SpaceSubject& subject, const SpaceView& view) {
+    const SceneLines lines(frame, view.camera.camera(), glm::ivec2(glm::max(frame.rect.size(), glm::vec2(1))),
+                           1e-4f * subject.scene_radius);
+    const float size = 0.12f * std::max(view.camera.distance(), 1e-3f * subject.scene_radius);
+    if (view.surroundings) {
+        draw_surroundings(lines, *view.surroundings);
+        draw_camera(lines, *view.surroundings, size);
+        if (!subject.path.empty())
+            lines.line(glm::vec3(view.surroundings->camera.to_world[3]), subject.path.front().position,
+                       with_alpha(camera_colour, 0.8f), ImGui::GetFontSize() * 0.1f);
+    }
+    draw_shifts(lines, subject.shifts, subject.marked);
+    draw_normals(lines, subject.path, size * 0.6f);
+    draw_base_path(lines, subject.path, 0.5f * subject.scene_radius);
+}
+
+} // namespace
+
+void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& view, Controls& controls) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    PictureFrame frame;
+    frame.rect = {{at.x, at.y}, glm::vec2(at.x, at.y) + glm::max(size, glm::vec2(1))};
+    frame.placement = {glm::vec2(0), frame.rect.size()};
+    ImGui::InvisibleButton("space", {frame.rect.size().x, frame.rect.size().y},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    controls.note("space", "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
+                           "(yellow) and what the camera sees. A drag turns, with Shift it moves, the wheel comes "
+                           "nearer, a double click shows all.");
+    if (view.fits)
+        if (const std::vector<glm::vec3> extent = extent_of(subject, view); !extent.empty())
+            fit(extent, frame.rect.size(), subject, view);
+    const bool has_fitted = !view.fits;
+    use_mouse(frame.rect, view);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 max(frame.rect.max.x, frame.rect.max.y);
+    list.AddRectFilled(at, max, background);
+    list.PushClipRect(at, max, true);
+    if (has_fitted)
+        draw_scene(frame, subject, view);
+    list.PopClipRect();
+    list.AddRect(at, max, border);
+}
+
+} // namespace tessera

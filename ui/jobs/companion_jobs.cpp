@@ -1,0 +1,156 @@
+#include "ui/jobs/companion_jobs.h"
+
+#include "render/run/reference_image.h"
+#include "render/run/thread_pool.h"
+#include "ui/state/companions.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds between_news(100);
+
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
+    const ExrFile exr = read_exr(file, watch);
+    std::array<RgbImage, 2> halves;
+    for (std::size_t i = 0; i < halves.size(); ++i)
+        if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))
+            halves[i] = *half;
+    return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
+}
+
+/// Saved settings name it, and may be read from another folder.
+std::string in_full(const std::string& file) {
+    std::error_code gone; // the current folder
+    const std::filesystem::path path = std::filesystem::absolute(file, gone);
+    return file.empty() || gone ? file : path.lexically_normal().string();
+}
+
+constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
+
+bool wants_first_hits(const ViewerState& state) {
+    return std::any_of(state.panes.begin(), state.panes.end(), [](const PaneState& pane) {
+        return family(pane.settings.buffer) == BufferFamily::first_hit;
+    });
+}
+
+} // namespace
+
+void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake) {
+    update_reference(state, wake);
+    check_reference(state, wake);
+    update_first_hits(state, wake);
+}
+
+void CompanionJobs::start_reference(std::string file, const std::function<void()>& wake) {
+    reference_file_ = std::move(file);
+    share_read_ = std::make_shared<std::atomic<float>>(0.0f);
+    reference_.start(
+        [file = reference_file_, share = share_read_, wake](std::stop_token stop) {
+            work_in_background();
+            return load_reference(file, [&, told = Clock::now()](float now) mutable {
+                *share = now;
+                if (wake && Clock::now() - told > between_news) {
+                    told = Clock::now();
+                    wake();
+                }
+                return !stop.stop_requested();
+            });
+        },
+        wake);
+}
+
+void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
+    if (std::exchange(state.cancel_reference, false) && reference_.running()) {
+        reference_.cancel();
+        state.add_message(Message::Kind::note, "Reading " + reference_file_ + " was given up.");
+    }
+    // Before the next one starts: that can be given up for a frame at least.
+    const auto outcome = reference_.poll();
+    if (std::string file = in_full(std::exchange(state.reference_file, {})); !file.empty())
+        start_reference(std::move(file), wake);
+    state.reference_read = reference_.running() ? std::optional(share_read_->load()) : std::nullopt;
+    if (!outcome)
+        return;
+    if (!outcome->result) {
+        state.add_message(Message::Kind::error, outcome->error);
+        return;
+    }
+    state.companions.reference = *outcome->result;
+    state.add_message(Message::Kind::note, "The reference is now " + state.companions.reference->name);
+}
+
+/// Once for each reference and scene, as either may come first; the camera is the one that it is seen with then.
+void CompanionJobs::check_reference(ViewerState& state, const std::function<void()>& wake) {
+    const auto& reference = state.companions.reference;
+    const bool is_known = checked_reference_.lock() == reference && checked_scene_.lock() == state.scene;
+    if (reference && reference->scene && state.scene && !is_known) {
+        checked_reference_ = reference;
+        checked_scene_ = state.scene;
+        check_.start(
+            [reference, scene = state.scene, camera = state.camera.camera()](std::stop_token) {
+                work_in_background();
+                return difference(*reference->scene, checksums_of(scene->description(), camera));
+            },
+            wake);
+        return; // for a frame at least nothing is said of it
+    }
+    if (const auto outcome = check_.poll(); outcome && outcome->result && !outcome->result->empty())
+        state.add_message(Message::Kind::error,
+                          fmt::format("The reference shows something else than the panes, in its {}: errors to it "
+                                      "mean little. It is {}",
+                                      *outcome->result, reference ? reference->name : "gone"),
+                          Message::Origin::scene);
+}
+
+/// Whatever the size that was traced.
+bool CompanionJobs::is_of(const View& view, const ViewerState& state) {
+    return view.divisor > 0 && view.scene.lock() == state.scene && view.camera == state.camera.camera() &&
+           view.size == state.request_size();
+}
+
+void CompanionJobs::take_first_hits(ViewerState& state) {
+    const bool is_of_scene = asked_.scene.lock() == state.scene;
+    if (!is_of_scene)
+        state.companions.first_hits = nullptr; // of a camera moved on it may stay for the moment
+    if (const auto outcome = first_hits_.poll()) {
+        if (!outcome->result)
+            state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
+        else if (is_of_scene) {
+            state.companions.first_hits = *outcome->result;
+            hit_ = asked_;
+            state.redraw = true;
+        }
+    }
+    state.companions.first_hits_are_earlier = state.companions.first_hits && !is_of(hit_, state);
+}
+
+/// A look at a fraction of the size first, which is not given up when the camera moves on: a picture somewhat late
+/// is better than none. What failed is not tried again before the view is another.
+void CompanionJobs::update_first_hits(ViewerState& state, const std::function<void()>& wake) {
+    take_first_hits(state);
+    const bool is_asked = is_of(asked_, state);
+    const bool is_whole = is_asked && asked_.divisor == 1;
+    const bool is_under_way = first_hits_.running() && (is_asked || asked_.divisor > 1);
+    if (!state.scene || is_whole || is_under_way || !wants_first_hits(state))
+        return;
+    asked_ = {state.scene, state.camera.camera(), state.request_size(), is_asked ? 1 : coarse_divisor};
+    first_hits_.start(
+        [scene = state.scene, view = asked_](std::stop_token stop) {
+            work_in_background();
+            const glm::ivec2 size = (view.size + view.divisor - 1) / view.divisor;
+            return std::make_shared<const FirstHits>(trace_first_hits(*scene, view.camera, size, stop));
+        },
+        wake);
+}
+
+} // namespace tessera

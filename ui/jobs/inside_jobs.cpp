@@ -1,0 +1,284 @@
+#include "ui/jobs/inside_jobs.h"
+
+#include "render/inspect/inspection.h"
+#include "render/run/first_hits.h"
+#include "render/run/thread_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace tessera {
+
+namespace {
+
+bool is_within(glm::ivec2 pixel, glm::ivec2 size) {
+    return glm::all(glm::greaterThanEqual(pixel, glm::ivec2(0))) && glm::all(glm::lessThan(pixel, size));
+}
+
+std::string outside_text(glm::ivec2 pixel, glm::ivec2 size) {
+    return fmt::format("There is no pixel ({}, {}) to inspect: the picture has {} x {} pixels.", pixel.x, pixel.y,
+                       size.x, size.y);
+}
+
+/// Where it was not kept, that of a late pass takes a while.
+ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
+    return o.plan ? *o.plan : replay_plan(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
+}
+
+} // namespace
+
+void InspectionJob::take(ViewerState& state) {
+    const auto outcome = job_.poll();
+    if (!outcome)
+        return;
+    Inspector& inspector = state.inspector;
+    if (inspector.sample != asked_.sample) { // another was chosen since
+        asked_ = {};
+        return;
+    }
+    const Found found = outcome->result.value_or(Found{});
+    const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked_.sample.slot &&
+                         inspector.inspection->pixel == found.inspection->pixel;
+    state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
+    inspector.slot = asked_.sample.slot;
+    inspector.generation = asked_.generation;
+    inspector.scene_radius = found.scene_radius;
+    inspector.inspection = found.inspection;
+    state.redraw = true;
+    if (!outcome->result)
+        state.add_message(Message::Kind::error, outcome->error);
+}
+
+/// The pixel of a pane that is gone is looked at in the active one. A sample of a request of its own is forgotten
+/// with the inspector: it would keep its scene, which may have been replaced.
+void InspectionJob::drop_what_is_gone(ViewerState& state) {
+    Inspector& inspector = state.inspector;
+    if (!inspector.sample)
+        return;
+    if (!inspector.active && (inspector.sample->origin || job_.running()))
+        give_up();
+    if (!inspector.active && inspector.sample->origin) {
+        inspector.sample.reset();
+        inspector.inspection.reset();
+    } else if (!inspector.sample->origin && !state.pane_in(inspector.sample->slot)) {
+        inspector.sample->slot = state.active().slot;
+    }
+}
+
+void InspectionJob::give_up() {
+    job_.cancel();
+    asked_ = {};
+}
+
+/// Null: its pane shows nothing yet that could be looked at. A given pass needs no picture.
+std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& state,
+                                                           const SampleChoice& sample) const {
+    if (sample.origin)
+        return sample.origin;
+    const PaneState& pane = *state.pane_in(sample.slot);
+    if (sample.pass)
+        return std::make_shared<const PassOrigin>(PassOrigin{
+            state.scene, state.camera.camera(), state.request_size(), pane.settings.render, {}, pane.generation});
+    const Snapshot* s = pane.snapshot.get();
+    if (!s || s->generation != pane.generation || s->coarse() || s->spp < 1)
+        return nullptr;
+    const glm::ivec2 size(s->images->primal.width(), s->images->primal.height());
+    return std::make_shared<const PassOrigin>(
+        PassOrigin{state.scene, s->camera, size, s->settings, s->plan, s->generation});
+}
+
+/// The newest, where none is given; it then stays, unless the inspector follows.
+int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const {
+    if (sample.pass)
+        return *sample.pass;
+    if (asked_.is_of(origin, sample) && !state.inspector.follows)
+        return asked_.pass;
+    return state.pane_in(sample.slot)->snapshot->spp - 1;
+}
+
+void InspectionJob::update(ViewerState& state, const std::function<void()>& wake) {
+    take(state);
+    drop_what_is_gone(state);
+    Inspector& inspector = state.inspector;
+    if (!inspector.active || !inspector.sample || !state.scene)
+        return;
+    const SampleChoice sample = *inspector.sample;
+    const std::shared_ptr<const PassOrigin> origin = origin_of(state, sample);
+    // What is under way is given up for another sample only: else it might never come to an end.
+    if (!origin || (job_.running() && asked_.is_of(*origin, sample)))
+        return;
+    if (sample.pass && !is_within(sample.pixel, origin->size)) {
+        give_up();
+        inspector.sample.reset();
+        inspector.inspection.reset(); // where the picture was larger before
+        return state.add_message(Message::Kind::error, outside_text(sample.pixel, origin->size));
+    }
+    const Asked wanted{origin->generation, sample, pass_of(state, *origin, sample)};
+    if (!(wanted == asked_))
+        start(origin, wanted, wake);
+}
+
+void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const Asked& wanted,
+                          const std::function<void()>& wake) {
+    asked_ = wanted;
+    const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), origin->size - 1);
+    job_.start(
+        [origin, pixel, pass = wanted.pass](std::stop_token stop) {
+            work_in_background();
+            const PassOrigin& o = *origin;
+            const ReusePlan plan = plan_of(o, pass, pixel, stop);
+            if (stop.stop_requested())
+                return Found{};
+            return Found{std::make_shared<const Inspection>(
+                             inspect(*o.scene, o.camera, o.size, o.settings, plan, pass, pixel)),
+                         o.scene->radius()};
+        },
+        wake);
+}
+
+void SlowMotionJob::update(ViewerState& state, float seconds, const std::function<void()>& wake) {
+    SlowMotion& slow = state.slow_motion;
+    if (const auto outcome = job_.poll()) {
+        if (outcome->result) {
+            slow.take(*outcome->result, asked_.sample.slot, asked_.generation);
+            state.space.fits = state.redraw = true;
+        } else {
+            state.add_message(Message::Kind::error, outcome->error);
+        }
+    }
+    if (!slow.active) {
+        if (slow.view_before) // the picture goes back to where it was
+            state.view = *std::exchange(slow.view_before, std::nullopt);
+        asked_ = {};
+        slow.tile = nullptr;
+        return;
+    }
+    if (!state.scene)
+        return;
+    choose(state);
+    if (slow.advance(seconds))
+        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
+    if (!job_.running())
+        ask(state, wake);
+}
+
+/// A tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in the
+/// middle.
+void SlowMotionJob::choose(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (slow.sample && slow.sample->slot == state.active().slot)
+        return;
+    const glm::vec2 size(state.request_size());
+    glm::ivec2 pixel(size * 0.5f);
+    const Inspector& inspector = state.inspector;
+    if (slow.sample)
+        pixel = slow.sample->pixel;
+    else if (inspector.sample)
+        pixel = inspector.sample->pixel;
+    else if (state.cursor && state.cursor->pane == state.active_pane)
+        pixel = glm::ivec2(state.cursor->place * size);
+    slow.start({state.active().slot, pixel, {}});
+}
+
+void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
+    SlowMotion& slow = state.slow_motion;
+    const PaneState& pane = state.active(); // see choose
+    const auto snapshot = pane.snapshot;
+    if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse() || snapshot->spp < 1)
+        return;
+    const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
+    slow.sample->pixel = glm::clamp(slow.sample->pixel, glm::ivec2(0), size - 1); // the picture may have shrunk
+    const Asked wanted{snapshot->generation, *slow.sample};
+    if (wanted == asked_)
+        return;
+    asked_ = wanted;
+    job_.start(
+        [scene = state.scene, snapshot, size, pixel = slow.sample->pixel](std::stop_token) {
+            return std::make_shared<const TileInspection>(inspect_tile(
+                *scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, snapshot->spp - 1, pixel));
+        },
+        wake);
+}
+
+namespace {
+
+constexpr int points_across = 48; // more of them would take a software driver most of its time
+constexpr std::size_t most_lamps = 64;
+
+/// The middles of the surfaces that give light, and the points.
+std::vector<glm::vec3> lamps_of(const SceneDescription& scene) {
+    std::vector<glm::vec3> lamps;
+    for (const Shape& shape : scene.shapes) {
+        const std::vector<glm::vec3>& p = shape.mesh.positions;
+        if (shape.area_light < 0 || p.empty() || lamps.size() == most_lamps)
+            continue;
+        glm::vec3 min = p[0], max = p[0];
+        for (glm::vec3 q : p) {
+            min = glm::min(min, q);
+            max = glm::max(max, q);
+        }
+        lamps.push_back((min + max) * 0.5f);
+    }
+    for (const PointLight& light : scene.point_lights)
+        if (lamps.size() < most_lamps)
+            lamps.push_back(light.position);
+    return lamps;
+}
+
+} // namespace
+
+std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, const View& view,
+                                                          std::stop_token stop) {
+    work_in_background();
+    auto around = std::make_shared<Surroundings>();
+    around->camera = view.camera;
+    around->size = view.size;
+    around->lamps = lamps_of(scene.description());
+    const FirstHits hits = trace_first_hits(scene, view.camera, view.size, stop);
+    const Projection projection(view.camera, view.size);
+    for (int y = 0; y < hits.depth.height(); ++y)
+        for (int x = 0; x < hits.depth.width(); ++x) {
+            const Ray ray = projection.ray(glm::vec2(x, y) + 0.5f);
+            if (hits.depth(x, y) <= 0)
+                continue;
+            around->points.push_back(ray.origin + hits.depth(x, y) * ray.direction);
+            around->albedo.push_back(hits.albedo(x, y));
+        }
+    return around;
+}
+
+void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wake) {
+    if (const auto outcome = job_.poll(); outcome && !outcome->result) {
+        state.add_message(Message::Kind::error, "What lies around the paths: " + outcome->error);
+    } else if (outcome) {
+        const bool first = state.space.surroundings == nullptr;
+        state.space.surroundings = *outcome->result;
+        state.space.fits = state.space.fits || first;
+        state.redraw = true;
+    }
+    if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
+        return;
+    // A sample of an earlier request is seen among what was there then.
+    const auto& sample = state.inspector.sample;
+    const PassOrigin* origin =
+        state.inspector.active && !state.slow_motion.active && sample ? sample->origin.get() : nullptr;
+    const glm::vec2 whole(origin ? origin->size : state.request_size());
+    const std::shared_ptr<const Scene> scene = origin ? origin->scene : state.scene;
+    const View view{scene,
+                    origin ? origin->camera : state.camera.camera(),
+                    {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
+    if (view == asked_)
+        return;
+    if (scene != asked_.scene.lock()) {
+        state.space.surroundings = nullptr;
+        state.space.fits = true;
+    }
+    asked_ = view;
+    job_.start([scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
+}
+
+} // namespace tessera

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "render/load/load_progress.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/scene/scene.h"
+#include "ui/jobs/background_job.h"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+/// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
+/// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose
+/// what() is shown.
+using SceneLoader =
+    std::function<std::shared_ptr<const Scene>(std::vector<std::string>& notes, LoadProgress& progress)>;
+
+/// A scene to load, and to load again.
+struct SceneOrigin {
+    std::string name;   ///< to show
+    SceneSource source; ///< without a camera: that is the viewer's
+    SceneLoader loader;
+
+    bool operator==(const SceneOrigin& other) const {
+        return name == other.name && source.file == other.source.file;
+    }
+};
+
+/// Of a scene file.
+using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
+
+/// How a load ended.
+struct SceneLoadResult {
+    std::shared_ptr<const Scene> scene; ///< null: it failed
+    SceneOrigin origin;
+    std::vector<std::string> notes;
+    std::string error;
+};
+
+/// One scene on its way, loaded in the background. Its end gives the scene up and waits for the loader.
+class SceneLoad {
+public:
+    ~SceneLoad() { cancel(); }
+
+    /// A load under way is given up: nothing more is heard of it. `on_done` is called from the loading thread,
+    /// once poll() has a result.
+    void start(SceneOrigin origin, std::function<void()> on_done);
+
+    /// Gives up what is under way: nothing more is heard of it.
+    void cancel();
+
+    bool running() const { return job_.running(); }
+    const SceneOrigin& origin() const { return origin_; } ///< only while running, as the next two
+    LoadProgress::State progress() const { return progress_->state(); }
+    double seconds() const; ///< since its start
+
+    /// The result, once; never waits.
+    std::optional<SceneLoadResult> poll();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    SceneOrigin origin_;
+    Clock::time_point start_;
+    std::shared_ptr<LoadProgress> progress_; // of the job, which may outlast it; null before the first
+    BackgroundJob<SceneLoadResult> job_;
+};
+
+} // namespace tessera

@@ -1,0 +1,212 @@
+#include "ui/panels/file_dialog.h"
+
+#include "ui/gl/theme.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PurposeText {
+    const char* title;
+    const char* extension;
+    const char* help;
+};
+
+const PurposeText& text_of(FilePurpose purpose) {
+    static constexpr PurposeText texts[] = {
+        {"Open a scene", ".xml", "A Mitsuba scene, an .xml file."},
+        {"Open a reference", ".exr", "The image to measure errors against, an .exr file."},
+        {"Load settings", ".json", "Settings or a camera that the viewer has saved, a .json file."},
+    };
+    return texts[static_cast<std::size_t>(purpose)];
+}
+
+std::string with_slash(const fs::path& folder) {
+    const std::string text = folder.string();
+    return text.empty() || text.back() == '/' ? text : text + "/";
+}
+
+} // namespace
+
+void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) {
+    if (!state.choosing) {
+        purpose_.reset();
+        return;
+    }
+    const bool is_new = purpose_ != state.choosing;
+    if (is_new)
+        begin(state);
+    constexpr const char* id = "###choose a file";
+    if (is_new)
+        ImGui::OpenPopup(id);
+    const float font = ImGui::GetFontSize();
+    const glm::vec2 size = glm::min(screen, glm::vec2(font * 42, font * 32));
+    ImGui::SetNextWindowPos({std::floor((screen.x - size.x) * 0.5f), std::floor((screen.y - size.y) * 0.5f)});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
+    const bool is_open = ImGui::BeginPopupModal(
+        id, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    if (!is_open)
+        return;
+    heading(text_of(*purpose_).title);
+    draw_path(controls);
+    draw_list(controls, ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing());
+    draw_buttons(controls, state);
+    if (!chosen_.empty()) {
+        const std::string file = chosen_.string();
+        (*purpose_ == FilePurpose::scene       ? state.open_scene
+         : *purpose_ == FilePurpose::reference ? state.reference_file
+                                               : state.settings_file) = file;
+        state.choosing.reset();
+    }
+    if (!state.choosing)
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+/// Where the scene on show lies, or in the current folder.
+void FileDialog::begin(const ViewerState& state) {
+    purpose_ = state.choosing;
+    chosen_.clear();
+    folder_.clear();
+    const fs::path& scene = state.scene_source.file;
+    const bool beside_scene = purpose_ == FilePurpose::scene && !scene.empty();
+    std::error_code ignored;
+    set_text(with_slash(beside_scene ? fs::absolute(scene, ignored).parent_path() : fs::current_path(ignored)));
+}
+
+void FileDialog::set_text(const std::string& text) {
+    text_.fill(0);
+    text.copy(text_.data(), text_.size() - 1);
+    wants_focus_ = wants_cursor_last_ = true;
+    read_text();
+}
+
+/// Lists the folder that the text leads to.
+void FileDialog::read_text() {
+    const TypedPath typed = typed_path(text_.data());
+    filter_ = typed.beginning;
+    if (typed.folder == folder_)
+        return;
+    folder_ = typed.folder;
+    entries_ = list_folder(folder_, text_of(*purpose_).extension, error_);
+}
+
+/// Tab completes; and a text that was put there is typed on, not typed over.
+int FileDialog::edit(ImGuiInputTextCallbackData* data) {
+    auto& self = *static_cast<FileDialog*>(data->UserData);
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion)
+        return self.complete(*data);
+    if (std::exchange(self.wants_cursor_last_, false))
+        data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+    return 0;
+}
+
+int FileDialog::complete(ImGuiInputTextCallbackData& data) const {
+    const TypedPath typed = typed_path(data.Buf);
+    const std::string whole = common_beginning(beginning_with(entries_, typed.beginning));
+    if (whole.size() < typed.beginning.size())
+        return 0;
+    const int begin = data.BufTextLen - static_cast<int>(typed.beginning.size());
+    data.DeleteChars(begin, static_cast<int>(typed.beginning.size()));
+    data.InsertChars(begin, whole.c_str());
+    return 0;
+}
+
+void FileDialog::draw_path(Controls& controls) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const std::string before = text_.data();
+    if (std::exchange(wants_focus_, false))
+        ImGui::SetKeyboardFocusHere();
+    const bool entered =
+        ImGui::InputText("##file.path", text_.data(), text_.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
+                             ImGuiInputTextFlags_CallbackAlways,
+                         edit, this);
+    controls.note("file.path", "The file. Tab completes its name, Enter opens it.");
+    if (before != text_.data())
+        read_text();
+    if (entered)
+        enter();
+}
+
+void FileDialog::draw_list(Controls& controls, float height) {
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));
+    ImGui::BeginChild("list", {0, std::max(height, 1.0f)});
+    if (folder_.has_parent_path() && folder_ != folder_.root_path())
+        draw_entry(controls, {"..", true});
+    const std::vector<FileEntry> shown = beginning_with(entries_, filter_); // a click changes what it is made of
+    for (const FileEntry& entry : shown)
+        draw_entry(controls, entry);
+    if (!error_.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::error);
+        ImGui::TextUnformatted(error_.c_str());
+        ImGui::PopStyleColor();
+    } else if (shown.empty()) {
+        ImGui::TextDisabled("No folder and no %s file%s", text_of(*purpose_).extension,
+                            filter_.empty() ? "" : " of that name");
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+}
+
+void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
+    const fs::path path = (folder_ / entry.name).lexically_normal();
+    const bool selected = !entry.is_folder && path == fs::path(text_.data());
+    const std::string label = " " + entry.name + (entry.is_folder ? "/" : "");
+    ImGui::PushStyleColor(ImGuiCol_Text, entry.is_folder ? colours::accent : colours::text);
+    const bool clicked = ImGui::Selectable(
+        label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
+    ImGui::PopStyleColor();
+    controls.note(("file/" + entry.name).c_str(), path.string().c_str()); // a long name is cut off
+    if (!clicked)
+        return;
+    if (entry.is_folder)
+        return set_text(with_slash(path));
+    const std::string filter = filter_;
+    set_text(path.string());
+    filter_ = filter;                               // the others stay in view
+    if (selected && ImGui::IsMouseDoubleClicked(0)) // not the second click on a folder that was in its place
+        enter();
+}
+
+/// Opens what the text names, or goes into it.
+void FileDialog::enter() {
+    const fs::path path = typed_file(text_.data());
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        set_text(with_slash(path));
+    else if (fs::is_regular_file(path, ignored))
+        chosen_ = path;
+}
+
+void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
+    const TypedPath typed = typed_path(text_.data());
+    std::error_code ignored;
+    const bool is_file = fs::is_regular_file(typed_file(text_.data()), ignored);
+    const float width = ImGui::GetFontSize() * 6;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_file ? 1.0f : 0.5f);
+    if (controls.button("file.open", "Open", text_of(*purpose_).help, width) && is_file)
+        enter();
+    ImGui::PopStyleVar();
+    ImGui::SameLine();
+    if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
+        state.choosing.reset();
+    if (!is_file && !typed.beginning.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("There is no such file");
+    }
+}
+
+} // namespace tessera

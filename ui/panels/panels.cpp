@@ -1,0 +1,311 @@
+#include "ui/panels/panels.h"
+
+#include "ui/gl/theme.h"
+#include "ui/state/actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/core.h>
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+void draw_menu_item(Controls& controls, const Action& action, ViewerState& state) {
+    const bool checked = action.checked != nullptr && action.checked(state);
+    if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
+        action.run(state);
+    controls.note((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
+}
+
+void draw_recent_scenes(Controls& controls, ViewerState& state) {
+    if (!state.recent_scenes.empty())
+        ImGui::Separator();
+    for (std::size_t i = 0; i < state.recent_scenes.size(); ++i) {
+        const std::string& file = state.recent_scenes[i];
+        const std::filesystem::path path(file);
+        const std::string name = (path.parent_path().filename() / path.filename()).string();
+        if (ImGui::MenuItem((name + "##recent" + std::to_string(i)).c_str()))
+            state.open_scene = file;
+        controls.note(("menu File/recent " + std::to_string(i)).c_str(), ("Opens " + file).c_str());
+    }
+}
+
+void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
+    const bool open = ImGui::BeginMenu(menu);
+    controls.note((std::string("menu ") + menu).c_str(), nullptr);
+    if (!open)
+        return;
+    for (const Action& action : actions()) {
+        if (std::strcmp(action.menu, menu) == 0)
+            draw_menu_item(controls, action, state);
+    }
+    if (std::strcmp(menu, "File") == 0)
+        draw_recent_scenes(controls, state);
+    ImGui::EndMenu();
+}
+
+/// The end of a name that fits into a width; the beginning gives way to dots.
+std::string shortened(const std::string& name, float width) {
+    const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; };
+    if (name.empty() || fits(name)) // nothing fits into no room at all
+        return name;
+    std::size_t cut = 1;
+    while (cut < name.size() && (!fits("..." + name.substr(cut)) || (name[cut] & 0xc0) == 0x80))
+        ++cut; // never within a character of UTF-8
+    return "..." + name.substr(cut);
+}
+
+/// An item of the menu bar, about something under way. True: it was clicked.
+bool progress_item(const char* id, const char* what, float share, const char* help, Controls& controls) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %.0f %%###%s", what, static_cast<double>(100 * share), id);
+    ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+    const bool clicked = ImGui::MenuItem(text);
+    ImGui::PopStyleColor();
+    controls.note(id, help);
+    return clicked;
+}
+
+/// How far the reference is that is being read, and the one that is being made.
+void draw_references_under_way(Controls& controls, ViewerState& state) {
+    if (state.reference_read && progress_item("reading", "Reading reference", *state.reference_read,
+                                              "A reference is being read. A click gives it up (Esc): what errors "
+                                              "are measured against stays.",
+                                              controls))
+        state.cancel_reference = true;
+    const auto& making = state.reference_making.progress;
+    if (making && progress_item("making", "Reference", static_cast<float>(making->share()),
+                                "A reference is being made: shows or hides how far it is.", controls))
+        state.reference_making.show = !state.reference_making.show;
+}
+
+// At the right end of the menu bar: the scene, and whether there is something to read.
+void draw_menu_bar_end(Controls& controls, ViewerState& state) {
+    const std::size_t count = state.messages.size();
+    const bool errors = std::any_of(state.messages.begin(), state.messages.end(),
+                                    [](const Message& m) { return m.kind == Message::Kind::error; });
+    const char* icon = errors ? icons().warning : icons().note;
+    const std::string button =
+        std::string(icon) + (*icon ? " " : "") + std::to_string(count) + (count == 1 ? " message" : " messages");
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float button_width = count > 0 ? ImGui::CalcTextSize(button.c_str()).x + 3 * spacing : 0;
+    const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - button_width - 2 * spacing;
+    const std::string name = shortened(state.scene_name, room);
+    const float x = ImGui::GetCursorPosX() + room - ImGui::CalcTextSize(name.c_str()).x;
+    if (x > ImGui::GetCursorPosX())
+        ImGui::SetCursorPosX(x);
+    ImGui::TextDisabled("%s", name.c_str());
+    controls.note("scene_name", ("The scene on show: " + state.scene_name).c_str());
+    if (count == 0)
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
+    if (ImGui::MenuItem((button + "##messages").c_str()))
+        state.show_messages = !state.show_messages;
+    ImGui::PopStyleColor();
+    controls.note("messages", "Shows or hides the messages (F2).");
+}
+
+/// Opens the samples that a message is about, one after the other.
+void draw_inspect_button(Message& message, int index, Controls& controls, ViewerState& state) {
+    const std::size_t count = message.samples.size();
+    const SampleChoice& next = message.samples[message.next_sample];
+    const std::string label =
+        count == 1 ? "Inspect" : fmt::format("Inspect {} of {}", message.next_sample + 1, count);
+    const std::string help =
+        fmt::format("Opens the sample of pixel ({}, {}) in the path inspector.{}", next.pixel.x, next.pixel.y,
+                    count == 1 ? "" : " Then the button goes on to the next one; F2 shows it again.");
+    if (controls.button(("inspect_message" + std::to_string(index)).c_str(), label.c_str(), help.c_str())) {
+        state.inspect(next);
+        message.next_sample = (message.next_sample + 1) % count;
+    }
+    ImGui::SameLine();
+}
+
+void draw_message(Message& message, int index, Controls& controls, ViewerState& state) {
+    const bool error = message.kind == Message::Kind::error;
+    const char* icon = error ? icons().warning : icons().note;
+    ImGui::PushStyleColor(ImGuiCol_Text, error ? colours::error : colours::dim_text);
+    ImGui::TextUnformatted(*icon ? icon : error ? "error" : "note");
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    if (!message.samples.empty())
+        draw_inspect_button(message, index, controls, state);
+    ImGui::PushFont(mono_font());
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(message.text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopFont();
+}
+
+void draw_action_table() {
+    if (!ImGui::BeginTable("actions", 3, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
+        return;
+    ImGui::TableSetupColumn("key");
+    ImGui::TableSetupColumn("name");
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    for (const Action& action : actions()) {
+        std::string keys = to_string(action.shortcut);
+        if (action.second_shortcut != Shortcut{})
+            keys += "   " + to_string(action.second_shortcut);
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+        ImGui::TextUnformatted(keys.c_str());
+        ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(action.name);
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextUnformatted(action.help);
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleColor();
+    }
+    ImGui::EndTable();
+}
+
+void draw_gesture_table() {
+    if (!ImGui::BeginTable("gestures", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
+        return;
+    ImGui::TableSetupColumn("input");
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    for (const Gesture& gesture : gestures()) {
+        ImGui::TableNextColumn();
+        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
+        ImGui::TextUnformatted(gesture.input);
+        ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(gesture.help);
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+float draw_menu_bar(Controls& controls, ViewerState& state) {
+    if (!ImGui::BeginMainMenuBar())
+        return 0;
+    const char* previous = "";
+    for (const Action& action : actions()) {
+        if (std::strcmp(action.menu, previous) != 0)
+            draw_menu(controls, action.menu, state);
+        previous = action.menu;
+    }
+    draw_references_under_way(controls, state);
+    draw_menu_bar_end(controls, state);
+    const float height = ImGui::GetWindowHeight();
+    ImGui::EndMainMenuBar();
+    return height;
+}
+
+void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state) {
+    ImGui::SetNextWindowPos({where.min.x, where.min.y});
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
+    if (ImGui::Begin("Messages", nullptr, overlay_flags)) {
+        if (controls.button("clear_messages", "Clear", "Forgets all messages.")) {
+            state.messages.clear();
+            state.show_messages = false;
+        }
+        ImGui::SameLine();
+        if (controls.button("hide_messages", "Hide", "Hides the list; F2 shows it again."))
+            state.show_messages = false;
+        // The buttons stay where they are while the list is scrolled.
+        ImGui::BeginChild("list");
+        int index = 0;
+        for (Message& message : state.messages)
+            draw_message(message, index++, controls, state);
+        if (std::exchange(state.scroll_to_newest, false))
+            ImGui::SetScrollHereY(1.0f);
+        ImGui::EndChild();
+    }
+    ImGui::End();
+}
+
+void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
+    const float font = ImGui::GetFontSize();
+    const glm::vec2 size(std::min(screen.x, font * 52), std::min(screen.y, font * 50));
+    ImGui::SetNextWindowPos({(screen.x - size.x) * 0.5f, (screen.y - size.y) * 0.5f});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    if (ImGui::Begin("Help", nullptr, overlay_flags)) {
+        // The button stays where it is while the page is scrolled.
+        ImGui::BeginChild("page", {0, -ImGui::GetFrameHeightWithSpacing()});
+        heading("Keys");
+        draw_action_table();
+        heading("Mouse and camera");
+        draw_gesture_table();
+        ImGui::EndChild();
+        if (controls.button("close_help", "Close", "Closes this page (F1, ? or Esc)."))
+            state.show_help = false;
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
+}
+
+void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
+                  const LoadProgress::State& progress, double seconds) {
+    char time[32];
+    std::snprintf(time, sizeof time, " ...  %.1f s", seconds);
+    const std::string text = "Loading " + what + time + "\n" + to_string(progress);
+    const ImVec2 text_size = ImGui::CalcTextSize(text.c_str());
+    const float pad = ImGui::GetFontSize(), bar_height = std::floor(pad * 0.3f), row = ImGui::GetFrameHeight();
+    const glm::vec2 half(text_size.x * 0.5f + pad, (text_size.y + row) * 0.5f + 1.5f * pad + bar_height);
+    const glm::vec2 center = (where.min + where.max) * 0.5f;
+    const ImVec2 min(center.x - half.x, center.y - half.y), max(center.x + half.x, center.y + half.y);
+    ImGui::SetNextWindowPos(min);
+    ImGui::SetNextWindowSize({max.x - min.x, max.y - min.y});
+    if (ImGui::Begin("Loading", nullptr, overlay_flags | ImGuiWindowFlags_NoBackground)) {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
+        list.AddRect(min, max, colours::overlay_line, pad * 0.5f);
+        list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
+        ImGui::SetCursorScreenPos({min.x + pad, min.y + 1.5f * pad + text_size.y});
+        if (controls.button("cancel_load", "Cancel", "Gives the scene up; the one on show stays (Esc)."))
+            state.cancel_load = true;
+        if (progress.total > 0) {
+            const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
+            const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
+            list.AddRectFilled({left, bottom - bar_height}, {right, bottom}, colours::overlay_line);
+            list.AddRectFilled({left, bottom - bar_height}, {left + share * (right - left), bottom},
+                               colours::overlay_accent);
+        }
+    }
+    ImGui::End();
+}
+
+void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState& state) {
+    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
+                                       ImGuiWindowFlags_NoNav;
+    const float line = ImGui::GetFontSize(), width = std::max(line * 0.4f, 4.0f); // wide enough to be caught
+    const float height = std::max(pictures.size().y, 1.0f);
+    ImGui::SetNextWindowPos({pictures.max.x - width / 2, pictures.min.y});
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::Begin("panel edge", nullptr, flags);
+    ImGui::PopStyleVar(2);
+    ImGui::InvisibleButton("edge", {width, height});
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        ImGui::GetWindowDrawList()->AddLine({pictures.max.x, pictures.min.y}, {pictures.max.x, pictures.max.y},
+                                            colours::accent);
+    }
+    if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0)
+        state.panel_width = std::clamp((ImGui::GetIO().DisplaySize.x - ImGui::GetIO().MousePos.x) / line,
+                                       ViewerState::least_panel_width, ViewerState::most_panel_width);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        state.panel_width = ViewerState().panel_width;
+    controls.note("panel edge", "Drag: how wide the panels are. Double click: as at first.");
+    ImGui::End();
+}
+
+} // namespace tessera

@@ -1,0 +1,301 @@
+#include "ui/state/actions.h"
+#include "ui/state/words.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace tessera {
+
+void set_buffer(ViewerState& state, Buffer buffer) {
+    for (PaneState& pane : state.panes)
+        pane.settings.buffer = buffer;
+}
+
+void step_method(ViewerState& state, int step) {
+    constexpr int count = static_cast<int>(std::size(all_methods));
+    Method& method = state.active().settings.render.method;
+    method = all_methods[(static_cast<int>(method) + step + count) % count];
+}
+
+void step_tile(ViewerState& state, int step) {
+    int& tile = state.active().settings.render.tile;
+    tile = std::clamp(tile + step, 1, 16);
+    state.share_settings();
+}
+
+void step_exposure(ViewerState& state, float stops) {
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
+}
+
+void next_pane(ViewerState& state) {
+    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+void next_grid(ViewerState& state) {
+    const std::size_t count = state.panes.size();
+    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
+}
+
+void step_pass(ViewerState& state) {
+    state.paused = true;
+    ++state.steps;
+}
+
+void step_ui_scale(ViewerState& state, float by) {
+    state.set_ui_scale(std::round(state.ui_scale() * 4) / 4 + by);
+}
+
+void next_tone(ViewerState& state) {
+    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
+}
+
+void toggle_charts(ViewerState& state) {
+    state.show_charts = !state.show_charts;
+    state.large_charts = state.large_charts && state.show_charts;
+}
+
+void toggle_inspector(ViewerState& state) {
+    state.set_inspector(!state.inspector.active);
+}
+
+void open_sample_form(ViewerState& state) {
+    SampleForm& form = state.sample_form;
+    form.seed = state.active().settings.render.seed;
+    if (const auto& sample = state.inspector.sample) {
+        form.pixel = sample->pixel;
+        if (const auto& inspection = state.inspector.inspection)
+            form.pass = inspection->pass;
+        form.pass = sample->pass.value_or(form.pass);
+        if (sample->origin)
+            form.seed = sample->origin->settings.seed;
+    }
+    form.show = true;
+}
+
+void toggle_slow_motion(ViewerState& state) {
+    state.set_slow_motion(!state.slow_motion.active);
+}
+
+void next_tile(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (slow.tile)
+        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
+}
+
+void toggle_comparison(ViewerState& state, Comparison::Kind kind) {
+    if (state.compared_with(state.active_pane) == state.active_pane)
+        state.set_pane_count(2);
+    Comparison::Kind& own = state.active().settings.comparison.kind;
+    own = own == kind ? Comparison::Kind::off : kind;
+}
+
+namespace {
+
+constexpr Shortcut key(Key k) {
+    return {k, false, false, 0};
+}
+constexpr Shortcut ctrl(Key k) {
+    return {k, true, false, 0};
+}
+constexpr Shortcut shift(Key k) {
+    return {k, false, true, 0};
+}
+constexpr Shortcut ctrl_shift(Key k) {
+    return {k, true, true, 0};
+}
+constexpr Shortcut character(char c) {
+    return {Key::none, false, false, c};
+}
+constexpr Shortcut no_shortcut{};
+
+using State = ViewerState;
+
+constexpr Action table[] = {
+    {"File", "Open scene ...", "Chooses a Mitsuba scene, an .xml file.", ctrl(Key::o), no_shortcut,
+     [](State& s) { s.choosing = FilePurpose::scene; }, nullptr},
+    {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
+     key(Key::f5), no_shortcut, [](State& s) { s.reload = true; }, nullptr},
+    {"File", "Open reference ...", "Chooses an EXR file to measure errors against.", ctrl(Key::r), no_shortcut,
+     [](State& s) { s.choosing = FilePurpose::reference; }, nullptr},
+    {"File", "Make reference ...",
+     "Renders a reference of what the panes show, in the background; after an end it goes on from its checkpoint.",
+     ctrl(Key::m), no_shortcut, [](State& s) { s.reference_making.show = true; }, nullptr},
+    {"File", "Load settings ...", "Chooses settings or a camera that was saved, a .json file.", ctrl(Key::l),
+     no_shortcut, [](State& s) { s.choosing = FilePurpose::settings; }, nullptr},
+    {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
+     key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
+    {"File", "Save view",
+     "Writes the active pane's buffer, a pixel for each of its pixels and in the colours on show, to a PNG file "
+     "in "
+     "the current folder.",
+     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.save_view = true; }, nullptr},
+    {"File", "Save as EXR",
+     "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
+     "settings to an EXR file in the current folder.",
+     ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
+    {"File", "Save settings",
+     "Writes panes, camera, size, display and what is inspected to a JSON file in the current folder.",
+     ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},
+    {"File", "Save charts",
+     "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "
+     "current "
+     "folder.",
+     key(Key::z), no_shortcut, [](State& s) { s.save_charts = true; }, nullptr},
+    {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
+
+    {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
+     [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
+    {"Render", "Step one pass", "Pauses, and adds one sample a pixel in every pane.", character('.'), no_shortcut,
+     step_pass, nullptr},
+    {"Render", "Restart", "Renders all panes anew from the first sample.", key(Key::r), no_shortcut,
+     [](State& s) { s.restart = true; }, nullptr},
+    {"Render", "Next method", "The next method in the active pane.", key(Key::m), no_shortcut,
+     [](State& s) { step_method(s, 1); }, nullptr},
+    {"Render", "Previous method", "The previous method in the active pane.", shift(Key::m), no_shortcut,
+     [](State& s) { step_method(s, -1); }, nullptr},
+    {"Render", "Larger tile", "Lets a path be reused by more pixels.", character(']'), no_shortcut,
+     [](State& s) { step_tile(s, 1); }, nullptr},
+    {"Render", "Smaller tile", "Lets a path be reused by fewer pixels.", character('['), no_shortcut,
+     [](State& s) { step_tile(s, -1); }, nullptr},
+
+    {"Buffer", "Reconstruction", "Shows the reconstructed picture in all panes.", key(Key::digit1), no_shortcut,
+     show_buffer<Buffer::reconstruction>, shows_buffer<Buffer::reconstruction>},
+    {"Buffer", "Primal", "Shows the picture before reconstruction in all panes.", key(Key::digit2), no_shortcut,
+     show_buffer<Buffer::primal>, shows_buffer<Buffer::primal>},
+    {"Buffer", "Gradient dx", "Shows the differences between a pixel and its right neighbour in all panes.",
+     key(Key::digit3), no_shortcut, show_buffer<Buffer::dx>, shows_buffer<Buffer::dx>},
+    {"Buffer", "Gradient dy", "Shows the differences between a pixel and the one below in all panes.",
+     key(Key::digit4), no_shortcut, show_buffer<Buffer::dy>, shows_buffer<Buffer::dy>},
+    {"Buffer", "Reuse count", "Shows how many paths of other pixels brought light to each pixel, in all panes.",
+     key(Key::digit5), no_shortcut, show_buffer<Buffer::reused>, shows_buffer<Buffer::reused>},
+    {"Buffer", "Shift outcomes", "Shows how the shifts of paths to each pixel ended, in all panes.",
+     key(Key::digit6), no_shortcut, show_buffer<Buffer::outcomes>, shows_buffer<Buffer::outcomes>},
+    {"Buffer", "Roulette survival",
+     "Shows which share of each pixel's base paths with light the roulette let be reused, in all panes.",
+     shift(Key::digit9), no_shortcut, show_buffer<Buffer::survival>, shows_buffer<Buffer::survival>},
+    {"Buffer", "Very direct", "Shows the emission that the camera itself sees, in all panes.", shift(Key::digit1),
+     no_shortcut, show_buffer<Buffer::very_direct>, shows_buffer<Buffer::very_direct>},
+    {"Buffer", "Error: relMSE", "Shows (I - r)^2 / (r^2 + 0.001) to the reference r, in all panes.",
+     key(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative_squared>,
+     shows_buffer<Buffer::error_relative_squared>},
+    {"Buffer", "Error: squared", "Shows (I - r)^2 to the reference r, in all panes.", key(Key::digit8),
+     no_shortcut, show_buffer<Buffer::error_squared>, shows_buffer<Buffer::error_squared>},
+    {"Buffer", "Error: absolute", "Shows |I - r| to the reference r, in all panes.", key(Key::digit9), no_shortcut,
+     show_buffer<Buffer::error_absolute>, shows_buffer<Buffer::error_absolute>},
+    {"Buffer", "Error: relative", "Shows |I - r| / (|r| + 0.01) to the reference r, in all panes.",
+     shift(Key::digit7), no_shortcut, show_buffer<Buffer::error_relative>, shows_buffer<Buffer::error_relative>},
+    {"Buffer", "Reference", "Shows the picture that errors are measured against, in all panes.",
+     shift(Key::digit0), no_shortcut, show_buffer<Buffer::reference>, shows_buffer<Buffer::reference>},
+    {"Buffer", "Albedo", "Shows how much light the surfaces scatter, in all panes.", shift(Key::digit2),
+     no_shortcut, show_buffer<Buffer::albedo>, shows_buffer<Buffer::albedo>},
+    {"Buffer", "Normal", "Shows where the surfaces face, in all panes.", shift(Key::digit3), no_shortcut,
+     show_buffer<Buffer::normal>, shows_buffer<Buffer::normal>},
+    {"Buffer", "Depth", "Shows how far from the camera the surfaces are, in all panes.", shift(Key::digit4),
+     no_shortcut, show_buffer<Buffer::depth>, shows_buffer<Buffer::depth>},
+    {"Buffer", "Variance of primal", "Shows how uncertain the primal still is, in all panes.", shift(Key::digit5),
+     no_shortcut, show_buffer<Buffer::primal_variance>, shows_buffer<Buffer::primal_variance>},
+    {"Buffer", "Variance of dx", "Shows how uncertain the gradients dx still are, in all panes.",
+     shift(Key::digit6), no_shortcut, show_buffer<Buffer::dx_variance>, shows_buffer<Buffer::dx_variance>},
+    {"Buffer", "Variance of dy", "Shows how uncertain the gradients dy still are, in all panes.",
+     shift(Key::digit8), no_shortcut, show_buffer<Buffer::dy_variance>, shows_buffer<Buffer::dy_variance>},
+
+    {"View", "Brighter", "Exposure up by half a stop.", character('+'), character('='),
+     [](State& s) { step_exposure(s, 0.5f); }, nullptr},
+    {"View", "Darker", "Exposure down by half a stop.", character('-'), no_shortcut,
+     [](State& s) { step_exposure(s, -0.5f); }, nullptr},
+    {"View", "Reset exposure", "Exposure back to 0 stops.", key(Key::digit0), no_shortcut,
+     [](State& s) { s.tone.exposure = 0; }, nullptr},
+    {"View", "Next tone curve", "sRGB, gamma or filmic: how radiance becomes brightness.", key(Key::y),
+     no_shortcut, next_tone, nullptr},
+    {"View", "Mark negative values",
+     "Shows pixels with a negative red, green or blue in blue. NaN is always magenta, infinity cyan.", key(Key::u),
+     no_shortcut, [](State& s) { s.mark_negative = !s.mark_negative; },
+     [](const State& s) { return s.mark_negative; }},
+    {"View", "Magnifier", "Enlarges the pixels around the mouse, in all panes.", key(Key::l), no_shortcut,
+     [](State& s) { s.magnifier = !s.magnifier; }, [](const State& s) { return s.magnifier; }},
+    {"View", "Tiles",
+     "Draws over the pictures which pixels share their paths in the newest pass, and marks those of the pixel "
+     "under "
+     "the mouse; the border of a G-PR tile is orange.",
+     key(Key::x), no_shortcut, [](State& s) { s.show_tiles = !s.show_tiles; },
+     [](const State& s) { return s.show_tiles; }},
+    {"View", "Path inspector",
+     "The left button chooses a pixel: its base path and the shifts of its tile are drawn over the picture, and "
+     "listed.",
+     key(Key::i), no_shortcut, toggle_inspector, [](const State& s) { return s.inspector.active; }},
+    {"View", "Inspect a sample ...",
+     "Opens a sample of the active pane in the path inspector, by pixel, pass and seed, as a message gives it.",
+     ctrl(Key::i), no_shortcut, open_sample_form, nullptr},
+    {"View", "Slow motion",
+     "Draws one tile of the active pane's newest pass, its base paths one after the other, with the pixels that "
+     "each "
+     "reaches; the left button chooses a tile.",
+     key(Key::j), no_shortcut, toggle_slow_motion, [](const State& s) { return s.slow_motion.active; }},
+    {"View", "Hold slow motion", "Stops the slow motion where it is, or lets it go on.", shift(Key::space),
+     no_shortcut, [](State& s) { s.slow_motion.held = !s.slow_motion.held; },
+     [](const State& s) { return s.slow_motion.held; }},
+    {"View", "Next base path", "The slow motion takes one step, and waits.", character('>'), no_shortcut,
+     [](State& s) { s.slow_motion.step(1); }, nullptr},
+    {"View", "Previous base path", "The slow motion takes one step back, and waits.", character('<'), no_shortcut,
+     [](State& s) { s.slow_motion.step(-1); }, nullptr},
+    {"View", "Next tile", "The slow motion goes on with the next tile, of the newest pass.", shift(Key::j),
+     no_shortcut, next_tile, nullptr},
+    {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
+     [](State& s) { s.set_view({}); }, nullptr},
+    {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,
+     [](State& s) { s.theme = s.theme == Theme::dark ? Theme::light : Theme::dark; },
+     [](const State& s) { return s.theme == Theme::light; }},
+    {"View", "Larger text", "Text and controls a quarter larger, up to 300 %.", ctrl(Key::up), no_shortcut,
+     [](State& s) { step_ui_scale(s, 0.25f); }, nullptr},
+    {"View", "Smaller text", "Text and controls a quarter smaller, down to 100 %.", ctrl(Key::down), no_shortcut,
+     [](State& s) { step_ui_scale(s, -0.25f); }, nullptr},
+    {"View", "Text as the display says", "Text and controls at the scale of the display.", ctrl(Key::digit0),
+     no_shortcut, [](State& s) { s.text_factor = 1; }, [](const State& s) { return s.text_factor == 1; }},
+    {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
+     [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
+    {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
+     key(Key::t), no_shortcut, [](State& s) { s.show_statistics = !s.show_statistics; },
+     [](const State& s) { return s.show_statistics; }},
+    {"View", "Charts", "Shows or hides how errors fall, efficiency, how shifts end, and a histogram.", key(Key::h),
+     no_shortcut, toggle_charts, [](const State& s) { return s.show_charts; }},
+    {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
+     [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
+
+    {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
+     has_panes<1>},
+    {"Panes", "Two panes", "Renders two panes, beside each other.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
+     has_panes<2>},
+    {"Panes", "Four panes", "Renders four panes, two by two.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
+     has_panes<4>},
+    {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
+    {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
+    {"Panes", "Only the active pane", "Gives it all the room; the others go on rendering.", key(Key::o),
+     no_shortcut, [](State& s) { s.alone = !s.alone; }, [](const State& s) { return s.alone; }},
+    {"Panes", "Wipe",
+     "Divides the active pane by a line that can be dragged: its own picture to the left, another pane's to the "
+     "right.",
+     key(Key::v), no_shortcut, toggle<Comparison::Kind::wipe>, compares<Comparison::Kind::wipe>},
+    {"Panes", "Difference",
+     "Shows the active pane's picture minus another pane's: orange above zero, blue below; exposure enlarges it.",
+     key(Key::n), no_shortcut, toggle<Comparison::Kind::difference>, compares<Comparison::Kind::difference>},
+
+    {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
+     [](State& s) { s.camera.go_home(); }, nullptr},
+    {"Camera", "Save camera",
+     "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
+     "--camera.",
+     key(Key::k), no_shortcut, [](State& s) { s.save_camera = true; }, nullptr},
+    {"Camera", "Copy camera as XML", "Puts fov and to_world for a Mitsuba <sensor> on the clipboard.",
+     shift(Key::k), no_shortcut, [](State& s) { s.copy_camera = true; }, nullptr},
+
+    {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),
+     [](State& s) { s.show_help = !s.show_help; }, [](const State& s) { return s.show_help; }},
+};
+
+} // namespace
+
+std::span<const Action> actions() {
+    return table;
+}
+
+} // namespace tessera

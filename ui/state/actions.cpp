@@ -1,0 +1,186 @@
+#include "ui/state/actions.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace tessera {
+
+namespace {
+
+constexpr int place(Key key) {
+    return static_cast<int>(key);
+}
+
+std::string name(Key key) {
+    if (key >= Key::a && key <= Key::z)
+        return std::string(1, static_cast<char>('A' + place(key) - place(Key::a)));
+    if (key >= Key::digit0 && key <= Key::digit9)
+        return std::string(1, static_cast<char>('0' + place(key) - place(Key::digit0)));
+    if (key >= Key::f1 && key <= Key::f12)
+        return "F" + std::to_string(1 + place(key) - place(Key::f1));
+    static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift"};
+    const int index = place(key) - place(Key::left);
+    return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
+}
+
+} // namespace
+
+Key key_of_character(char character) {
+    if (character >= 'a' && character <= 'z')
+        return static_cast<Key>(place(Key::a) + character - 'a');
+    if (character >= 'A' && character <= 'Z')
+        return static_cast<Key>(place(Key::a) + character - 'A');
+    if (character >= '0' && character <= '9')
+        return static_cast<Key>(place(Key::digit0) + character - '0');
+    return Key::none;
+}
+
+Key key_named(const char* printed, Key place, bool alt) {
+    if (alt)
+        return Key::none;
+    const Key named = printed && *printed && !printed[1] ? key_of_character(*printed) : Key::none;
+    return named != Key::none ? named : place;
+}
+
+std::string to_string(const Shortcut& shortcut) {
+    if (shortcut.character != 0)
+        return std::string(1, shortcut.character);
+    return (shortcut.ctrl ? "Ctrl+" : "") + std::string(shortcut.shift ? "Shift+" : "") + name(shortcut.key);
+}
+
+std::optional<Shortcut> shortcut_named(const std::string& text) {
+    Shortcut shortcut;
+    std::string rest = text;
+    const auto take = [&](const std::string& prefix) {
+        const bool found = rest.size() > prefix.size() && rest.rfind(prefix, 0) == 0;
+        if (found)
+            rest.erase(0, prefix.size());
+        return found;
+    };
+    shortcut.ctrl = take("Ctrl+");
+    shortcut.shift = take("Shift+");
+    for (int key = place(Key::none) + 1; key < place(Key::count); ++key) {
+        if (name(static_cast<Key>(key)) == rest)
+            shortcut.key = static_cast<Key>(key);
+    }
+    if (shortcut.key != Key::none)
+        return shortcut;
+    if (text.size() == 1 && text[0] > ' ' && key_of_character(text[0]) == Key::none)
+        return Shortcut{Key::none, false, false, text[0]};
+    return std::nullopt;
+}
+
+void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
+    // With Ctrl it is a shortcut, and does not count as held: Ctrl+S must not fly back.
+    down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;
+    if (named != Key::none)
+        typed_.push_back({named, ctrl, shift, 0});
+    awaits_character_ = named != Key::none;
+}
+
+void Keyboard::type(char character) {
+    if (std::exchange(awaits_character_, false))
+        typed_.back().character = character;
+    else
+        typed_.push_back({Key::none, false, false, character});
+}
+
+void Keyboard::release(Key physical) {
+    down_[static_cast<std::size_t>(physical)] = false;
+}
+
+std::vector<Shortcut> Keyboard::take() {
+    awaits_character_ = false;
+    return std::exchange(typed_, {});
+}
+
+namespace {
+
+constexpr float fly_speed = 0.45f; // radii of the scene a second
+constexpr float look_speed = 1.1f; // radians a second
+constexpr float hurry = 4.0f;      // with Shift
+
+constexpr Gesture gesture_table[] = {
+    {"Left drag", "Orbit about the target"},
+    {"Middle drag, Shift + left drag", "Pan: what is under the cursor follows it"},
+    {"Wheel, right drag", "Dolly toward the target and away"},
+    {"W A S D, Q E", "Fly ahead, left, back, right; down, up (Shift: faster)"},
+    {"Arrow keys", "Look around"},
+    {"B held", "Flicker: the active pane shows the picture that it is compared with"},
+    {"Ctrl + wheel", "Zoom the picture itself, in all panes; near enough, pixels show their numbers"},
+    {"Ctrl + left drag", "Move the picture itself"},
+    {"Left button with the path inspector (I)", "Choose the pixel that is looked at"},
+    {"Left button with the slow motion (J)", "Choose the tile that is drawn"},
+    {"Drag on a legend's colours", "Move an end of their range; double click: back to the image's"},
+    {"Ctrl + click on a slider", "Type a value"},
+};
+
+/// The actions that were called. A character wins over the key that made it: on a French keyboard '-' lies on 6.
+std::vector<const Action*> called_by(const Shortcut& typed) {
+    const Shortcut as_character{Key::none, false, false, typed.character};
+    const Shortcut as_key{typed.key, typed.ctrl, typed.shift, 0};
+    for (const Shortcut& shortcut : {as_character, as_key}) {
+        std::vector<const Action*> called;
+        for (const Action& action : actions())
+            if (shortcut != Shortcut{} && (shortcut == action.shortcut || shortcut == action.second_shortcut))
+                called.push_back(&action);
+        if (!called.empty())
+            return called;
+    }
+    return {};
+}
+
+bool counts_in_text(const Shortcut& typed) {
+    return typed.ctrl || (typed.key >= Key::f1 && typed.key <= Key::f12);
+}
+
+void close_overlays(bool entering_text, ViewerState& state) {
+    const bool any = entering_text || // whose end it is
+                     state.show_help || state.large_charts || state.reference_making.show ||
+                     state.sample_form.show || state.choosing;
+    // What is on its way goes one after the other, the scene first.
+    const bool loads = !state.loading.empty();
+    state.cancel_load = state.cancel_load || (!any && loads);
+    state.cancel_reference = state.cancel_reference || (!any && !loads && state.reference_read);
+    state.give_up_reconstructions = state.give_up_reconstructions || (!any && !loads && !state.reference_read);
+    state.show_help = false;
+    state.large_charts = false;
+    state.reference_making.show = state.sample_form.show = false;
+    state.choosing.reset();
+}
+
+} // namespace
+
+std::span<const Gesture> gestures() {
+    return gesture_table;
+}
+
+void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerState& state) {
+    for (const Shortcut& shortcut : typed) {
+        if (entering_text && !counts_in_text(shortcut))
+            continue;
+        for (const Action* action : called_by(shortcut))
+            action->run(state);
+    }
+    // A closing key that every overlay has.
+    if (std::find(typed.begin(), typed.end(), Shortcut{Key::escape}) != typed.end())
+        close_overlays(entering_text, state);
+}
+
+bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state) {
+    const auto axis = [&](Key plus, Key minus) {
+        return static_cast<float>(keyboard.is_down(plus)) - static_cast<float>(keyboard.is_down(minus));
+    };
+    const glm::vec3 steps(axis(Key::a, Key::d), axis(Key::e, Key::q), axis(Key::w, Key::s));
+    const glm::vec2 turns(axis(Key::left, Key::right), axis(Key::up, Key::down));
+    const float speed = keyboard.is_down(Key::shift) ? hurry : 1.0f;
+    if (steps != glm::vec3(0))
+        state.camera.fly(steps * (fly_speed * speed * seconds));
+    if (turns != glm::vec2(0))
+        state.camera.look(turns.x * look_speed * seconds, turns.y * look_speed * seconds);
+    return steps != glm::vec3(0) || turns != glm::vec2(0);
+}
+
+} // namespace tessera

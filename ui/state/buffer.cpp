@@ -1,0 +1,307 @@
+#include "ui/state/shift_outcomes.h"
+#include "ui/state/buffer.h"
+
+#include "ui/gl/tone.h"
+#include "ui/state/companions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tessera {
+
+namespace {
+
+ErrorKind error_kind(Buffer buffer) {
+    return static_cast<ErrorKind>(static_cast<int>(buffer) - static_cast<int>(Buffer::error_relative_squared));
+}
+
+const RgbImage& primal_with_very_direct(const GradientImages& images, RgbImage& scratch) {
+    if (images.very_direct.size() != images.primal.size())
+        return images.primal;
+    scratch = images.primal;
+    for (std::size_t i = 0; i < scratch.size(); ++i)
+        scratch.data()[i] += images.very_direct.data()[i];
+    return scratch;
+}
+
+/// The least of the steps times a power of ten that is not below `value` > 0.
+float rounded_up(float value) {
+    const float power = std::pow(10.0f, std::floor(std::log10(value)));
+    for (float step : {1.0f, 1.2f, 1.5f, 2.0f, 2.5f, 3.0f, 4.0f, 5.0f, 6.0f, 8.0f}) {
+        if (step * power >= value)
+            return step * power;
+    }
+    return 10 * power;
+}
+
+// Of this size: a first look's may still be there when the first whole pass is.
+bool has_reconstruction(const Snapshot& snapshot) {
+    if (!snapshot.images || !snapshot.reconstruction || !has_gradients(snapshot.settings.method))
+        return false;
+    const RgbImage& image = snapshot.reconstruction->image;
+    const RgbImage& primal = snapshot.images->primal;
+    return !image.empty() && image.width() == primal.width() && image.height() == primal.height();
+}
+
+} // namespace
+
+std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buffer) {
+    switch (family(buffer)) {
+    case BufferFamily::reuse:
+        return snapshot.reuse;
+    case BufferFamily::first_hit:
+    case BufferFamily::reference:
+        return nullptr;
+    case BufferFamily::gradient:
+    case BufferFamily::variance:
+        return snapshot.images;
+    case BufferFamily::picture:
+    case BufferFamily::error:
+        break;
+    }
+    const bool is_final = buffer == Buffer::reconstruction || family(buffer) == BufferFamily::error;
+    if (is_final && has_reconstruction(snapshot))
+        return snapshot.reconstruction;
+    return snapshot.images;
+}
+
+std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
+    if (family(buffer) == BufferFamily::error || family(buffer) == BufferFamily::reference)
+        return companions.reference;
+    if (family(buffer) == BufferFamily::first_hit)
+        return companions.first_hits;
+    return nullptr;
+}
+
+namespace {
+
+const RgbImage no_picture;
+
+/// The picture at the end: reconstructed where that is done.
+const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
+    return has_reconstruction(snapshot) ? snapshot.reconstruction->image
+                                        : primal_with_very_direct(*snapshot.images, scratch);
+}
+
+const RgbImage& error_picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
+                              const Companions& companions) {
+    if (!companions.reference || !same_size(snapshot.images->primal, companions.reference->image))
+        return no_picture;
+    return scratch = error_map(error_kind(buffer), final_picture(snapshot, scratch), companions.reference->image);
+}
+
+const RgbImage& first_hit_picture(Buffer buffer, RgbImage& scratch, const Companions& companions) {
+    if (!companions.first_hits)
+        return no_picture;
+    if (buffer == Buffer::depth)
+        return scratch = grey(companions.first_hits->depth);
+    return buffer == Buffer::albedo ? companions.first_hits->albedo : companions.first_hits->normal;
+}
+
+} // namespace
+
+const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch, const Companions& companions) {
+    if (family(buffer) == BufferFamily::first_hit)
+        return first_hit_picture(buffer, scratch, companions);
+    if (family(buffer) == BufferFamily::reference)
+        return companions.reference ? companions.reference->image : no_picture;
+    if (!picture_source(snapshot, buffer) || !snapshot.images)
+        return no_picture;
+    if (family(buffer) == BufferFamily::error)
+        return error_picture(snapshot, buffer, scratch, companions);
+    switch (buffer) {
+    case Buffer::reused:
+        return scratch = grey(snapshot.reuse->reused());
+    case Buffer::outcomes:
+        return scratch = grey(snapshot.reuse->failed());
+    case Buffer::survival:
+        return scratch = grey(snapshot.reuse->survival());
+    case Buffer::dx:
+        return snapshot.images->dx;
+    case Buffer::dy:
+        return snapshot.images->dy;
+    case Buffer::very_direct:
+        return snapshot.images->very_direct;
+    case Buffer::primal_variance:
+        return scratch = grey(snapshot.images->primal_variance);
+    case Buffer::dx_variance:
+        return scratch = grey(snapshot.images->dx_variance);
+    case Buffer::dy_variance:
+        return scratch = grey(snapshot.images->dy_variance);
+    case Buffer::reconstruction:
+        return final_picture(snapshot, scratch);
+    default:
+        return primal_with_very_direct(*snapshot.images, scratch);
+    }
+}
+
+RgbImage own_colours(const Snapshot& snapshot, Buffer buffer) {
+    return buffer == Buffer::outcomes && snapshot.reuse ? outcome_colours(*snapshot.reuse) : RgbImage();
+}
+
+std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions) {
+    const std::string name(paper_name(method));
+    const bool of_gradients = family(buffer) == BufferFamily::gradient ||
+                              (family(buffer) == BufferFamily::variance && buffer != Buffer::primal_variance);
+    if (of_gradients && !has_gradients(method))
+        return name + " measures no gradients";
+    if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
+        return "A variance takes two passes";
+    if (family(buffer) == BufferFamily::reuse && method == Method::pt)
+        return name + " shares no paths between pixels";
+    if (family(buffer) != BufferFamily::error && family(buffer) != BufferFamily::reference)
+        return "";
+    if (!companions.reference)
+        return "No reference: drop an EXR file on the window";
+    if (family(buffer) == BufferFamily::reference || !snapshot || !snapshot->images || snapshot->coarse() ||
+        same_size(snapshot->images->primal, companions.reference->image))
+        return "";
+    const RgbImage& r = companions.reference->image;
+    return "The reference has " + std::to_string(r.width()) + " x " + std::to_string(r.height()) + " pixels";
+}
+
+float top_value(Buffer buffer, const RgbImage& image) {
+    if (buffer == Buffer::outcomes || buffer == Buffer::survival)
+        return 1;
+    float top = 0;
+    for (const Rgb& pixel : image)
+        top = std::max(top, pixel.r);
+    return top > 0 ? rounded_up(top) : 1;
+}
+
+namespace {
+
+/// Five decades about the mean: the largest of all variances is an outlier's.
+ValueRange variance_range(const RgbImage& image) {
+    double sum = 0;
+    for (const Rgb& pixel : image)
+        sum += std::isfinite(pixel.r) ? static_cast<double>(pixel.r) : 0;
+    const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(image.size(), 1)));
+    const float top = mean > 0 ? rounded_up(mean * 10) : 1;
+    return {top * 1e-5f, top, true};
+}
+
+} // namespace
+
+ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions) {
+    if (family(buffer) == BufferFamily::variance)
+        return variance_range(image);
+    if (family(buffer) != BufferFamily::error)
+        return {0, top_value(buffer, image), false};
+    const float mean = companions.reference && companions.reference->mean > 0 ? companions.reference->mean : 1;
+    switch (error_kind(buffer)) {
+    case ErrorKind::squared:
+        return {rounded_up(mean * mean) * 1e-5f, rounded_up(mean * mean), true};
+    case ErrorKind::absolute:
+        return {rounded_up(mean) * 1e-3f, rounded_up(mean), true};
+    case ErrorKind::relative:
+        return {1e-3f, 1, true};
+    case ErrorKind::relative_squared:
+        break;
+    }
+    return {1e-4f, 1, true};
+}
+
+std::string legend_text(Buffer buffer, const ValueRange& range) {
+    const BufferInfo& about = info(buffer);
+    const double scale = static_cast<double>(about.unit_scale);
+    char text[96];
+    std::snprintf(text, sizeof text, "%s: %.4g .. %.4g%s%s%s", about.id, static_cast<double>(range.low) * scale,
+                  static_cast<double>(range.high) * scale, *about.unit ? " " : "", about.unit,
+                  range.logarithmic ? "  log scale" : "");
+    return text;
+}
+
+// What there is to know of buffers before any image of them.
+
+namespace {
+
+using Family = BufferFamily;
+
+constexpr BufferInfo table[] = {
+    {Buffer::reconstruction, "reconstruction", "Reconstruction",
+     "The picture made from primal and gradients; radiance.", Family::picture, ColourMap::radiance, "", 1},
+    {Buffer::primal, "primal", "Primal", "The picture as measured, before any reconstruction; radiance.",
+     Family::picture, ColourMap::radiance, "", 1},
+    {Buffer::dx, "dx", "Gradient dx",
+     "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     Family::gradient, ColourMap::signed_difference, "", 1},
+    {Buffer::dy, "dy", "Gradient dy",
+     "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     Family::gradient, ColourMap::signed_difference, "", 1},
+    {Buffer::reused, "reused", "Reuse count",
+     "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
+     Family::reuse, ColourMap::false_colour, "paths a pass", 1},
+    {Buffer::outcomes, "outcomes", "Shift outcomes",
+     "How the shifts of other pixels' base paths to a pixel ended: the mean of the outcomes' colours, black where "
+     "none was tried. Its number, in differences, too, is the share that brought no light. Not for PT.",
+     Family::reuse, ColourMap::own, "%", 100},
+    {Buffer::survival, "survival", "Roulette survival",
+     "Of a pixel's own base paths that carry light, the share that the roulette on reuse let be shifted to the "
+     "others of its tile (all passes; 0 where none has carried light). A survivor weighs 1/q for its probability "
+     "q; "
+     "roulette none and G-PT reuse all: 100 %. Not for PT.",
+     Family::reuse, ColourMap::false_colour, "%", 100},
+    {Buffer::very_direct, "very_direct", "Very direct",
+     "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
+     ColourMap::radiance, "", 1},
+    {Buffer::error_relative_squared, "relMSE", "Error: relMSE",
+     "(I - r)^2 / (r^2 + 0.001), the mean of red, green and blue, of the picture I and the reference r (no unit). "
+     "Its mean over the pixels is the relMSE of [Bauszat 2017, 4].",
+     Family::error, ColourMap::false_colour, "", 1},
+    {Buffer::error_squared, "squared", "Error: squared",
+     "(I - r)^2, the mean of red, green and blue, of the picture I and the reference r; radiance squared.",
+     Family::error, ColourMap::false_colour, "", 1},
+    {Buffer::error_absolute, "absolute", "Error: absolute",
+     "|I - r|, the mean of red, green and blue, of the picture I and the reference r; radiance.", Family::error,
+     ColourMap::false_colour, "", 1},
+    {Buffer::error_relative, "relative", "Error: relative",
+     "|I - r| / (|r| + 0.01), the mean of red, green and blue, of the picture I and the reference r; per cent.",
+     Family::error, ColourMap::false_colour, "%", 100},
+    {Buffer::reference, "reference", "Reference", "The picture that errors are measured against; radiance.",
+     Family::reference, ColourMap::radiance, "", 1},
+    {Buffer::albedo, "albedo", "Albedo",
+     "The share of light that the surface first seen would send to the camera if it came from everywhere (no "
+     "unit).",
+     Family::first_hit, ColourMap::radiance, "", 1},
+    {Buffer::normal, "normal", "Normal",
+     "The shading normal of the surface first seen, in the world: x is red, y green, z blue; -1 is black, 1 full.",
+     Family::first_hit, ColourMap::direction, "", 1},
+    {Buffer::depth, "depth", "Depth",
+     "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
+     Family::first_hit, ColourMap::false_colour, "units", 1},
+    {Buffer::primal_variance, "primal_variance", "Variance of primal",
+     "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
+     "with "
+     "the samples. Pixels that share light err alike: their variances do not tell that.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
+    {Buffer::dx_variance, "dx_variance", "Variance of dx",
+     "Variance of the mean of gradient dx over the passes, the sum of red, green and blue; radiance squared.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
+    {Buffer::dy_variance, "dy_variance", "Variance of dy",
+     "Variance of the mean of gradient dy over the passes, the sum of red, green and blue; radiance squared.",
+     Family::variance, ColourMap::false_colour, "radiance^2", 1},
+};
+
+} // namespace
+
+const BufferInfo& info(Buffer buffer) {
+    return table[static_cast<std::size_t>(buffer)]; // in the order of the enumeration
+}
+
+std::string_view paper_name(Method method) {
+    switch (method) {
+    case Method::pt:
+        return "PT";
+    case Method::pr:
+        return "PR";
+    case Method::gpt:
+        return "G-PT";
+    case Method::gpr:
+        return "G-PR";
+    }
+    return "";
+}
+
+} // namespace tessera

@@ -1,0 +1,168 @@
+#include "ui/state/camera_control.h"
+
+#include "render/scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+
+#include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr float least_distance = 0.02f; // radii of the scene
+constexpr float most_distance = 1000.0f;
+constexpr float pole_margin = 0.02f; // radians between the view and straight up or down
+
+glm::vec3 column(const Camera& camera, int i) {
+    return glm::vec3(camera.to_world[i]);
+}
+
+glm::vec3 nearest_axis(glm::vec3 v) {
+    const glm::vec3 size = glm::abs(v);
+    int axis = size.x > size.y ? 0 : 1;
+    if (size.z > size[axis])
+        axis = 2;
+    glm::vec3 result(0);
+    result[axis] = v[axis] < 0 ? -1.0f : 1.0f;
+    return result;
+}
+
+// Rounding would let the axes drift over thousands of drags: makes them orthogonal again, with the lengths of
+// another matrix's; their handedness stays.
+void straighten(glm::mat4& m, const glm::mat4& lengths) {
+    const auto length = [&](int axis) { return glm::length(glm::vec3(lengths[axis])); };
+    const glm::vec3 forward = glm::normalize(glm::vec3(m[2]));
+    glm::vec3 left = glm::vec3(m[0]) - forward * glm::dot(forward, glm::vec3(m[0]));
+    left = glm::normalize(left);
+    glm::vec3 up = glm::cross(forward, left);
+    if (glm::dot(up, glm::vec3(m[1])) < 0)
+        up = -up;
+    m[0] = glm::vec4(left * length(0), 0);
+    m[1] = glm::vec4(up * length(1), 0);
+    m[2] = glm::vec4(forward * length(2), 0);
+}
+
+} // namespace
+
+void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius) {
+    home_ = camera;
+    camera_ = camera;
+    scene_radius_ = scene_radius > 0 ? scene_radius : 1.0f;
+    up_ = nearest_axis(column(camera, 1));
+    scene_center_ = scene_center;
+    home_distance_ = distance_of_center();
+    distance_ = home_distance_;
+}
+
+void CameraControl::put(const Camera& camera, float distance) {
+    camera_ = camera;
+    distance_ = distance > 0 ? std::clamp(distance, least_distance * scene_radius_, most_distance * scene_radius_)
+                             : distance_of_center();
+}
+
+void CameraControl::go_home() {
+    camera_ = home_;
+    distance_ = home_distance_;
+}
+
+float CameraControl::distance_of_center() const {
+    const float ahead = glm::dot(scene_center_ - position(), forward());
+    return std::clamp(ahead, 0.1f * scene_radius_, 100.0f * scene_radius_);
+}
+
+glm::vec3 CameraControl::position() const {
+    return column(camera_, 3);
+}
+glm::vec3 CameraControl::forward() const {
+    return glm::normalize(column(camera_, 2));
+}
+
+void CameraControl::turn_about(glm::vec3 pivot, float yaw, float pitch) {
+    // The camera's left when level, which does not vanish as its own would in a mirrored or rolled camera.
+    const glm::vec3 level = glm::cross(up_, forward());
+    const glm::vec3 axis = glm::length(level) > 1e-4f ? glm::normalize(level) : glm::normalize(column(camera_, 0));
+    const float angle = std::acos(std::clamp(glm::dot(forward(), up_), -1.0f, 1.0f)); // from straight up
+    // A home nearer to a pole than the margin may stay there, but comes no nearer.
+    const float lowest = std::min(pole_margin, angle);
+    const float highest = std::max(glm::pi<float>() - pole_margin, angle);
+    pitch = std::clamp(angle + pitch, lowest, highest) - angle;
+
+    glm::mat4 turn = glm::translate(glm::mat4(1), pivot);
+    turn = glm::rotate(turn, yaw, up_);
+    turn = glm::rotate(turn, pitch, axis);
+    turn = glm::translate(turn, -pivot);
+    camera_.to_world = turn * camera_.to_world;
+    straighten(camera_.to_world, home_.to_world);
+}
+
+float CameraControl::handedness() const {
+    const glm::mat3 axes(camera_.to_world);
+    return glm::determinant(axes) < 0 ? -1.0f : 1.0f;
+}
+
+void CameraControl::orbit(glm::vec2 pixels, float pixels_a_half_turn) {
+    const glm::vec2 angle = pixels * (glm::pi<float>() / std::max(pixels_a_half_turn, 1.0f));
+    const glm::vec3 pivot = target();
+    turn_about(pivot, -angle.x * handedness(), angle.y);
+    // Exactly the distance as before, whatever was rounded.
+    move(pivot - target());
+}
+
+void CameraControl::pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size) {
+    if (size.x < 1 || size.y < 1)
+        return;
+    const auto at_target = [&](glm::vec2 pixel) {
+        const glm::vec3 direction = camera_.ray(pixel, size).direction;
+        return direction * (distance_ / std::max(glm::dot(direction, forward()), 1e-3f));
+    };
+    move(at_target(from) - at_target(to));
+}
+
+void CameraControl::dolly(float factor) {
+    const float wanted = std::min(distance_ * factor, most_distance * scene_radius_);
+    move(forward() * (distance_ - wanted));
+    distance_ = std::max(wanted, least_distance * scene_radius_);
+}
+
+void CameraControl::fly(glm::vec3 left_up_forward) {
+    const glm::vec3 step = left_up_forward * scene_radius_;
+    move(glm::normalize(column(camera_, 0)) * step.x + glm::normalize(column(camera_, 1)) * step.y +
+         forward() * step.z);
+}
+
+void CameraControl::look(float left, float up) {
+    turn_about(position(), left * handedness(), -up);
+}
+
+void CameraControl::move(glm::vec3 by) {
+    camera_.to_world[3] += glm::vec4(by, 0);
+}
+
+std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera) {
+    namespace fs = std::filesystem;
+    const std::string stem = scene_file.empty() ? "tessera" : scene_file.stem().string();
+    const fs::path name = stem + "-camera.json";
+    const fs::path here = fs::current_path() / name;
+    if (!scene_file.empty()) {
+        const fs::path beside = fs::absolute(scene_file).parent_path() / name;
+        try {
+            write_camera(beside, camera);
+            return beside;
+        } catch (const std::exception&) {
+            if (beside == here)
+                throw; // there is no second place
+        }
+    }
+    write_camera(here, camera);
+    return here;
+}
+
+} // namespace tessera

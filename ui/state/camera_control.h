@@ -1,0 +1,67 @@
+#pragma once
+
+#include "render/scene/camera.h"
+
+#include <filesystem>
+
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+/// Moves a camera with the mouse and the keys: around, past and toward a target that lies ahead of it. Movements
+/// are rigid, so that whatever the camera's matrix holds beside them (a mirror, a scale) stays.
+class CameraControl {
+public:
+    /// Takes a scene's camera as the place to come back to. The target is as far ahead as the scene's centre; "up"
+    /// is the axis of the world nearest to the camera's own.
+    void set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius);
+    void go_home();
+
+    /// Takes another camera, with its distance to the target; 0: as far ahead as the scene's centre. The place to
+    /// come back to stays.
+    void put(const Camera& camera, float distance);
+
+    const Camera& camera() const { return camera_; }
+    glm::vec3 position() const;
+    glm::vec3 forward() const; ///< unit
+    glm::vec3 target() const { return position() + distance_ * forward(); }
+    float distance() const { return distance_; } ///< to the target
+
+    /// A drag by `pixels` (right, down) turns the camera about the target; `pixels_a_half_turn` is the drag that
+    /// leads behind it. Stops short of looking straight up or down.
+    void orbit(glm::vec2 pixels, float pixels_a_half_turn);
+
+    /// Moves sideways, so that what the camera sees at `from` at the target's depth is then seen at `to`. Both are
+    /// pixels of a picture of `size`.
+    void pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size);
+
+    /// Multiplies the distance to the target, which stays; very near, it is pushed ahead.
+    void dolly(float factor);
+
+    /// Moves camera and target: to the left, up and ahead, in radii of the scene.
+    void fly(glm::vec3 left_up_forward);
+
+    /// Turns the camera where it stands, by radians to the left and upward.
+    void look(float left, float up);
+
+private:
+    void turn_about(glm::vec3 pivot, float yaw, float pitch);
+    void move(glm::vec3 by);
+    float distance_of_center() const; // ahead of the camera, within reason
+    float handedness() const;         // -1 for a camera that sees mirrored
+
+    Camera home_;
+    Camera camera_;
+    float home_distance_ = 1;
+    float distance_ = 1;
+    glm::vec3 scene_center_{0};
+    float scene_radius_ = 1;
+    glm::vec3 up_{0, 1, 0};
+};
+
+/// Writes the camera to NAME-camera.json beside the scene file NAME.xml, or in the current folder where that
+/// cannot be done, or where there is no scene file (empty). Returns the file written, in full; throws
+/// std::exception that names it.
+std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera);
+
+} // namespace tessera

@@ -1,0 +1,137 @@
+#include "ui/state/companions.h"
+
+#include "recon/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+
+namespace tessera {
+
+float pixel_error(ErrorKind kind, const Rgb& value, const Rgb& reference) {
+    const Rgb error = glm::abs(value - reference);
+    const auto mean = [](const Rgb& c) { return (c.r + c.g + c.b) / 3; };
+    switch (kind) {
+    case ErrorKind::relative_squared:
+        return mean(error * error / (reference * reference + static_cast<float>(relative_mse_epsilon)));
+    case ErrorKind::squared:
+        return mean(error * error);
+    case ErrorKind::absolute:
+        return mean(error);
+    case ErrorKind::relative:
+        return mean(error / (glm::abs(reference) + static_cast<float>(mape_epsilon)));
+    }
+    return 0;
+}
+
+RgbImage error_map(ErrorKind kind, const RgbImage& image, const RgbImage& reference) {
+    RgbImage map(image.width(), image.height());
+    for (std::size_t i = 0; i < map.size(); ++i)
+        map.data()[i] = Rgb(pixel_error(kind, image.data()[i], reference.data()[i]));
+    return map;
+}
+
+float Histogram::low_end(int bin) {
+    return std::exp2(static_cast<float>(first_stop) + static_cast<float>(bin) / bins_a_stop);
+}
+
+Histogram histogram_of(const RgbImage& image) {
+    Histogram h;
+    for (const Rgb& pixel : image) {
+        const float l = luminance(pixel);
+        if (!is_finite(pixel)) {
+            ++h.not_finite;
+        } else if (l <= 0) {
+            ++(l < 0 ? h.negative : h.black);
+        } else {
+            const float place = (std::log2(l) - Histogram::first_stop) * Histogram::bins_a_stop;
+            const int bin = std::clamp(static_cast<int>(std::floor(place)), 0, Histogram::bin_count - 1);
+            ++h.bins[static_cast<std::size_t>(bin)];
+        }
+    }
+    return h;
+}
+
+namespace {
+
+bool has_halves(const Reference& reference) {
+    return !reference.halves[0].empty();
+}
+
+/// The pixels at which not all of the images are finite.
+std::vector<std::size_t> not_finite(std::initializer_list<const RgbImage*> images) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < (*images.begin())->size(); ++i)
+        if (!std::all_of(images.begin(), images.end(), [&](const RgbImage* m) { return is_finite(m->data()[i]); }))
+            found.push_back(i);
+    return found;
+}
+
+RgbImage blackened(RgbImage image, const std::vector<std::size_t>& pixels) {
+    for (std::size_t i : pixels)
+        image.data()[i] = Rgb(0);
+    return image;
+}
+
+FloorFreeError measure(const RgbImage& picture, const RgbImage& a, const RgbImage& b, bool halves) {
+    if (halves)
+        return measure_floor_free_error(picture, a, b);
+    return {measure_error(picture, a).relative_mse, std::numeric_limits<double>::quiet_NaN()};
+}
+
+} // namespace
+
+std::optional<PictureError> error_to(const Reference& reference, const RgbImage& picture) {
+    const bool halves = has_halves(reference);
+    const RgbImage& a = halves ? reference.halves[0] : reference.image;
+    const RgbImage& b = halves ? reference.halves[1] : reference.image;
+    if (picture.empty() || !same_size(picture, a))
+        return std::nullopt;
+    const std::vector<std::size_t> left_out = not_finite({&picture, &a, &b});
+    if (left_out.size() == picture.size())
+        return std::nullopt;
+    // Pixels that are black in both add nothing to the sum, and the mean is then that of the others.
+    const FloorFreeError error = left_out.empty() ? measure(picture, a, b, halves)
+                                                  : measure(blackened(picture, left_out), blackened(a, left_out),
+                                                            blackened(b, left_out), halves);
+    const double share =
+        static_cast<double>(picture.size() - left_out.size()) / static_cast<double>(picture.size());
+    if (!std::isfinite(error.relative_mse))
+        return std::nullopt;
+    return PictureError{error.relative_mse / share, error.standard_error / share, left_out.size()};
+}
+
+std::string caveat_of(const Reference& reference) {
+    std::string text;
+    if (!has_halves(reference))
+        text = "The reference has no halves: its own error, which is not known, is in these.";
+    if (reference.not_finite > 0)
+        text += fmt::format("{}{} of its pixels are not finite, and left out.", text.empty() ? "" : " ",
+                            reference.not_finite);
+    return text;
+}
+
+std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves,
+                                                std::optional<SceneChecksums> scene) {
+    auto reference = std::make_shared<Reference>();
+    reference->name = std::move(name);
+    reference->image = std::move(image);
+    reference->scene = scene;
+    if (!halves[0].empty() && same_size(halves[0], reference->image) && same_size(halves[1], reference->image))
+        reference->halves = std::move(halves);
+    const Reference& r = *reference;
+    reference->not_finite =
+        (has_halves(r) ? not_finite({&r.image, &r.halves[0], &r.halves[1]}) : not_finite({&r.image})).size();
+    double sum = 0;
+    for (const Rgb& pixel : r.image)
+        sum += is_finite(pixel) ? static_cast<double>(luminance(pixel)) : 0;
+    reference->mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(r.image.size(), 1)));
+    return reference;
+}
+
+} // namespace tessera

@@ -1,0 +1,314 @@
+#include "ui/state/settings_file.h"
+
+#include "render/estimator/settings_table.h"
+#include "render/io/json_text.h"
+#include "render/io/text.h"
+#include "render/scene/camera.h"
+#include "ui/state/words.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+namespace tessera {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json pane_json(const PaneSettings& pane) {
+    ordered_json json{{"method", short_name(pane.render.method)},
+                      {"buffer", short_name(pane.buffer)},
+                      {"norm", to_string(pane.reconstruction.norm)},
+                      {"alpha", pane.reconstruction.alpha},
+                      {"joint_colour", pane.reconstruction.joint_colour},
+                      {"comparison", word(words::comparisons, pane.comparison.kind)},
+                      {"compare_with", pane.comparison.with + 1},
+                      {"seed", pane.render.seed}};
+    for (const Setting& setting : all_settings())
+        json["settings"][std::string(setting.id)] = setting.text(pane.render);
+    return json;
+}
+
+PaneSettings read_pane(const JsonFields& fields, PaneSettings pane) {
+    fields.read<std::string>("method", [&](const std::string& name) {
+        const auto method = method_from_name(name);
+        if (!method)
+            throw std::invalid_argument("method is none of pt, pr, gpt, gpr");
+        pane.render.method = *method;
+    });
+    fields.read<std::string>("buffer", [&](const std::string& name) { pane.buffer = buffer_named(name); });
+    fields.read<std::string>("norm", [&](const std::string& name) {
+        const auto norm = norm_from_name(name);
+        if (!norm)
+            throw std::invalid_argument("there is no such norm");
+        pane.reconstruction.norm = *norm;
+    });
+    fields.read("alpha", ranges::alpha, pane.reconstruction.alpha);
+    fields.read("joint_colour", pane.reconstruction.joint_colour);
+    fields.read("comparison", words::comparisons, pane.comparison.kind);
+    fields.read("compare_with", {0, the_reference + 1}, pane.comparison.with);
+    if (fields.has("compare_with"))
+        --pane.comparison.with;
+    fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });
+    const JsonFields settings = fields.object("settings");
+    for (const auto& [id, value] : settings.json().items())
+        settings.read<std::string>(
+            id, [&, id = id](const std::string& text) { setting_named(id).set_text(pane.render, text); });
+    return pane;
+}
+
+ordered_json ranges_json(const std::map<Buffer, ValueRange>& ranges) {
+    ordered_json json = ordered_json::object();
+    for (const auto& [buffer, range] : ranges)
+        json[std::string(short_name(buffer))] = {
+            {"low", range.low}, {"high", range.high}, {"logarithmic", range.logarithmic}};
+    return json;
+}
+
+std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
+    std::map<Buffer, ValueRange> ranges;
+    for (const auto& [name, value] : fields.json().items()) {
+        Buffer buffer{};
+        try {
+            buffer = buffer_named(name);
+        } catch (const std::invalid_argument& error) {
+            fields.fail(name, error.what());
+        }
+        const JsonFields ends = fields.object(name);
+        ValueRange& range = ranges[buffer];
+        ends.read("low", {0, 1e12}, range.low);
+        ends.read("high", {0, 1e12}, range.high);
+        ends.read("logarithmic", range.logarithmic);
+        if (!(range.low < range.high) || (range.logarithmic && range.low <= 0))
+            fields.fail(name, "the range of " + name + " is in disorder");
+    }
+    return ranges;
+}
+
+/// What is common to all panes, but for the camera.
+void read_display(const JsonFields& fields, ViewerState& state) {
+    const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
+    size.read("base", words::sizes, state.size.base);
+    size.read("scale", {0.05, 2}, state.size.scale);
+    size.read("width", {1, most_render_pixels_an_edge}, state.size.custom.x);
+    size.read("height", {1, most_render_pixels_an_edge}, state.size.custom.y);
+    tone.read("curve", words::tones, state.tone.curve);
+    tone.read("exposure", ranges::exposure, state.tone.exposure);
+    tone.read("gamma", ranges::gamma, state.tone.gamma);
+    pace.read("equal", words::shares, state.pace.equal);
+    pace.read("spp_limit", ranges::spp_limit, state.pace.spp_limit);
+    pace.read("seconds_limit", ranges::seconds_limit, state.pace.seconds_limit);
+    fields.read("mark_negative", state.mark_negative);
+    if (fields.has("ranges"))
+        state.ranges = read_ranges(fields.object("ranges"));
+}
+
+/// Where the pictures lie, and what is drawn with them.
+void read_view(const JsonFields& fields, ViewerState& state) {
+    const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
+    float zoom = state.view.zoom();
+    glm::vec2 center = state.view.center();
+    picture.read("zoom", {double{ImageView::least_zoom}, double{ImageView::most_zoom}}, zoom);
+    picture.read("x", {0, 1}, center.x);
+    picture.read("y", {0, 1}, center.y);
+    if (fields.has("picture"))
+        state.set_view(ImageView(zoom, center));
+    fields.read("wipe", {0, 1}, state.wipe);
+    fields.read("alone", state.alone);
+    fields.read("tiles", state.show_tiles);
+    fields.read("magnifier", state.magnifier);
+    int axis = state.charts_by_spp ? 1 : 0;
+    chart.read("show", words::charts, state.chart_kind);
+    chart.read("against", words::chart_axes, axis);
+    state.charts_by_spp = axis == 1;
+}
+
+void read_panes(const JsonFields& fields, ViewerState& state) {
+    if (!fields.has("panes"))
+        fields.fail("", "these are no settings of the viewer, and no camera");
+    const ordered_json& json = fields.json().at("panes");
+    if (!json.is_array() || json.empty() || json.size() > most_panes)
+        fields.fail("panes", "there must be 1 to 4 panes");
+    std::vector<PaneSettings> panes;
+    for (std::size_t i = 0; i < json.size(); ++i)
+        panes.push_back(read_pane(fields.element(json, i, "panes"), state.active().settings));
+    state.linked = false; // while panes are counted, which shares settings out
+    state.set_pane_count(static_cast<int>(panes.size()));
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        state.panes[i].settings = panes[i];
+    fields.read("active", {1, static_cast<double>(panes.size())}, state.active_pane);
+    if (fields.has("active"))
+        --state.active_pane;
+}
+
+void read_camera(const JsonFields& fields, const Camera& camera, ViewerState& state) {
+    float distance = 0;
+    fields.read("target_distance", {0, 1e12}, distance);
+    state.camera.put(camera, distance);
+}
+
+/// Sets what the file says, up to where it is broken.
+void read_all(const std::string& file, const std::string& name, ViewerState& state) {
+    const JsonText text(file, name);
+    const ordered_json json = text.parse();
+    JsonReading reading(text);
+    const JsonFields fields(reading, json, "");
+    if (fields.has("to_world"))
+        return read_camera(fields, parse_camera(file, name), state);
+    bool linked = state.linked;
+    fields.read("linked", linked);
+    read_panes(fields, state);
+    state.linked = linked;
+    if (fields.has("camera"))
+        read_camera(fields, parse_camera(text.only("camera"), name), state);
+    read_display(fields, state);
+    read_view(fields, state);
+    read_inspection(fields, state);
+    if (fields.has("space"))
+        state.space.look_as(parse_camera(text.only("space"), name));
+    fields.read<std::string>("reference", [&](const std::string& reference) {
+        if (!state.companions.reference || state.companions.reference->name != reference)
+            state.reference_file = reference;
+    });
+    fields.has("scene"); // for who reads it
+    for (std::string& line : reading.unknown())
+        state.add_message(Message::Kind::note, std::move(line));
+}
+
+} // namespace
+
+std::string settings_json(const ViewerState& state) {
+    const ImageView view = state.slow_motion.view_before.value_or(state.view); // it finds its tile by itself
+    ordered_json panes = ordered_json::array();
+    for (const PaneState& pane : state.panes)
+        panes.push_back(pane_json(pane.settings));
+    ordered_json json{
+        {"panes", panes},
+        {"active", state.active_pane + 1},
+        {"alone", state.alone},
+        {"linked", state.linked},
+        {"size",
+         {{"base", word(words::sizes, state.size.base)},
+          {"scale", state.size.scale},
+          {"width", state.size.custom.x},
+          {"height", state.size.custom.y}}},
+        {"tone",
+         {{"curve", word(words::tones, state.tone.curve)},
+          {"exposure", state.tone.exposure},
+          {"gamma", state.tone.gamma}}},
+        {"ranges", ranges_json(state.ranges)},
+        {"mark_negative", state.mark_negative},
+        {"pace",
+         {{"equal", word(words::shares, state.pace.equal)},
+          {"spp_limit", state.pace.spp_limit},
+          {"seconds_limit", state.pace.seconds_limit}}},
+        {"picture", {{"zoom", view.zoom()}, {"x", view.center().x}, {"y", view.center().y}}},
+        {"wipe", state.wipe},
+        {"tiles", state.show_tiles},
+        {"magnifier", state.magnifier},
+        {"charts",
+         {{"show", word(words::charts, state.chart_kind)},
+          {"against", words::chart_axes[state.charts_by_spp ? 1 : 0]}}},
+        {"scene", state.scene_name}, // for who reads it: settings are for any scene
+        {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
+        {"target_distance", state.camera.distance()},
+    };
+    add_inspection(json, state);
+    if (state.space.looked)
+        json["space"] = ordered_json::parse(camera_json(state.space.camera.camera()));
+    if (state.companions.reference)
+        json["reference"] = state.companions.reference->name;
+    return to_text(json, 2) + "\n";
+}
+
+void apply_settings_json(ViewerState& state, const std::string& text, const std::string& name) {
+    ViewerState next = state;
+    read_all(text, name, next);
+    state = std::move(next);
+}
+
+void apply_settings_file(ViewerState& state, const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream)
+        throw LoadError({file.string(), 0, 0}, "cannot be read");
+    apply_settings_json(state, text, file.string());
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// "sample", if it is a pixel of what a pane shows.
+void add_sample(ordered_json& json, const std::optional<SampleChoice>& sample, const ViewerState& state) {
+    const PaneState* pane = sample ? state.pane_in(sample->slot) : nullptr;
+    if (!pane || (sample->origin && !state.shows_request(sample->origin->generation)))
+        return;
+    json["sample"] = {{"pane", pane - state.panes.data() + 1}, {"x", sample->pixel.x}, {"y", sample->pixel.y}};
+    if (sample->pass)
+        json["sample"]["pass"] = *sample->pass;
+}
+
+std::optional<SampleChoice> read_sample(const JsonFields& fields, const ViewerState& state) {
+    if (!fields.has("sample"))
+        return std::nullopt;
+    const JsonFields sample = fields.object("sample");
+    int pane = state.active_pane + 1;
+    SampleChoice choice;
+    sample.read("pane", {1, static_cast<double>(state.panes.size())}, pane);
+    sample.read("x", {0, most_render_pixels_an_edge - 1}, choice.pixel.x);
+    sample.read("y", {0, most_render_pixels_an_edge - 1}, choice.pixel.y);
+    if (sample.has("pass"))
+        sample.read("pass", {0, std::numeric_limits<int>::max()}, choice.pass.emplace());
+    choice.slot = state.panes[static_cast<std::size_t>(pane - 1)].slot;
+    return choice;
+}
+
+void read_inspector(const JsonFields& fields, ViewerState& state) {
+    Inspector& inspector = state.inspector;
+    bool on = inspector.active;
+    fields.read("on", on);
+    fields.read("shows", words::directions, inspector.direction);
+    fields.read("follows", inspector.follows);
+    if (const auto sample = read_sample(fields, state))
+        inspector.choose(*sample);
+    state.set_inspector(on);
+}
+
+void read_slow_motion(const JsonFields& fields, ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    bool on = slow.active;
+    fields.read("on", on);
+    state.set_slow_motion(on);
+    slow.frames = on; // the picture lies as it did before the slow motion
+    fields.read("held", slow.held);
+    fields.read("speed", {double{SlowMotion::least_speed}, double{SlowMotion::most_speed}}, slow.speed);
+    if (const auto sample = read_sample(fields, state))
+        slow.start(*sample);
+}
+
+} // namespace
+
+void add_inspection(ordered_json& json, const ViewerState& state) {
+    const Inspector& inspector = state.inspector;
+    const SlowMotion& slow = state.slow_motion;
+    json["inspector"] = {{"on", inspector.active},
+                         {"shows", word(words::directions, inspector.direction)},
+                         {"follows", inspector.follows}};
+    add_sample(json["inspector"], inspector.sample, state);
+    json["slow_motion"] = {{"on", slow.active}, {"held", slow.held}, {"speed", slow.speed}};
+    if (slow.active) // else it begins where the mouse is
+        add_sample(json["slow_motion"], slow.sample, state);
+}
+
+void read_inspection(const JsonFields& fields, ViewerState& state) {
+    if (fields.has("inspector"))
+        read_inspector(fields.object("inspector"), state);
+    if (fields.has("slow_motion"))
+        read_slow_motion(fields.object("slow_motion"), state);
+}
+
+} // namespace tessera

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "ui/state/viewer_state.h"
+#include "ui/state/words.h"
+
+#include <filesystem>
+#include <string>
+
+namespace tessera {
+
+/// What a user has set, as JSON: the panes with all their settings, camera, size, tone, pace, ranges, where the
+/// pictures lie, what the path inspector and the slow motion show (inspection_settings.h), and where the view in
+/// space looks.
+std::string settings_json(const ViewerState& state);
+
+/// Sets what such a text holds; what it does not mention stays. A camera file (render/load/camera_file.h) sets the
+/// camera alone. Throws LoadError with `name`, line and column, and has then changed nothing.
+void apply_settings_json(ViewerState& state, const std::string& json, const std::string& name);
+
+/// The same of a file. Throws also where it cannot be read.
+void apply_settings_file(ViewerState& state, const std::filesystem::path& file);
+
+/// The buffer of that id. Throws std::invalid_argument where there is none.
+Buffer buffer_named(const std::string& id);
+
+/// Sets a part of the state by its name from a word or number: a render setting of the active pane (of all, when
+/// linked), its method, buffer or comparison, or something of the viewer. Throws std::invalid_argument that says
+/// what there is or may be.
+void set_by_name(ViewerState& state, const std::string& name, const std::string& value);
+
+/// The path inspector and the slow motion as fields of a settings file, "inspector" and "slow_motion": whether
+/// they are on, how they show things, and the pixel that is looked at, of a given pass or the newest there is. The
+/// shift chosen from its table is of the render that was, and not in it; nor is a pixel of an earlier picture.
+void add_inspection(nlohmann::ordered_json& json, const ViewerState& state);
+
+/// Sets what such fields say, once the panes are those of the file; what they do not mention stays.
+void read_inspection(const JsonFields& fields, ViewerState& state);
+
+} // namespace tessera

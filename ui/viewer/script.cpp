@@ -1,0 +1,125 @@
+#include "ui/viewer/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+struct StepKind {
+    const char* word;
+    int least, most; // arguments
+    const char* usage;
+    const char* help;
+};
+
+constexpr StepKind kinds[] = {
+    {"wait", 1, 2, "wait scene | spp N | seconds S | reference",
+     "until it is loaded, until all panes have N samples a pixel, so long, or until a reference is there"},
+    {"key", 1, 1, "key Ctrl+S", "presses and releases a key, or types a character"},
+    {"hold", 1, 1, "hold B", "presses a key"},
+    {"release", 1, 1, "release B", "releases it"},
+    {"modifiers", 1, 2, "modifiers ctrl shift | none", "held while the mouse is used"},
+    {"move", 1, 2, "move POINT", "the mouse; a point is X Y, CONTROL or CONTROL@FX,FY (shares of its size)"},
+    {"click", 1, 2, "click POINT", "the left button"},
+    {"choose", 2, 2, "choose CONTROL ITEM", "opens a list and clicks an item"},
+    {"drag", 2, 4, "drag POINT POINT", "with the left button, in 8 frames"},
+    {"wheel", 1, 1, "wheel N", "notches, up is positive"},
+    {"set", 2, 2, "set NAME VALUE",
+     "a setting of the active pane or of the viewer, such as tile 4, panes 2, exposure 1.5"},
+    {"inspect", 3, 3, "inspect X Y PASS",
+     "opens a sample of the active pane in the path inspector, and waits for it"},
+    {"open", 1, 1, "open FILE", "a scene, an EXR reference, or settings (JSON), as if dropped on the window"},
+    {"reference", 1, 1, "reference FILE", "an EXR file to measure errors against"},
+    {"screenshot", 1, 1, "screenshot FILE.png", "of the window"},
+    {"frames", 2, 2, "frames N LABEL",
+     "draws N frames and prints how long they took: median, 99th percentile, milliseconds"},
+    {"orbit", 2, 2, "orbit N LABEL", "the same while the mouse drags the camera of the active pane"},
+    {"print", 1, 1, "print TEXT", "on standard output"},
+    {"quit", 0, 0, "quit", "ends the program; without it the viewer stays"},
+};
+
+std::vector<std::string> words_of(const std::string& line, const std::string& file, int number) {
+    std::istringstream text(line);
+    std::vector<std::string> words;
+    for (text >> std::ws; text.peek() != EOF && text.peek() != '#'; text >> std::ws) {
+        const bool quoted = text.peek() == '"';
+        std::string word;
+        text >> std::quoted(word);
+        if (quoted && (text.unget(), text.get() != '"'))
+            throw ScriptError(file, number, "a quotation has no end");
+        words.push_back(std::move(word));
+    }
+    return words;
+}
+
+void check(const ScriptStep& step, const std::string& file) {
+    const auto kind =
+        std::find_if(std::begin(kinds), std::end(kinds), [&](const StepKind& k) { return step.word == k.word; });
+    if (kind == std::end(kinds)) {
+        std::string known;
+        for (const StepKind& k : kinds)
+            known += std::string(known.empty() ? "" : ", ") + k.word;
+        throw ScriptError(file, step.line, "no step is called " + step.word + "; there are " + known);
+    }
+    const int count = static_cast<int>(step.arguments.size());
+    if (count < kind->least || count > kind->most)
+        throw ScriptError(file, step.line, std::string("it is: ") + kind->usage);
+}
+
+} // namespace
+
+std::vector<ScriptStep> parse_script(std::istream& text, const std::string& file) {
+    std::vector<ScriptStep> steps;
+    std::string line;
+    for (int number = 1; std::getline(text, line); ++number) {
+        std::vector<std::string> words = words_of(line, file, number);
+        if (words.empty())
+            continue;
+        ScriptStep step{words.front(), {words.begin() + 1, words.end()}, number};
+        check(step, file);
+        steps.push_back(std::move(step));
+    }
+    return steps;
+}
+
+std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
+    std::ifstream text(file);
+    if (!text)
+        throw ScriptError(file.string(), 1, "the file cannot be read");
+    return parse_script(text, file.string());
+}
+
+std::string script_help() {
+    std::ostringstream text;
+    for (const StepKind& kind : kinds)
+        text << "  " << std::left << std::setw(34) << kind.usage << kind.help << '\n';
+    return text.str();
+}
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty())
+        return 0;
+    std::sort(values.begin(), values.end());
+    const double place = std::ceil(share * static_cast<double>(values.size())) - 1;
+    return values[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)))];
+}
+
+std::string FrameTimes::text() const {
+    std::string line = fmt::format("frames {}: {}, median {:.1f} ms, 99th percentile {:.1f} ms", label,
+                                   seconds.size(), quantile(seconds, 0.5) * 1e3, quantile(seconds, 0.99) * 1e3);
+    if (!behind.empty())
+        line +=
+            fmt::format("; {} pictures, {:.1f} a second, behind the camera by a median of {:.1f} ms",
+                        behind.size(), static_cast<double>(behind.size()) / period, quantile(behind, 0.5) * 1e3);
+    return line;
+}
+
+} // namespace tessera

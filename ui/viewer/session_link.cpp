@@ -1,0 +1,119 @@
+#include "ui/viewer/session_link.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+constexpr int few_samples = 8; // a pixel: what a better size may throw away
+} // namespace
+
+void SessionLink::take(ViewerState& state) {
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        PaneState& pane = state.panes[i];
+        if (auto snapshot = session_.latest(pane.slot))
+            pane.snapshot = std::move(snapshot);
+        pane.failed = session_.has_failed(pane.slot);
+        pane.reconstructing = session_.reconstructing(pane.slot);
+        report_refused(state, i);
+    }
+    for (std::string& message : session_.take_messages())
+        state.add_message(Message::Kind::error, std::move(message));
+}
+
+/// Once for every request; not of a first look, whose pixels are others.
+void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
+    const Snapshot* snapshot = state.panes[pane].snapshot.get();
+    std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
+    const Sent& sent = sent_of(state.panes[pane]);
+    if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == told ||
+        snapshot->generation != sent.generation)
+        return;
+    if (snapshot->counters.first_refused.list().empty())
+        return;
+    told = snapshot->generation;
+    state.add_refused(std::string(paper_name(snapshot->settings.method)), snapshot->counters,
+                      state.panes[pane].slot,
+                      {sent.scene, snapshot->camera, sent.size, snapshot->settings, {}, snapshot->generation});
+}
+
+void SessionLink::send(ViewerState& state) {
+    send_running(state);
+    latch_size(state);
+    std::array<bool, most_panes> is_used{};
+    for (PaneState& pane : state.panes) {
+        is_used[static_cast<std::size_t>(pane.slot)] = true;
+        if (state.scene)
+            send_pane(state, pane);
+    }
+    for (std::size_t slot = 0; slot < sent_.size(); ++slot) {
+        if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
+            session_.withdraw(static_cast<int>(slot));
+    }
+    if (std::exchange(state.give_up_reconstructions, false))
+        give_up_reconstructions(state);
+    state.restart = false;
+    for (; state.steps > 0; --state.steps)
+        session_.step();
+}
+
+/// Those that somebody has read of.
+void SessionLink::give_up_reconstructions(ViewerState& state) {
+    for (const PaneState& pane : state.panes) {
+        if (!state.reconstructs_long(pane))
+            continue;
+        session_.give_up_reconstruction(pane.slot);
+        state.add_message(Message::Kind::note, std::string(paper_name(pane.settings.render.method)) +
+                                                   ": the reconstruction of pass " +
+                                                   std::to_string(pane.reconstructing->spp) + " was given up.");
+    }
+}
+
+void SessionLink::send_running(const ViewerState& state) {
+    if (state.paused != sent_paused_)
+        session_.set_paused(state.paused);
+    if (!(state.pace == sent_pace_))
+        session_.set_pace(state.pace);
+    sent_paused_ = state.paused;
+    sent_pace_ = state.pace;
+}
+
+/// Whatever its size.
+bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) const {
+    const Sent& sent = sent_of(pane);
+    return state.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
+           !(sent.render == pane.settings.render);
+}
+
+/// A size starts every render anew, so one that only fits better (a panel was shown, the window resized) waits
+/// until no pane has anything to lose by it; the pictures are scaled meanwhile. One that the user has chosen does
+/// not wait.
+void SessionLink::latch_size(ViewerState& state) {
+    const auto has_much_to_lose = [&](const PaneState& pane) {
+        const Snapshot* s = pane.snapshot.get();
+        return !starts_anew(state, pane) && s && s->generation == sent_of(pane).generation &&
+               s->spp >= few_samples;
+    };
+    if (state.size == latched_choice_ && std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
+        return;
+    state.latched_size = state.fitting_size();
+    latched_choice_ = state.size;
+}
+
+void SessionLink::send_pane(ViewerState& state, PaneState& pane) {
+    Sent& sent = sent_of(pane);
+    if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
+        session_.set_reconstruction(pane.slot, pane.settings.reconstruction);
+    sent.reconstruction = pane.settings.reconstruction;
+    if (starts_anew(state, pane) || sent.size != state.request_size()) {
+        sent.scene = state.scene;
+        sent.camera = state.camera.camera();
+        sent.size = state.request_size();
+        sent.render = pane.settings.render;
+        sent.generation = session_.submit(pane.slot, {sent.scene, sent.camera, sent.size, sent.render});
+    }
+    pane.generation = sent.generation;
+}
+
+} // namespace tessera

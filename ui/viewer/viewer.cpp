@@ -1,0 +1,295 @@
+#include "ui/viewer/viewer.h"
+
+#include "render/io/png.h"
+#include "ui/gl/gl.h"
+#include "ui/inside/inside.h"
+#include "ui/charts/charts.h"
+#include "ui/panels/panels.h"
+#include "ui/state/actions.h"
+#include "ui/state/file_names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr float most_panel_share = 0.5f; // of the window's width
+constexpr int frames_until_still = 3;    // Dear ImGui fits tables a frame or two later
+constexpr float longest_step = 0.1f;     // seconds that a held key moves in one frame at the most
+
+/// Panes beside each other; from three on in two rows.
+ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
+    const int rows = panes > 2 ? 2 : 1;
+    const int columns = (panes + rows - 1) / rows;
+    const glm::vec2 cell = all.size() / glm::vec2(columns, rows);
+    const glm::vec2 min = all.min + cell * glm::vec2(pane % columns, pane / columns);
+    return {glm::floor(min), glm::floor(min + cell)};
+}
+
+/// Whatever way it is named.
+bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
+    std::error_code ignored;
+    const std::filesystem::path &one = a.source.file, &other = b.source.file;
+    return a == b || (!one.empty() && !other.empty() && std::filesystem::equivalent(one, other, ignored));
+}
+
+} // namespace
+
+Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), options_(std::move(options)) {
+    for (const PaneSettings& settings : options_.panes) {
+        PaneState& pane = state_.panes.emplace_back();
+        pane.settings = settings;
+        pane.slot = static_cast<int>(state_.panes.size()) - 1;
+    }
+    state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
+    state_.size = options_.size;
+    state_.pace.spp_limit = options_.spp_limit;
+    state_.show_panel = options_.show_panel;
+    state_.reference_file = options_.reference.string();
+    take_preferences();
+    if (options_.sample) {
+        options_.sample->slot = state_.active().slot;
+        state_.inspect(*options_.sample);
+    }
+}
+
+Viewer::~Viewer() {
+    for (const SaveQueue::Outcome& outcome : save_queue_.finish())
+        if (!outcome.result) // there is no list of messages any more
+            std::fprintf(stderr, "%s\n", outcome.error.c_str());
+    remember(); // after what the queue had to write of it
+}
+
+// --- a new scene ---
+
+void Viewer::take_scene() {
+    std::optional<SceneLoadResult> result = load_.poll();
+    state_.loading = load_.running() ? to_string(load_.progress()) : "";
+    if (!result)
+        return;
+    using Origin = Message::Origin;
+    state_.drop_messages(Origin::failed_load);
+    if (result->scene)
+        state_.drop_messages(Origin::scene);
+    for (std::string& note : result->notes)
+        state_.add_message(Message::Kind::note, std::move(note),
+                           result->scene ? Origin::scene : Origin::failed_load);
+    if (result->scene)
+        show_scene(std::move(result->scene), result->origin);
+    else
+        state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
+}
+
+void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin) {
+    const std::shared_ptr<const Scene> before = std::exchange(state_.scene, std::move(scene));
+    const bool again = before && is_same_scene(shown_, origin);
+    shown_ = origin;
+    state_.scene_name = origin.name;
+    state_.scene_source = origin.source;
+    state_.space = {};
+    ++state_.scenes_shown;
+    std::error_code gone; // the current folder: then nobody knows where the file was
+    const std::filesystem::path file = std::filesystem::absolute(origin.source.file, gone);
+    if (!origin.source.file.empty() && !gone)
+        opened_scenes_.push_back(file);
+    remember_later();
+    if (!again || !(before->camera() == state_.scene->camera())) {
+        state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
+        state_.set_view({});
+    }
+    const auto depth_of = [&](const Scene& s) {
+        return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, 64);
+    };
+    for (PaneState& pane : state_.panes) {
+        int& depth = pane.settings.render.max_depth;
+        if (!again || depth == depth_of(*before)) // not one that the user has set
+            depth = depth_of(*state_.scene);
+    }
+}
+
+// --- taking in ---
+
+void Viewer::read_keyboard() {
+    const ImGuiIO& io = ImGui::GetIO();
+    std::vector<Shortcut> typed = keyboard_.take();
+    if (state_.choosing) // a dialog that nothing behind it may be done from; Esc closes it
+        std::erase_if(typed, [](const Shortcut& s) { return s != Shortcut{Key::escape}; });
+    run_shortcuts(typed, io.WantTextInput, state_);
+    const bool held_back = io.WantTextInput || state_.choosing;
+    state_.flicker = !held_back && keyboard_.is_down(Key::b);
+    flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
+}
+
+// --- drawing ---
+
+void Viewer::draw_frame() {
+    frames_due_ = std::exchange(state_.redraw, false) ? frames_until_still - 1 : std::max(frames_due_ - 1, 0);
+    take_scene();
+    link_.take(state_);
+    controls_.begin_frame(ImGui::GetTime());
+    read_keyboard();
+
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    state_.window_size = {display.x, display.y};
+    if (!state_.window_place.maximised)
+        state_.window_place.size = state_.window_size;
+    const float top = draw_menu_bar(controls_, state_);
+    const float panel_width =
+        std::floor(std::min(ImGui::GetFontSize() * state_.panel_width, display.x * most_panel_share));
+    ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
+    if (state_.show_panel || state_.show_statistics || state_.show_charts) {
+        pictures.max.x -= panel_width;
+        draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
+        draw_panel_edge(pictures, controls_, state_);
+    }
+    ScreenRect bottom = pictures;
+    pictures.max.y = bottom.min.y = pictures.max.y - bottom_height(pictures.size().y);
+    draw_panes(pictures);
+    draw_bottom(bottom);
+    draw_overlays(pictures);
+    fulfil_wishes();
+    link_.send(state_);
+    companion_jobs_.update(state_, options_.wake);
+    inspection_job_.update(state_, options_.wake);
+    slow_motion_job_.update(state_, std::min(ImGui::GetIO().DeltaTime, longest_step), options_.wake);
+    surroundings_job_.update(state_, options_.wake);
+    reference_job_.update(state_, options_.threads, options_.wake);
+    chart_job_.update(state_, options_.wake);
+    if (state_.save_charts && !state_.histograms_due) // their end brings a frame
+        save_charts();
+    log_changes();
+}
+
+/// Settings above, statistics and charts below: all scroll, and share the room evenly.
+void Viewer::draw_side(const ScreenRect& where) {
+    const int panels = state_.show_panel + state_.show_statistics + state_.show_charts;
+    int drawn = 0;
+    const auto next = [&] {
+        const auto end = [&](int n) {
+            return std::floor(
+                glm::mix(where.min.y, where.max.y, static_cast<float>(n) / static_cast<float>(panels)));
+        };
+        const ScreenRect rect{{where.min.x, end(drawn)}, {where.max.x, end(drawn + 1)}};
+        ++drawn;
+        return rect;
+    };
+    if (state_.show_panel)
+        draw_settings_panel(next(), controls_, state_);
+    if (state_.show_statistics)
+        draw_statistics_panel(next(), controls_, state_);
+    if (state_.show_charts)
+        draw_charts_panel(next(), controls_, state_);
+}
+
+void Viewer::draw_panes(const ScreenRect& where) {
+    const int panes = static_cast<int>(state_.panes.size());
+    bool wants_reference = false;
+    for (std::size_t i = 0; i < state_.panes.size(); ++i) {
+        images_[i].take(state_.panes[i].snapshot.get(), state_.panes[i].settings.buffer, state_.companions);
+        wants_reference |= state_.compared_with(static_cast<int>(i)) == the_reference;
+    }
+    for (std::size_t i = state_.panes.size(); i < most_panes; ++i)
+        images_[i].take(nullptr, Buffer::reconstruction, {});
+    images_[the_reference].take(nullptr, Buffer::reference, wants_reference ? state_.companions : Companions{});
+    if (state_.cursor && (state_.cursor->pane >= panes || !state_.is_on_show(state_.cursor->pane)))
+        state_.cursor.reset();
+    PaneTools tools{shader_, images_, controls_, state_};
+    const int alone = state_.alone ? state_.active_pane : -1;
+    const auto each = [&](auto&& act) {
+        for (int i = 0; i < panes; ++i) {
+            if (alone < 0 || alone == i)
+                act(pane_views_[static_cast<std::size_t>(i)], i);
+        }
+    };
+    each(
+        [&](PaneView& view, int i) { view.take_input(i, alone < 0 ? pane_rect(where, i, panes) : where, tools); });
+    each([&](PaneView& view, int i) { view.draw(i, tools); });
+}
+
+/// Of the panel below the pictures; 0: there is none. At most half the room that there is.
+float Viewer::bottom_height(float room) const {
+    const float least = ImGui::GetFontSize() * 11;
+    const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, room * 0.36f));
+    const bool looks_inside = state_.slow_motion.active || state_.inspector.active;
+    const float wanted = state_.show_messages ? least : looks_inside ? large : 0;
+    return std::min(std::floor(wanted), room / 2);
+}
+
+void Viewer::draw_bottom(const ScreenRect& where) {
+    if (state_.show_messages)
+        draw_message_panel(where, controls_, state_);
+    else if (state_.slow_motion.active)
+        draw_slow_motion_panel(where, controls_, state_);
+    else if (state_.inspector.active)
+        draw_inspector_panel(where, controls_, state_);
+}
+
+void Viewer::draw_overlays(const ScreenRect& pictures) {
+    if (state_.large_charts)
+        draw_large_charts(pictures, controls_, state_);
+    const glm::vec2 screen(state_.window_size);
+    if (state_.reference_making.show)
+        draw_reference_dialog(screen, controls_, state_);
+    if (state_.sample_form.show)
+        draw_sample_dialog(screen, controls_, state_);
+    if (state_.show_help)
+        draw_help(screen, controls_, state_);
+    if (load_.running())
+        draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
+    file_dialog_.draw(screen, controls_, state_); // last: it is modal, and windows may not appear after such
+}
+
+double Viewer::next_frame_in() const {
+    if (flying_ || state_.slow_motion.is_playing() || !all_drawn())
+        return 0;
+    const bool reconstructs =
+        std::any_of(state_.panes.begin(), state_.panes.end(), [](const PaneState& p) { return p.reconstructing; });
+    if (load_.running() || controls_.tooltip_pending() || reconstructs)
+        return 0.1;
+    return ImGui::GetIO().WantTextInput ? 0.2 : never; // a blinking cursor
+}
+
+bool Viewer::settled(int spp) const {
+    if (load_.running() || !state_.scene)
+        return false;
+    return std::all_of(state_.panes.begin(), state_.panes.end(), [&](const PaneState& pane) {
+        const Snapshot* snapshot = pane.snapshot.get();
+        if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse() ||
+            snapshot->spp < spp)
+            return false;
+        const bool reconstructs = has_gradients(snapshot->settings.method);
+        return !reconstructs || (snapshot->reconstruction && snapshot->reconstruction_spp == snapshot->spp);
+    });
+}
+
+void Viewer::log_changes() {
+    if (!options_.log)
+        return;
+    change_log_.write_state(state_, options_.log);
+    if (options_.log_controls)
+        change_log_.write_controls(controls_, options_.log);
+}
+
+bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
+    ViewerState& state = viewer.state();
+    age_ = state.save_picture ? age_ + 1 : 0;
+    if (age_ == frames_until_still) {
+        state.save_picture = false;
+        viewer.save([file = dated_file(".png"), screen = read_screen(pixels)] {
+            write_png(file, screen.size, screen.rgb);
+            return file.string();
+        });
+    }
+    return age_ > 0;
+}
+
+} // namespace tessera

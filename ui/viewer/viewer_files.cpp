@@ -1,0 +1,239 @@
+#include "render/io/files.h"
+#include "render/io/png.h"
+#include "render/scene/camera.h"
+#include "ui/charts/charts.h"
+#include "ui/panes/showing.h"
+#include "ui/state/camera_control.h"
+#include "ui/state/file_names.h"
+#include "ui/state/settings_file.h"
+#include "ui/viewer/viewer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include <imgui.h>
+
+namespace tessera {
+
+// Viewer: what it reads and writes.
+
+namespace {
+
+constexpr const char* no_picture_yet = "There is no picture to save yet: only a first look, or none.";
+
+/// The first file with the extension, in either case; null: there is none.
+const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
+    const auto found = std::find_if(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+        return has_extension(file, extension);
+    });
+    return found == files.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+// --- reading ---
+
+void Viewer::load(std::string name, SceneLoader loader, SceneSource source) {
+    asked_ = {std::move(name), std::move(source), std::move(loader)};
+    load_.start(asked_, options_.wake);
+}
+
+void Viewer::reload() {
+    const SceneOrigin origin = load_.running() || !state_.scene ? asked_ : shown_;
+    if (origin.loader)
+        load(origin.name, origin.loader, origin.source);
+}
+
+void Viewer::open(const std::filesystem::path& file) {
+    const SceneOrigin origin = options_.open(file);
+    load(origin.name, origin.loader, origin.source);
+}
+
+void Viewer::drop(const std::vector<std::filesystem::path>& files) {
+    const std::filesystem::path* scene = options_.open ? find_file(files, ".xml") : nullptr;
+    const std::filesystem::path* reference = find_file(files, ".exr");
+    const std::filesystem::path* settings = find_file(files, ".json");
+    if (scene)
+        open(*scene);
+    if (reference)
+        state_.reference_file = reference->string();
+    if (settings)
+        state_.settings_file = settings->string();
+    if (!files.empty() && options_.open && !scene && !reference && !settings)
+        state_.add_message(Message::Kind::error, files.front().string() +
+                                                     ": this is no scene; what can be dropped here is a Mitsuba "
+                                                     "scene, an .xml file, a reference, an .exr file, or "
+                                                     "settings, a .json file");
+}
+
+void Viewer::load_settings(const std::filesystem::path& file) {
+    try {
+        apply_settings_file(state_, file);
+        state_.add_message(Message::Kind::note, "The settings are now those of " + file.string());
+    } catch (const std::exception& e) {
+        state_.add_message(Message::Kind::error, e.what());
+    }
+}
+
+// --- wishes ---
+
+void Viewer::fulfil_wishes() {
+    if (std::exchange(state_.cancel_load, false) && load_.running()) {
+        state_.add_message(Message::Kind::note, "Loading " + load_.origin().name + " was given up.",
+                           Message::Origin::failed_load);
+        load_.cancel();
+        state_.loading.clear();
+    }
+    if (std::exchange(state_.reload, false))
+        reload();
+    if (const std::string file = std::exchange(state_.open_scene, {}); !file.empty() && options_.open)
+        open(file);
+    // Settings wait for a scene under way, which would put its own camera and depth in their place.
+    if (!state_.settings_file.empty() && !load_.running())
+        load_settings(std::exchange(state_.settings_file, {}));
+    fulfil_saves();
+    if (std::exchange(state_.copy_camera, false) && state_.scene) {
+        ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
+        state_.add_message(Message::Kind::note,
+                           "The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
+    }
+}
+
+void Viewer::fulfil_saves() {
+    if (std::exchange(state_.save_camera, false) && state_.scene)
+        save([file = shown_.source.file, camera = state_.camera.camera()] {
+            return "the camera to " + store_camera(file, camera).string();
+        });
+    if (std::exchange(state_.save_settings, false))
+        save([file = dated_file("-settings.json"), text = settings_json(state_)] {
+            write_text(file, text);
+            return "the settings to " + file.string();
+        });
+    if (std::exchange(state_.save_exr, false))
+        save_exr();
+    if (std::exchange(state_.save_view, false))
+        save_view();
+    if (const auto outcome = save_queue_.poll())
+        take(*outcome);
+}
+
+void Viewer::take(const SaveQueue::Outcome& outcome) {
+    if (!outcome.result)
+        return state_.add_message(Message::Kind::error, outcome.error);
+    if (!outcome.result->what.empty())
+        state_.add_message(Message::Kind::note, "Saved " + outcome.result->what);
+    if (outcome.result->then)
+        outcome.result->then();
+}
+
+void Viewer::save_exr() {
+    const PaneState& pane = state_.active();
+    if (!options_.write_exr)
+        return state_.add_message(Message::Kind::error, "EXR files cannot be written here.");
+    if (!pane.snapshot || pane.snapshot->coarse())
+        return state_.add_message(Message::Kind::error, no_picture_yet);
+    save([write = options_.write_exr,
+          file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
+          picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.source,
+                                 pane.snapshot->scene.lock(), state_.companions.reference}] {
+        write(file, picture);
+        return file.string();
+    });
+}
+
+void Viewer::save_view() {
+    const PaneSettings& pane = state_.active().settings;
+    ScreenPixels picture = view_picture(state_.active_pane, shader_, images_, state_);
+    if (picture.rgb.empty()) {
+        const std::string why = missing_text(sides_of(state_, state_.active_pane).left, state_);
+        return state_.add_message(Message::Kind::error, why.empty() ? no_picture_yet : why);
+    }
+    const std::string name =
+        std::string(short_name(pane.render.method)) + "-" + std::string(short_name(pane.buffer));
+    save([file = dated_file("-" + name + ".png"), picture = std::move(picture)] {
+        write_png(file, picture.size, picture.rgb);
+        return file.string();
+    });
+}
+
+void Viewer::save_charts() {
+    state_.save_charts = false;
+    save([file = dated_file("-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
+          picture = chart_picture(state_)] {
+        const auto with_ending = [&](const char* ending) {
+            return std::filesystem::path(file).replace_extension(ending);
+        };
+        write_text(file, csv);
+        write_text(with_ending(".svg"), svg);
+        write_png(with_ending(".png"), picture.size, picture.rgb);
+        return "the charts to " + file.string() + ", .svg and .png";
+    });
+}
+
+// --- what is remembered ---
+
+void Viewer::take_preferences() {
+    if (options_.preferences.empty())
+        return;
+    const KeptPreferences kept = claim_preferences(options_.preferences);
+    preferences_ = kept.preferences;
+    take(kept);
+    state_.window_place = preferences_.window; // until the window tells
+    state_.theme = preferences_.theme;
+    state_.text_factor = preferences_.text_factor;
+    state_.panel_width = preferences_.panel_width;
+    if (options_.panes_as_remembered && preferences_.panes > 0)
+        state_.set_pane_count(preferences_.panes);
+    state_.show_panel = preferences_.show_panel;
+    state_.show_statistics = preferences_.show_statistics;
+    state_.show_charts = preferences_.show_charts;
+}
+
+/// What the file says of itself, and the scenes that other viewers have opened.
+void Viewer::take(const KeptPreferences& kept) {
+    if (!kept.note.empty() && kept.note != told_of_preferences_)
+        state_.add_message(Message::Kind::note, kept.note);
+    told_of_preferences_ = kept.note;
+    preferences_.recent_scenes = kept.preferences.recent_scenes;
+    state_.recent_scenes = current_preferences().recent_scenes; // more may have been opened meanwhile
+    state_.redraw = true;
+}
+
+Preferences Viewer::current_preferences() const {
+    Preferences now = preferences_;
+    for (const std::string& scene : opened_scenes_)
+        now.add_recent(scene);
+    if (state_.window_size.x > 0) // it has been drawn
+        now.window = state_.window_place;
+    now.panes = static_cast<int>(state_.panes.size());
+    now.theme = state_.theme;
+    now.text_factor = state_.text_factor;
+    now.panel_width = state_.panel_width;
+    now.show_panel = state_.show_panel;
+    now.show_statistics = state_.show_statistics;
+    now.show_charts = state_.show_charts;
+    return now;
+}
+
+void Viewer::remember() {
+    if (options_.preferences.empty())
+        return;
+    const KeptPreferences kept = store_preferences(options_.preferences, current_preferences(), opened_scenes_);
+    if (!kept.note.empty() && kept.note != told_of_preferences_) // there is nobody to read messages any more
+        std::fprintf(stderr, "%s\n", kept.note.c_str());
+}
+
+/// The disk may take its time, also to tell what other viewers have stored.
+void Viewer::remember_later() {
+    if (options_.preferences.empty())
+        return;
+    const Preferences now = current_preferences();
+    state_.recent_scenes = now.recent_scenes;
+    save([this, file = options_.preferences, now, opened = opened_scenes_] {
+        return Saved("", [this, kept = store_preferences(file, now, opened)] { take(kept); });
+    });
+}
+
+} // namespace tessera
