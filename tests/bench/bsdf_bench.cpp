@@ -1,6 +1,6 @@
 // BSDF evaluations and samples per CPU second, one benchmark a kind.
 
-#include "tests/bsdf/bsdf_cases.h"
+#include "tests/surface/bsdf_cases.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // Every BSDF: sampling follows its pdf (chi-square) and agrees with evaluate, loses or gains no energy, is
 // reciprocal.
 #include "render/sampling/sampling.h"
-#include "tests/bsdf/bsdf_cases.h"
+#include "tests/surface/bsdf_cases.h"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // f cos and pdf_w as Mitsuba 3.9.1 gives them (variant scalar_rgb).
-#include "tests/bsdf/bsdf_cases.h"
+#include "tests/surface/bsdf_cases.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // BSDFs of which something is known without sampling: what they lose, the shares of their delta parts.
 #include "render/surface/scattering.h"
-#include "tests/bsdf/bsdf_cases.h"
+#include "tests/surface/bsdf_cases.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "render/surface/scattering.h"
-#include "tests/bsdf/bsdf_cases.h"
+#include "tests/surface/bsdf_cases.h"
 
 #include <gtest/gtest.h>
 
