@@ -22,7 +22,7 @@ enum class ShiftOutcome : std::uint8_t {
 };
 inline constexpr int shift_outcome_count = static_cast<int>(ShiftOutcome::count);
 
-/// "ok", "occluded", ...
+/// The enumerator's own name: "ok", "occluded", "kind_mismatch".
 std::string_view to_string(ShiftOutcome outcome);
 
 /// What a ray is shot for.
@@ -36,7 +36,7 @@ enum class RayKind : std::uint8_t {
 };
 inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
 
-/// "camera", "bounce", ...
+/// The enumerator's own name: "camera", "bounce", "shift_edge".
 std::string_view to_string(RayKind kind);
 
 /// A sample that was not finite, and so not added: pass and pixel, from 0. With the seed, its path can be traced

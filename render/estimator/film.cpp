@@ -8,7 +8,7 @@ namespace tessera {
 
 namespace {
 
-/// Of 0: 0.
+/// `part` of `whole`, in [0, 1]; 0 of none.
 float share_of(std::uint32_t part, std::uint32_t whole) {
     return static_cast<float>(part) / static_cast<float>(std::max(whole, 1u));
 }

@@ -16,8 +16,8 @@ namespace tessera {
 struct ReuseCounts {
     /// Base paths of other pixels that were shifted here, by outcome: those that are ok brought light.
     std::array<std::uint32_t, shift_outcome_count> shifts{};
-    std::uint32_t reused = 0; ///< its own base paths that carry light, once a sampling set of its own: reused, ...
-    std::uint32_t skipped = 0; ///< ... and ended by the reuse roulette
+    std::uint32_t reused = 0;  ///< its own base paths with light that were reused, once a sampling set of its own
+    std::uint32_t skipped = 0; ///< its own base paths with light that the reuse roulette ended, likewise
 
     std::uint32_t tried() const; ///< shifts to here
     std::uint32_t arrived() const { return shifts[static_cast<std::size_t>(ShiftOutcome::ok)]; }
@@ -92,12 +92,12 @@ public:
 
     /// Means over `passes` complete passes; of two or more passes, their variances, too.
     GradientImages means(int passes) const;
-    /// The same at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
+    /// means() at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
     /// means are never all there together. The film is then good for nothing more.
     GradientImages take_means(int passes);
-    /// Of `passes` complete passes; empty where pixels share nothing.
+    /// How sharing went over `passes` complete passes; empty where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
-    /// Of the last pass; empty where it is not kept.
+    /// PixelSample::base_luminance of the last pass; empty where it is not kept.
     const Image<float>& base_luminance() const { return base_luminance_; }
     /// All that it has summed.
     Memory memory();

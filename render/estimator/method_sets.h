@@ -4,9 +4,9 @@
 
 namespace tessera {
 
-// The sampling sets of each method: what makes it that method. Each function puts the pixels of one set after the
-// other into `set`, and has it visited with `inner`: pixels of the set in there get their light from it, others
-// only lend it their base paths. (PT's is the pixel alone.)
+// The sampling sets T of each method: what makes it that method. Each function puts the pixels of one set after
+// the other into `set`, and has it visited with `inner`: pixels of the set in there get their light from it,
+// others only lend it their base paths. (PT's is the pixel alone.)
 
 /// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
 template <class Visit>
@@ -67,6 +67,25 @@ void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit
         set.assign(all);
         visit(inner, all);
     });
+}
+
+/// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
+/// for each; of PT and G-PT those of the pixel. The path inspector goes this way.
+template <class Visit>
+void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
+    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
+    const auto visit_inner = [&](PixelRect inner, auto) { visit(inner); };
+    switch (pass.settings.method) {
+    case Method::pt:
+        set.assign(pixel);
+        return visit(pixel);
+    case Method::pr:
+        return for_each_pr_set(pass, tile, set, visit);
+    case Method::gpt:
+        return for_each_gpt_set(pass, p, set, visit_inner);
+    case Method::gpr:
+        return for_each_gpr_set(pass, tile, set, visit_inner);
+    }
 }
 
 } // namespace tessera

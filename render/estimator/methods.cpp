@@ -1,7 +1,12 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 
+// The four methods side by side. Each traces the base paths of a block, lets every sampling set share its light
+// (share_light), and adds what the pixels got; what T is, and so what makes it this method, is in method_sets.h.
+
 namespace tessera {
+
+namespace {
 
 /// Path tracing: T = {k}. The weights 1/R are then those of emitter against BSDF sampling, which every base path
 /// has already taken [Veach 1997].
@@ -29,7 +34,7 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 }
 
 /// Gradient-domain path tracing [Kettunen 2015]: the primal is path tracing's, each gradient is the difference of
-/// two neighbours that share the light of their base paths. Counted are the shifts to the pixel itself.
+/// two neighbours that share the light of their base paths. Of the shifts, those to the pixel itself are counted.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
@@ -46,8 +51,6 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
             add_sample(pass, x, y, sample, worker, film);
         }
 }
-
-namespace {
 
 /// Adds what the inner pixels of worker.set got. `all` is the rectangle of the set.
 void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
@@ -66,8 +69,6 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
         }
 }
 
-} // namespace
-
 /// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
 /// gradients are the differences of these shares: sum of (c_n - c_m) / R.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
@@ -77,6 +78,21 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
         share_light(pass, pass.settings.roulette, worker);
         add_tile(pass, inner, all, worker, film);
     });
+}
+
+} // namespace
+
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    switch (pass.settings.method) {
+    case Method::pt:
+        return render_pt(pass, block, worker, film);
+    case Method::pr:
+        return render_pr(pass, block, worker, film);
+    case Method::gpt:
+        return render_gpt(pass, block, worker, film);
+    case Method::gpr:
+        return render_gpr(pass, block, worker, film);
+    }
 }
 
 } // namespace tessera

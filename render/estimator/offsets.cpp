@@ -78,28 +78,28 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
 }
 
 void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 point, glm::vec3 normal,
-                      bool one_sided, ConnectionLanes& seen) {
+                      bool one_sided, SightLanes& sight) {
     for (int m = 0; m < padded(y.count()); ++m) {
         const float dx = point.x - y.position.x[m], dy = point.y - y.position.y[m], dz = point.z - y.position.z[m];
         const float distance2 = dx * dx + dy * dy + dz * dz;
         const float scale = 1 / std::sqrt(distance2);
         const float cosine = -(dx * normal.x + dy * normal.y + dz * normal.z) * scale;
         const float geometry = (one_sided ? cosine : std::abs(cosine)) / distance2;
-        seen.direction.x[m] = dx * scale;
-        seen.direction.y[m] = dy * scale;
-        seen.direction.z[m] = dz * scale;
-        seen.geometry[m] = geometry;
-        seen.distance2[m] = distance2;
-        seen.valid[m] = (geometry > 0) & (distance2 > 0) ? asked[m] : 0;
+        sight.direction.x[m] = dx * scale;
+        sight.direction.y[m] = dy * scale;
+        sight.direction.z[m] = dz * scale;
+        sight.geometry[m] = geometry;
+        sight.distance2[m] = distance2;
+        sight.valid[m] = (geometry > 0) & (distance2 > 0) ? asked[m] : 0;
     }
 }
 
-void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light,
-                      ConnectionLanes& seen, LightLanes& arriving) {
+void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light, SightLanes& sight,
+                      LightLanes& arriving) {
     if (light.kind == LightPoint::Kind::surface) {
-        connect_to_point(y, asked, light.position, light.normal, true, seen);
+        connect_to_point(y, asked, light.position, light.normal, true, sight);
         for (int m = 0; m < padded(y.count()); ++m) {
-            arriving.pdf_w[m] = light.pdf / seen.geometry[m];
+            arriving.pdf_w[m] = light.pdf / sight.geometry[m];
             arriving.radiance.x[m] = light.radiance.x;
             arriving.radiance.y[m] = light.radiance.y;
             arriving.radiance.z[m] = light.radiance.z;
@@ -107,15 +107,15 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
         return;
     }
     for (int m = 0; m < padded(y.count()); ++m)
-        seen.valid[m] = 0;
+        sight.valid[m] = 0;
     for (int m = 0; m < y.count(); ++m) {
         if (!asked[m])
             continue;
         const std::optional<LightRay> ray = light.seen_from(y.position[m]);
         if (!ray)
             continue;
-        seen.valid[m] = -1;
-        seen.direction.set(m, ray->direction);
+        sight.valid[m] = -1;
+        sight.direction.set(m, ray->direction);
         arriving.pdf_w[m] = ray->pdf_w;
         arriving.radiance.set(m, ray->radiance);
     }

@@ -49,30 +49,31 @@ private:
 void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
               BsdfLanes& values);
 
-/// What became of one light path of a base path in each offset pixel m, a lane a pixel:
-///   density = r_m / r_k, the pdf of the offset's samplers for the shifted path over the base's for its own, both
-///             summed over strategies and with the shift's Jacobian; 0: the shift failed
-///   value   = c_m / r_k, radiance; f of the shifted path with its Jacobian over the base's summed pdfs and its
-///             survival of the roulette on path length
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8].
+/// What became of one light path x of a base path of pixel k in each offset pixel m, a lane a pixel (METHODS.md,
+/// 3):
+///   ratio = r_m = P_m(y_m) |J| / P_k(x), where y_m is the shifted path, P the density with which a pixel's
+///   samplers
+///           make a path, summed over strategies, and J the shift's Jacobian; no unit, 0: the shift failed
+///   value = c_m = f_m(y_m) |J| / P_k(x), radiance; with the survival of the roulette on path length
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. The base's own ratio is 1.
 struct OffsetRow {
-    FloatLanes density;
+    FloatLanes ratio;
     Vec3Lanes value;
 
     /// A path that carries nothing counts as failed: the same is said of base paths, so that both sides agree. So
     /// does one that is beyond what floats hold.
-    void set(int m, float new_density, Rgb new_value) {
+    void set(int m, float new_ratio, Rgb new_value) {
         constexpr float largest = 3e38f; // a NaN fails every comparison
         const bool is_lit = (new_value.r > 0) | (new_value.g > 0) | (new_value.b > 0);
         const bool counts =
-            is_lit & (new_density > 0) & (new_density + new_value.r + new_value.g + new_value.b <= largest);
-        density[m] = counts ? new_density : 0.0f;
+            is_lit & (new_ratio > 0) & (new_ratio + new_value.r + new_value.g + new_value.b <= largest);
+        ratio[m] = counts ? new_ratio : 0.0f;
         value.x[m] = counts ? new_value.r : 0.0f;
         value.y[m] = counts ? new_value.g : 0.0f;
         value.z[m] = counts ? new_value.b : 0.0f;
     }
     void fail(int m) {
-        density[m] = 0;
+        ratio[m] = 0;
         value.set(m, Rgb(0));
     }
 };
@@ -93,7 +94,7 @@ public:
     int offsets() const { return offsets_; }
     OffsetRow& row(int slot) { return *rows_[static_cast<std::size_t>(slot)]; }
     const OffsetRow& row(int slot) const { return *rows_[static_cast<std::size_t>(slot)]; }
-    float density(int slot, int m) const { return row(slot).density[m]; }
+    float ratio(int slot, int m) const { return row(slot).ratio[m]; }
     Rgb value(int slot, int m) const { return row(slot).value[m]; }
 
 private:
@@ -102,7 +103,7 @@ private:
 };
 
 /// How the vertices of offset paths see one point that they are joined to, a lane a pixel.
-struct ConnectionLanes {
+struct SightLanes {
     LaneMask valid;       ///< asked for, and the point is to be seen from the right side
     Vec3Lanes direction;  ///< unit, world, toward the point
     FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area
@@ -112,7 +113,7 @@ struct ConnectionLanes {
 /// Joins vertices to a point on a surface.
 /// @param one_sided  only from the side of `normal`
 void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 point, glm::vec3 normal,
-                      bool one_sided, ConnectionLanes& seen);
+                      bool one_sided, SightLanes& sight);
 
 /// What arrives at the vertices from a point on a light, a lane a pixel.
 struct LightLanes {
@@ -121,18 +122,18 @@ struct LightLanes {
 };
 
 /// Joins vertices to a point on a light, or at infinity to a direction.
-void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light,
-                      ConnectionLanes& seen, LightLanes& arriving);
+void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light, SightLanes& sight,
+                      LightLanes& arriving);
 
-/// The stretches from vertices to a point on a surface, ...
+/// Sets the stretches from vertices to a point on a surface, which lies in the unit directions `direction`.
 void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction, glm::vec3 point,
                     glm::vec3 normal, SegmentLanes& segments);
-/// ... and to a light, which may be at infinity.
+/// Sets the stretches from vertices to a light, which may be at infinity.
 void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction,
                     const LightPoint& light, SegmentLanes& segments);
 
 /// New edges of offset paths, a lane a pixel, that may be blocked. They all end in the same point, a light
-/// (perhaps at infinity) or a base vertex, so their rays are traced together; a blocked one fails the slots
+/// (perhaps at infinity) or a base vertex, so that their rays are traced together; a blocked one fails the slots
 /// [first_slot, end_slot).
 struct EdgeGroup {
     SegmentLanes segments;

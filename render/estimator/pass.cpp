@@ -57,19 +57,6 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     return blocks;
 }
 
-void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    switch (pass.settings.method) {
-    case Method::pt:
-        return render_pt(pass, block, worker, film);
-    case Method::pr:
-        return render_pr(pass, block, worker, film);
-    case Method::gpt:
-        return render_gpt(pass, block, worker, film);
-    case Method::gpr:
-        return render_gpr(pass, block, worker, film);
-    }
-}
-
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
     trace_base_path(tracer, pass.camera_ray(x, y), pass.pixel_angle(), pass.random(x, y), path);
     if (is_finite(path.radiance() + path.very_direct))

@@ -28,7 +28,7 @@ public:
     /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
     /// low-discrepancy sequence.
     Ray camera_ray(int x, int y) const { return camera_ray(x, y, subpixel_); }
-    /// The same at another position within the pixel, in [0, 1]^2.
+    /// The ray through another position within the pixel, in [0, 1]^2.
     Ray camera_ray(int x, int y, glm::vec2 subpixel) const { return projection_.ray(glm::vec2(x, y) + subpixel); }
 
     /// Very direct light of a pixel by a grid of camera rays, each where camera_ray() is in its cell.
@@ -81,7 +81,8 @@ struct Worker {
 /// image.
 std::vector<PixelRect> blocks_of(const Pass& pass);
 
-/// Renders one block of blocks_of() into the film with the pass's method.
+/// Renders the pixels of one block of blocks_of() into the film with the pass's method (methods.cpp). Tiles are
+/// cut off at the image's border, nowhere else.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
 /// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
@@ -118,13 +119,7 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
         watch(k, decision);
     }
 }
-/// The same, unwatched.
+/// share_light() where nobody wants to know of single paths.
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
-
-// The methods. Each renders the pixels of a block; a tile is cut off at the image's border, nowhere else.
-void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
-void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
-void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film);
-void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
 } // namespace tessera

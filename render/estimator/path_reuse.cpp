@@ -23,8 +23,8 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance) {
     tried_ = true;
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()));
     slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
-    if (trace_)
-        trace_->reset(paths_.offsets(), light_.slot_count());
+    if (onlooker_)
+        onlooker_->begins(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
     judge(base);
     balance(base, scale, radiance);
@@ -47,9 +47,9 @@ void PathReuse::shift_to_all(int base) {
 }
 
 /// Random replay: every pixel takes the base's numbers all the way. In the space of these numbers the shift is the
-/// identity, whatever strategy a light path ends by: its density ratio is 1 and its value that of the offset's own
-/// path, with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has density 0, for base and
-/// offset alike.
+/// identity, whatever strategy a light path ends by: its ratio is 1 and its value that of the offset's own path,
+/// with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has ratio 0, for base and offset
+/// alike.
 void PathReuse::replay_to_all(int base) {
     const BasePath& path = *set_[static_cast<std::size_t>(base)];
     for (int m = 0; m < paths_.offsets(); ++m) {
@@ -64,20 +64,21 @@ void PathReuse::replay_to_all(int base) {
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))
                 paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
-        if (trace_)
-            trace_replay(m);
+        if (onlooker_)
+            tell_of_replay(m);
     }
 }
 
-/// In the space of random numbers all Jacobians are 1.
-void PathReuse::trace_replay(int m) {
+/// Tells the onlooker of the path that was replayed for pixel m. In the space of random numbers all Jacobians
+/// are 1.
+void PathReuse::tell_of_replay(int m) {
     Rgb throughput(1);
     for (int i = 0; i < replayed_.size(); ++i) {
         const BaseVertex& y = replayed_[i];
-        trace_->add(m, y.vertex);
+        onlooker_->arrives(m, y.vertex);
         const auto end = [&](int slot, float pdf_w, bool is_delta) {
             if (slot <= std::min(light_.last_alive(), replayed_light_.last_alive()) && light_.is_alive(slot))
-                trace_->end(m, slot, {i, pdf_w, is_delta, 1, paths_.density(slot, m), paths_.value(slot, m)});
+                onlooker_->ends(m, slot, {i, pdf_w, is_delta, 1, paths_.ratio(slot, m), paths_.value(slot, m)});
         };
         for (int sample = 0; sample < replayed_.light_samples(); ++sample)
             end(light_.emitter_slot(i, sample), replayed_.lights(i)[static_cast<std::size_t>(sample)].pdf_sum,
@@ -87,7 +88,7 @@ void PathReuse::trace_replay(int m) {
         end(light_.hit_slot(i), y.pdf_w + y.hit_pdf_w, y.is_delta);
         throughput *= y.throughput();
         if (i + 1 < replayed_.size())
-            trace_->bounce(m, {i, y.pdf_w, y.is_delta, 1, 1, throughput});
+            onlooker_->bounces(m, {i, y.pdf_w, y.is_delta, 1, 1, throughput});
     }
 }
 
@@ -100,7 +101,7 @@ void PathReuse::judge(int base) {
             continue;
         const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < padded(paths_.offsets()); ++m)
-            arrived_[m] |= row.density[m] > 0 ? -1 : 0;
+            arrived_[m] |= row.ratio[m] > 0 ? -1 : 0;
     }
     for (int m = 0; m < paths_.offsets(); ++m) {
         if (m == base)
@@ -116,11 +117,11 @@ void PathReuse::judge(int base) {
     }
 }
 
-float PathReuse::density_sum(int slot) const {
+float PathReuse::ratio_sum(int slot) const {
     const OffsetRow& row = paths_.row(slot);
     float sum = 1; // the base itself: its ratio is one by definition
     for (int m = 0; m < paths_.offsets(); ++m)
-        sum += row.density[m];
+        sum += row.ratio[m];
     return sum;
 }
 
@@ -134,7 +135,7 @@ void PathReuse::play_weight_roulette(const Random& random) {
             continue;
         }
         // Not below 0.1: should most edges turn out to be blocked, 1/q would not be made up for by 1/R.
-        const float q = std::max(even / (density_sum(slot) * weight_threshold_), 0.1f);
+        const float q = std::max(even / (ratio_sum(slot) * weight_threshold_), 0.1f);
         if (q >= 1)
             continue;
         const bool survives = random.draw(slot, Draw::weight_survival) < q;

@@ -9,9 +9,9 @@ namespace tessera {
 /// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
 /// pixel m
 ///   sum over base paths k in T and their light paths x of  c_m(x) / R(x),  R(x) = sum over n in T of r_n(x)
-/// where c_m and r_m are value and density of x shifted to m: the balance heuristic over all pixels of T
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. A method is a choice of T; differences between pixels of one T are
-/// gradients.
+/// where c_m and r_m are value and ratio of x shifted to m (OffsetRow): the balance heuristic over all pixels of T
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T; differences
+/// between pixels of one T are gradients.
 class PathReuse {
 public:
     /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this
@@ -32,44 +32,44 @@ public:
     /// @param radiance  one a pixel of T; what the path brings is added
     void share(int base, float scale, std::span<Rgb> radiance);
 
-    /// What of a path's radiance is shifted to others, ...
+    /// What of a path's radiance is shifted to the others of its set.
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
-    /// ... in luminance (negative: the path sees nothing), ...
+    /// Luminance of the same; negative: the path sees nothing.
     float shared_luminance(const BasePath& path) const {
         return path.empty() ? -1 : luminance(shared_light(path));
     }
-    /// ... and what is not.
+    /// What of a path's radiance stays with its own pixel.
     Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }
 
     /// How the shifts of the last share() to each pixel of T ended; meaningless for the base's own. Empty: no
     /// shift was tried.
     std::span<const ShiftOutcome> outcomes() const { return {outcomes_.values.data(), tried_ ? set_.size() : 0}; }
 
-    // --- what became of the light paths of the last share(), for who wants to look; only where a shift was tried
-    // ---
+    // What became of the light paths of the last share(), for who wants to look; only where a shift was tried.
 
     const LightPaths& light_paths() const { return light_; }
     const OffsetPaths& offset_paths() const { return paths_; }
     /// 1/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
     /// shared out.
     float weight(int slot, float scale) const {
-        return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / density_sum(slot) : 0;
+        return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / ratio_sum(slot) : 0;
     }
-    /// From now on what the shifts do is noted in `trace`, anew at each share(); null: no longer.
-    void record(OffsetTrace* trace) {
-        trace_ = trace;
-        shift_.record(trace);
+    /// @param onlooker  is told of all that the next share() do; null: nobody is
+    void set_onlooker(ShiftOnlooker* onlooker) {
+        onlooker_ = onlooker;
+        shift_.set_onlooker(onlooker);
     }
 
 private:
     bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
     void shift_to_all(int base);
     void replay_to_all(int base);
-    void trace_replay(int m);
+    void tell_of_replay(int m);
     void judge(int base);
     void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
-    float density_sum(int slot) const;
+    /// R of a light path.
+    float ratio_sum(int slot) const;
     bool is_shared(int slot) const {
         return light_.is_alive(slot) && slot_scale_[static_cast<std::size_t>(slot)] > 0;
     }
@@ -85,11 +85,11 @@ private:
     PendingEdges edges_;
     BasePath replayed_;
     LightPaths replayed_light_;
-    std::vector<float>
-        slot_scale_; ///< one over the probability that the roulette on small weights kept it; 0: it did not
+    /// One over the probability that the roulette on small weights kept a slot; 0: it did not.
+    std::vector<float> slot_scale_;
     OutcomeLanes outcomes_;
     bool tried_ = false;
-    OffsetTrace* trace_ = nullptr;
+    ShiftOnlooker* onlooker_ = nullptr;
     LaneMask arrived_; ///< where anything came through
     LaneMask lost_;    ///< where an edge was blocked
 };

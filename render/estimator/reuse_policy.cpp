@@ -1,5 +1,7 @@
 #include "render/estimator/reuse_policy.h"
 
+#include "render/estimator/path_reuse.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +40,7 @@ void ReusePlan::learn(int x, int y, float luminance) {
     cell.squares += l * l;
 }
 
-/// That of the pixel in its middle.
+/// A tile belongs to the cell of the pixel in its middle.
 glm::ivec2 ReusePlan::cell_of(PixelRect tile) const {
     const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
     return glm::clamp(middle, glm::ivec2(0), size_ - 1) / cell_edge;
@@ -65,7 +67,7 @@ int ReusePlan::part_edge(PixelRect tile) const {
 
 namespace {
 
-/// Of the luminance of what the paths share.
+/// How much the luminance of what the paths share differs from path to path.
 float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const> set) {
     double sum = 0, squares = 0; // the squares of a float may be beyond floats
     for (const BasePath* path : set) {

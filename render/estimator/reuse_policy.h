@@ -1,13 +1,15 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/path_reuse.h"
 #include "render/estimator/settings.h"
 #include "render/io/memory.h"
 
 #include <span>
 
 namespace tessera {
+
+struct BasePath;
+class PathReuse;
 
 /// Into what tiles are cut before their pixels share light, so that each path has the offsets that pay.
 ///
@@ -33,7 +35,8 @@ public:
     /// Learns from a whole pass.
     /// @param luminance  of what each pixel's base path has to share; negative: it sees nothing
     void learn(const Image<float>& luminance);
-    /// The same of one pixel. A plan's bits depend on the order of those of a tile's evidence(): row by row.
+    /// Learns from one pixel of a pass. A plan's bits depend on the order of those of a tile's evidence(): row by
+    /// row.
     void learn(int x, int y, float luminance);
 
     /// The pixels whose base paths decide on how a tile is cut.

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 #include "render/estimator/film.h"
+#include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_policy.h"
 
 #include <algorithm>

@@ -3,77 +3,13 @@
 #include "render/estimator/base_path.h"
 #include "render/estimator/half_vector.h"
 #include "render/estimator/offsets.h"
+#include "render/estimator/shift_onlooker.h"
 #include "render/estimator/tracer.h"
 
-#include <string_view>
+#include <optional>
 #include <vector>
 
 namespace tessera {
-
-/// A vertex as one looks at it.
-struct SeenVertex {
-    glm::vec3 position;
-    glm::vec3 normal;      ///< unit, of shading
-    std::string_view bsdf; ///< kind_name()
-    float roughness;       ///< alpha of the roughest part that is no delta; 0: there is none
-
-    SeenVertex(const Vertex& v)
-        : position(v.position), normal(v.frame.normal), bsdf(kind_name(v.bsdf)), roughness(v.bsdf.roughness()) {}
-};
-
-/// One scattering of an offset path, in the numbers that the shift calculates with.
-struct OffsetStep {
-    int vertex = 0;  ///< where: 0 is y_1
-    float pdf_w = 0; ///< of the way on: per solid angle, or a probability after a delta scatter; at the end of a
-                     ///< light path that of all strategies together
-    bool is_delta = false;
-    float jacobian = 1; ///< solid angle at the offset over solid angle at the base
-    float ratio = 0;    ///< so far: density of the offset, with all Jacobians, over that of the base; no unit
-    Rgb value{0};       ///< so far: f of the offset with all Jacobians over the base's pdf; at the end of a light
-                        ///< path with its light, radiance
-};
-
-/// What a shift did to all offset paths, for who wants to look: one a pixel of the sampling set.
-class OffsetTrace {
-public:
-    /// How a light path, a slot of LightPaths, ended in the offset, whatever visibility made of it then.
-    struct End {
-        bool is_there = false;
-        bool joins = false; ///< it goes through `join` to the base's own vertex, where `last` is
-        OffsetStep join;
-        OffsetStep last;
-    };
-    struct Path {
-        std::vector<SeenVertex> vertices; ///< y_1, y_2, ...
-        std::vector<OffsetStep> bounces;  ///< at y_1, y_2, ..., those that led to another vertex
-        std::vector<End> ends;            ///< one a slot
-    };
-
-    void reset(int offsets, int slots) {
-        paths_.resize(static_cast<std::size_t>(offsets));
-        for (Path& path : paths_) {
-            path.vertices.clear();
-            path.bounces.clear();
-            path.ends.assign(static_cast<std::size_t>(slots), {});
-        }
-    }
-    void add(int m, const Vertex& y) { at(m).vertices.emplace_back(y); }
-    void bounce(int m, const OffsetStep& step) { at(m).bounces.push_back(step); }
-    /// A light path ends at a light as the offset sees it, ...
-    void end(int m, int slot, const OffsetStep& last) { end_at(m, slot) = {true, false, {}, last}; }
-    /// ... or beyond the vertex of the base path that it joins.
-    void end_beyond(int m, int slot, const OffsetStep& join, const OffsetStep& last) {
-        end_at(m, slot) = {true, true, join, last};
-    }
-
-    const Path& operator[](int m) const { return paths_[static_cast<std::size_t>(m)]; }
-
-private:
-    Path& at(int m) { return paths_[static_cast<std::size_t>(m)]; }
-    End& end_at(int m, int slot) { return at(m).ends[static_cast<std::size_t>(slot)]; }
-
-    std::vector<Path> paths_;
-};
 
 /// What the pixels of a sampling set see, x_1 of each.
 struct PrimaryVertices : OffsetVertices {
@@ -89,98 +25,131 @@ struct PrimaryVertices : OffsetVertices {
 /// How a shift went, a lane a pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
 
+/// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single number
+/// (never products of densities, which underflow).
+struct PrefixLanes {
+    FloatLanes ratio; ///< pdf of the offset with its Jacobians over the base's, no unit
+    Vec3Lanes value;  ///< f of the offset with its Jacobians over the base's pdf
+};
+
+/// Offset vertices y_i joined to the base's next vertex, x_{i+1}.
+struct VertexConnection {
+    int vertex;            ///< i, from 0
+    LaneMask asked;        ///< the offsets that go on, and are of the base's kind there
+    SightLanes sight;      ///< of x_{i+1} from y_i
+    BsdfLanes bsdf;        ///< at y_i, toward x_{i+1}
+    LaneMask lit;          ///< those of `asked` to which light can come that way
+    LaneMask reached;      ///< those of `lit` whose edge is long enough for light from beyond x_{i+1}
+    PrefixLanes prefix;    ///< through that edge, by BSDF sampling alone; ratio 0 where it is not reached
+    Vec3Lanes to_previous; ///< unit, from x_{i+1} to y_i, in the frame of x_{i+1}
+};
+
+/// Offset vertices y_i joined to a point on a light, or to a direction at infinity.
+struct LightConnection {
+    LaneMask asked; ///< the offsets that go on, and are of the base's kind there
+    SightLanes sight;
+    LightLanes arriving;
+    BsdfLanes bsdf; ///< at y_i, toward the light
+};
+
 /// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
 /// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
 /// are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. The base path alone decides on every
 /// branch, so all lanes do the same arithmetic.
+///
+/// The walk along the base path is in shift.cpp; how offsets are joined to a vertex or a light of the base path in
+/// shift_connections.cpp; how a scatter is done again, and a ray traced, in shift_bounces.cpp.
 class Shift {
 public:
     Shift(const Tracer& tracer, const ShiftSettings& settings) : tracer_(tracer), settings_(settings) {}
 
     /// @param primary  what the pixels see; a lane without a vertex is not shifted to
     /// @param self     the lane of the base's own pixel, which is left alone; -1: none
-    /// @param paths    receives densities and values, all failed before
+    /// @param paths    receives ratios and values, all failed before
     /// @param edges    receives the new edges, unchecked
     /// @param outcomes receives ok, or why the first light path that failed did so
     void run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,
              OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
 
-    /// From now on all is noted in `trace`, which starts anew before each run(); null: no longer.
-    void record(OffsetTrace* trace) { trace_ = trace; }
+    /// @param onlooker  is told of all that the next runs do; null: nobody is
+    void set_onlooker(ShiftOnlooker* onlooker) { onlooker_ = onlooker; }
 
 private:
-    /// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single
-    /// number (never products of densities, which underflow).
-    struct Prefix {
-        FloatLanes density; ///< pdf of the offset with its Jacobians over the base's
-        Vec3Lanes value;    ///< f of the offset with its Jacobians over the base's pdf
-    };
-
     const BaseVertex& base(int i) const { return (*base_)[i]; }
-    /// Whether emitter sampling at x_{i+1} goes the way y_i -> x_{i+1}, where that step is connectable.
-    bool joins_lights(int i) const { return is_connectable(base(i + 1).vertex) && light_->step_is_long(i); }
-    bool is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const;
+    const LightSample& base_light(int i, int sample) const {
+        return base_->lights(i)[static_cast<std::size_t>(sample)];
+    }
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
     bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
+    /// Whether emitter sampling at x_{i+1} goes the way y_i -> x_{i+1}, where that step is connectable.
+    bool joins_lights(int i) const { return is_connectable(base(i + 1).vertex) && light_->step_is_long(i); }
 
-    bool start(const PrimaryVertices& primary, int self);
+    // The walk.
+    bool start(int self);
     void walk();
-    void ask_for_kind(bool connectable);
-    void note_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
-    void note(int m, ShiftOutcome outcome);
-
-    // Lights of x_i.
     void shift_lights(int i);
+    void escape(int i);
+    void ask_for_kind(bool connectable, LaneMask& asked);
+    void fail_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
+    void fail(int m, ShiftOutcome outcome);
+
+    // Connections.
     void connect_light(int i, int sample);
+    void connect_infinity(int i);
+    void connect_next(int i);
+    const VertexConnection& connect_vertex(int i, EdgeGroup& edges);
+    void shift_hit(const VertexConnection& connection);
+    void shift_lights_beyond(const VertexConnection& connection);
+    void shift_tail(const VertexConnection& connection);
+
+    // Bounces.
+    bool bounce(int i);
+    bool bounce(int i, int m);
     void bounce_to_light(int i, int sample, int m);
+    void bounce_out(int i, int m);
     void replay_light(int i, int sample, int m, EdgeGroup& edges);
     void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
-
-    // What lies beyond x_i.
-    void escape(int i);
-    void connect_infinity(int i);
-    void connect_vertex(int i);
-    void set_hits(int i, const LaneMask& arrived);
-    void connect_beyond(int next, const LaneMask& arrived);
-    bool bounce(int i);
-    bool bounce(int i, int m);
+    bool is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const;
     std::optional<CopiedScatter> copy_scatter(int i, int m);
     std::optional<CopiedScatter> replay_scatter(int i, int m);
 
-    // For the onlooker: only where there is a trace.
-    void trace_end(int slot, int m, float pdf_w, float jacobian, bool is_delta = false);
-    void trace_join(int i);
-    void trace_beyond(int slot, const LaneMask& arrived, float bsdf_share, float other_pdf_w);
+    /// Calls tell(m) for the lanes of the mask, if anybody looks on.
+    template <class Tell>
+    void tell_of(const LaneMask& lanes, Tell&& tell) const {
+        for (int m = 0; onlooker_ && m < y_->count(); ++m)
+            if (lanes[m])
+                tell(m);
+    }
+    /// How the light path of a slot has ended in lane m.
+    OffsetStep last_step(int slot, int m, float pdf_w, float jacobian, bool is_delta = false) const {
+        return {light_->vertex_of(slot), pdf_w, is_delta, jacobian, paths_->ratio(slot, m),
+                paths_->value(slot, m)};
+    }
 
     Tracer tracer_;
     ShiftSettings settings_;
+    ShiftOnlooker* onlooker_ = nullptr;
 
-    // The base path at hand.
+    // The base path at hand and what becomes of it.
     const BasePath* base_ = nullptr;
     const LightPaths* light_ = nullptr;
     OffsetPaths* paths_ = nullptr;
     PendingEdges* edges_ = nullptr;
     OutcomeLanes* outcomes_ = nullptr;
-    OffsetTrace* trace_ = nullptr;
-    std::vector<OffsetStep> traced_joins_; ///< of the connection at hand
 
-    // The offsets.
+    // The offsets, as far as the walk has come.
     const PrimaryVertices* primary_ = nullptr; ///< y_1
     const OffsetVertices* y_ = nullptr;        ///< y_i
     LaneMask active_;                          ///< those that go on
-    Prefix prefix_;
+    PrefixLanes prefix_;
     OffsetVertices moved_; ///< y_i beyond the first bounce
     std::vector<Vertex> moved_vertices_;
 
-    // Of the connection at hand.
-    LaneMask asked_;
-    ConnectionLanes seen_;
-    LaneMask reached_; ///< those joined to x_{i+1} by a long edge
-    LightLanes arriving_;
-    BsdfLanes bsdf_;
-    Prefix joined_;
-    Vec3Lanes to_previous_; ///< from x_{i+1} to y_i, in its frame
+    // Memory that is too large for the stack, written before it is read by whoever makes a connection.
+    VertexConnection vertex_connection_;
+    LightConnection light_connection_;
+    BsdfLanes beyond_; ///< at x_{i+1}, toward y_i
 };
 
 } // namespace tessera

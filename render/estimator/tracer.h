@@ -80,7 +80,7 @@ struct Tracer {
 
     enum class Met : std::uint8_t { light, darkness, infinity };
 
-    /// The same for a ray on which only a light is of interest: `vertex` is made where it meets one.
+    /// Traces a ray on which only a light is of interest: `vertex` is made where it meets one.
     Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind) const {
         if (!scene.lights().may_be_hit(ray))
             return Met::darkness;
@@ -133,7 +133,7 @@ struct Tracer {
         return scene.intersector().occluded(segment);
     }
 
-    /// The same for new edges of shifts that share an end, or are parallel: packets.
+    /// Whether new edges of shifts, which share an end or are parallel, are blocked; traced in packets.
     void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const {
         std::uint64_t rays = 0;
         for (int lane = 0; lane < count; ++lane)

@@ -11,25 +11,6 @@ namespace tessera {
 
 namespace {
 
-/// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
-/// for each; of PT and G-PT those of the pixel.
-template <class Visit>
-void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
-    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
-    const auto visit_inner = [&](PixelRect inner, auto) { visit(inner); };
-    switch (pass.settings.method) {
-    case Method::pt:
-        set.assign(pixel);
-        return visit(pixel);
-    case Method::pr:
-        return for_each_pr_set(pass, tile, set, visit);
-    case Method::gpt:
-        return for_each_gpt_set(pass, p, set, visit_inner);
-    case Method::gpr:
-        return for_each_gpr_set(pass, tile, set, visit_inner);
-    }
-}
-
 PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
     PixelRect around{pixels[0].x, pixels[0].y, pixels[0].x + 1, pixels[0].y + 1};
     for (glm::ivec2 p : pixels)

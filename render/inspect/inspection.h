@@ -1,16 +1,29 @@
 #pragma once
 
-#include "render/estimator/pass.h"
+#include "render/estimator/counters.h"
 #include "render/estimator/reuse_policy.h"
-#include "render/scene/scene.h"
+#include "render/estimator/settings.h"
+#include "render/estimator/shift_onlooker.h"
 
 #include <stop_token>
 #include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
+
+class Scene;
+struct Camera;
+
+/// A vertex as one looks at it.
+struct SeenVertex {
+    glm::vec3 position;
+    glm::vec3 normal;      ///< unit, of shading
+    std::string_view bsdf; ///< kind_name()
+    float roughness;       ///< alpha of the roughest part that is no delta; 0: there is none
+};
 
 /// A vertex of a base path as one looks at it. Densities as in BaseVertex; radiances are toward the vertex before.
 struct InspectedVertex : SeenVertex {
@@ -72,9 +85,9 @@ struct InspectedSet {
     /// All that a pixel gets from the first `bases` base paths.
     Rgb radiance(int m, int bases) const;
     Rgb radiance(glm::ivec2 pixel) const { return radiance(index_of(pixel), size()); }
-    /// From every base path to a pixel, its own among them, ...
+    /// The shifts of every base path to a pixel, its own among them.
     std::vector<const InspectedShift*> to(glm::ivec2 pixel) const;
-    /// ... and of a pixel's base path to all others.
+    /// The shifts of a pixel's base path to all other pixels.
     std::vector<const InspectedShift*> from(glm::ivec2 pixel) const;
 };
 
@@ -87,7 +100,7 @@ struct Inspection {
     Rgb radiance;                      ///< of the pixel's own base path, without very direct light
     Rgb very_direct;
     bool is_refused; ///< the path, or what the pixel and its neighbours got, is not finite: it was left out
-    /// Those that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below).
+    /// The sets that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below).
     std::vector<InspectedSet> sets;
 };
 
@@ -109,7 +122,7 @@ struct TileInspection {
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                    const ReusePlan& plan, int pass, glm::ivec2 pixel);
 
-/// The same for the tile of the pixel.
+/// Takes all samples of the pixel's tile in a pass again, as inspect() does for one pixel.
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
                             const RenderSettings& settings, const ReusePlan& plan, int pass, glm::ivec2 pixel);
 

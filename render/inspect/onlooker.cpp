@@ -4,13 +4,22 @@ namespace tessera {
 
 namespace {
 
+SeenVertex seen(const Vertex& v) {
+    return {v.position, v.frame.normal, kind_name(v.bsdf), v.bsdf.roughness()};
+}
+
 InspectedVertex look_at(const BasePath& path, int i, Rgb throughput) {
     const BaseVertex& x = path[i];
-    InspectedVertex v{x.vertex,   i + 1 < path.size() || x.escapes,
-                      x.escapes,  glm::vec3(0),
-                      x.is_delta, x.pdf_w,
-                      throughput, x.survival,
-                      Rgb(0),     Rgb(0),
+    InspectedVertex v{seen(x.vertex),
+                      i + 1 < path.size() || x.escapes,
+                      x.escapes,
+                      glm::vec3(0),
+                      x.is_delta,
+                      x.pdf_w,
+                      throughput,
+                      x.survival,
+                      Rgb(0),
+                      Rgb(0),
                       {}};
     for (const LightSample& light : path.lights(i)) {
         v.sampled += light.brings;
@@ -32,7 +41,7 @@ std::vector<InspectedStep> steps_of(const BasePath& path, int last, const Rgb& c
         const BaseVertex& x = path[i];
         if (i < last)
             throughput *= x.throughput();
-        steps.push_back({x.vertex, false, {i, x.pdf_w, x.is_delta, 1, 1, i < last ? throughput : carried}});
+        steps.push_back({seen(x.vertex), false, {i, x.pdf_w, x.is_delta, 1, 1, i < last ? throughput : carried}});
     }
     return steps;
 }
@@ -50,13 +59,26 @@ std::vector<InspectedVertex> look_at(const BasePath& path) {
     return result;
 }
 
+void OffsetTrace::begins(int offsets, int slots) {
+    paths_.resize(static_cast<std::size_t>(offsets));
+    for (Path& path : paths_) {
+        path.vertices.clear();
+        path.bounces.clear();
+        path.ends.assign(static_cast<std::size_t>(slots), {});
+    }
+}
+
+void OffsetTrace::arrives(int m, const Vertex& y) {
+    at(m).vertices.push_back(seen(y));
+}
+
 Onlooker::Onlooker(Worker& worker, int pixel, InspectedSet& result)
     : worker_(worker), result_(result), pixel_(pixel) {
-    worker_.reuse.record(&trace_);
+    worker_.reuse.set_onlooker(&trace_);
 }
 
 Onlooker::~Onlooker() {
-    worker_.reuse.record(nullptr);
+    worker_.reuse.set_onlooker(nullptr);
 }
 
 void Onlooker::operator()(int base, const ReuseDecision& decision) {
@@ -102,7 +124,7 @@ int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) c
         most = luminance(value);
         best = slot;
         s.weight = weight;
-        s.ratio = base == m ? 1 : offsets.density(slot, m);
+        s.ratio = base == m ? 1 : offsets.ratio(slot, m);
     }
     return best;
 }
@@ -146,7 +168,7 @@ void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
             add(y.bounces[static_cast<std::size_t>(i)]);
         add(end.joins ? end.join : end.last);
         if (end.joins)
-            steps.push_back({path(base)[end.last.vertex].vertex, true, end.last});
+            steps.push_back({seen(path(base)[end.last.vertex].vertex), true, end.last});
     }
     s.jacobian = 1;
     for (const InspectedStep& step : steps)

@@ -1,8 +1,44 @@
 #pragma once
 
+#include "render/estimator/pass.h"
 #include "render/inspect/inspection.h"
 
 namespace tessera {
+
+/// What shifts did to all offset paths, one a pixel of the sampling set.
+class OffsetTrace final : public ShiftOnlooker {
+public:
+    /// How a light path, a slot of LightPaths, ended in the offset, whatever visibility made of it then.
+    struct End {
+        bool is_there = false;
+        bool joins = false; ///< it goes through `join` to the base's own vertex, where `last` is
+        OffsetStep join;
+        OffsetStep last;
+    };
+    struct Path {
+        std::vector<SeenVertex> vertices; ///< y_1, y_2, ...
+        std::vector<OffsetStep> bounces;  ///< at y_1, y_2, ..., those that led to another vertex
+        OffsetStep join;                  ///< the newest to a vertex of the base path
+        std::vector<End> ends;            ///< one a slot
+    };
+
+    const Path& operator[](int m) const { return paths_[static_cast<std::size_t>(m)]; }
+
+    void begins(int offsets, int slots) override;
+    void arrives(int m, const Vertex& y) override;
+    void bounces(int m, const OffsetStep& step) override { at(m).bounces.push_back(step); }
+    void joins(int m, const OffsetStep& step) override { at(m).join = step; }
+    void ends(int m, int slot, const OffsetStep& last) override { end_at(m, slot) = {true, false, {}, last}; }
+    void ends_beyond(int m, int slot, const OffsetStep& last) override {
+        end_at(m, slot) = {true, true, at(m).join, last};
+    }
+
+private:
+    Path& at(int m) { return paths_[static_cast<std::size_t>(m)]; }
+    End& end_at(int m, int slot) { return at(m).ends[static_cast<std::size_t>(slot)]; }
+
+    std::vector<Path> paths_;
+};
 
 /// A base path's vertices as one looks at them.
 std::vector<InspectedVertex> look_at(const BasePath& path);

@@ -159,7 +159,7 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
             OffsetPaths paths;
             const Vertex &x = base[0].vertex, &join = base[1].vertex, &y = other[0].vertex;
             shift_to_one(tracer, settings, base, light, other, paths);
-            const float density = paths.density(light.tail_slot(), 0);
+            const float density = paths.ratio(light.tail_slot(), 0);
             const glm::vec3 to_join = glm::normalize(join.position - y.position);
             const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(to_join)).pdf_w;
             if (!(density > 0) || glm::distance(x.position, join.position) < 0.3f ||
@@ -201,7 +201,7 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
         const LightSample& l = base.lights(0)[0];
         const glm::vec3 direction = glm::normalize(l.light.position - x.position);
         const auto seen = l.light.seen_from(y.position);
-        if (!(paths.density(slot, 0) > 0) || !seen || glm::dot(direction, l.light.normal) > -0.15f)
+        if (!(paths.ratio(slot, 0) > 0) || !seen || glm::dot(direction, l.light.normal) > -0.15f)
             return;
         const glm::dvec3 from(x.position), at(l.light.position), normal(l.light.normal), to(y.position);
         const auto measured = measured_jacobian(direction, [&](glm::vec3 d) {
@@ -210,7 +210,7 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
                 glm::normalize(from + ray * (glm::dot(at - from, normal) / glm::dot(ray, normal)) - to));
         });
         const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(seen->direction)).pdf_w;
-        EXPECT_NEAR(paths.density(slot, 0) * l.pdf_sum / (pdf_w + seen->pdf_w) / *measured, 1, 1e-3);
+        EXPECT_NEAR(paths.ratio(slot, 0) * l.pdf_sum / (pdf_w + seen->pdf_w) / *measured, 1, 1e-3);
         ++count;
     });
     EXPECT_GT(count, 100);
@@ -235,9 +235,9 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
         OffsetPaths paths;
         shift_to_one(tracer, settings, base, light, other, paths);
         for (int slot = 0; slot < std::min(light.slot_count(), own.slot_count()); ++slot) {
-            if (!(paths.density(slot, 0) > 0) || !own.is_alive(slot)) // dark: an edge that is not looked at here
+            if (!(paths.ratio(slot, 0) > 0) || !own.is_alive(slot)) // dark: an edge that is not looked at here
                 continue;
-            EXPECT_NEAR(paths.density(slot, 0), 1, 1e-4);
+            EXPECT_NEAR(paths.ratio(slot, 0), 1, 1e-4);
             EXPECT_NEAR(luminance(paths.value(slot, 0)) / luminance(own.carried(slot)), 1, 1e-3);
             ++count;
         }

@@ -54,7 +54,7 @@ Tally tally(const TestScene& t) {
                 if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
                     continue;
                 shift_to_one(tracer, shift_settings, base, light, right, paths, true);
-                const bool shifted = paths.density(slot, 0) > 0;
+                const bool shifted = paths.ratio(slot, 0) > 0;
                 if (light.last_alive() == slot) {
                     ++sum.light_is_last;
                     sum.shifted += shifted;

@@ -1,4 +1,5 @@
 // One sample of one pixel, looked at: the same numbers as in the picture.
+#include "render/estimator/tile_grid.h"
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
 #include "tests/support/rooms.h"

@@ -1,0 +1,168 @@
+// Shift: scatterings done again at an offset vertex, by the same half vector or the same random numbers.
+#include "render/estimator/shift.h"
+
+namespace tessera {
+
+/// Does the scatter at x_i again in all lanes that go on, and makes y_{i+1} what lies there. False: none is left.
+bool Shift::bounce(int i) {
+    const int count = y_->count();
+    moved_vertices_.resize(static_cast<std::size_t>(count));
+    bool any = false;
+    for (int m = 0; m < count; ++m) {
+        active_[m] = active_[m] && bounce(i, m) ? -1 : 0;
+        any = any || active_[m];
+    }
+    moved_.reset(count);
+    for (int m = 0; m < count; ++m)
+        if (active_[m])
+            moved_.set(m, moved_vertices_[static_cast<std::size_t>(m)]);
+    y_ = &moved_;
+    tell_of(active_, [&](int m) { onlooker_->arrives(m, moved_[m]); });
+    return any;
+}
+
+bool Shift::bounce(int i, int m) {
+    const BaseVertex& x = base(i);
+    const std::optional<CopiedScatter> s = copy_scatter(i, m);
+    if (!s)
+        return false;
+    const Vertex& y = (*y_)[m];
+    Vertex& next = moved_vertices_[static_cast<std::size_t>(m)]; // perhaps y itself
+    const glm::vec3 direction = y.to_world(s->to_next);
+    const glm::vec3 origin = y.position;
+    const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next, RayKind::shift_bounce);
+    // From a connectable vertex, an emitter is reached by connecting (done before); else by this very ray.
+    if (!light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i))) {
+        const LightPoint met =
+            is_inside ? tracer_.light_of(next, -direction) : tracer_.environment_toward(direction);
+        end_at_light(light_->hit_slot(i), m, *s, origin, met, x.pdf_w + x.hit_pdf_w, x.is_delta);
+    }
+    if (!is_inside) {
+        fail(m, ShiftOutcome::outside);
+        return false;
+    }
+    if (!is_as_long(i, m, origin, next)) {
+        fail(m, ShiftOutcome::kind_mismatch);
+        return false;
+    }
+    const float scale = s->jacobian / x.pdf_w;
+    prefix_.ratio[m] *= s->pdf_w * scale;
+    prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
+    if (onlooker_)
+        onlooker_->bounces(m, {i, s->pdf_w, x.is_delta, s->jacobian, prefix_.ratio[m], prefix_.value[m]});
+    return true;
+}
+
+/// The base leaves the scene from x_i, by a scatter that no connection makes: so must the offset.
+void Shift::bounce_out(int i, int m) {
+    const BaseVertex& x = base(i);
+    const Vertex& y = (*y_)[m];
+    const std::optional<CopiedScatter> s = copy_scatter(i, m);
+    if (!s)
+        return;
+    Vertex scratch;
+    const LightPoint light =
+        tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce);
+    end_at_light(light_->hit_slot(i), m, *s, y.position, light, x.pdf_w + x.hit_pdf_w, x.is_delta);
+}
+
+/// Emitter sampling at a vertex too glossy to connect: the half vector is copied, and the ray must find a light.
+void Shift::bounce_to_light(int i, int sample, int m) {
+    const Vertex& y = (*y_)[m];
+    const LightSample& x = base_light(i, sample);
+    const std::optional<CopiedScatter> s = copy_half_vector(base(i).vertex, x.to_light, y);
+    if (!s)
+        return fail(m, ShiftOutcome::no_light);
+    Vertex scratch;
+    const LightPoint light =
+        tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce);
+    end_at_light(light_->emitter_slot(i, sample), m, *s, y.position, light, x.pdf_sum, false);
+}
+
+/// At a vertex too glossy to connect, the numbers of the light sample are replayed: as in
+/// PathReuse::replay_to_all, the ratio of densities is 1, and the value the offset's own.
+void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
+    LightSample drawn;
+    Segment way;
+    if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, sample, drawn, way))
+        return fail(m, ShiftOutcome::no_light);
+    const int slot = light_->emitter_slot(i, sample);
+    paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
+    if (onlooker_)
+        onlooker_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_light(i, sample).pdf_sum / drawn.pdf_sum));
+    edges.exists[m] = -1;
+    edges.segments.from.set(m, way.from);
+    edges.segments.to.set(m, way.to);
+}
+
+/// A scatter done again, from `origin`, that ends the light path at `light`; it fails where that is black.
+void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
+                         float base_pdf_sum, bool is_delta) {
+    const std::optional<LightRay> seen = light.seen_from(origin);
+    if (!seen || is_black(seen->radiance))
+        return fail(m, ShiftOutcome::no_light);
+    const float pdf_sum = s.pdf_w + (is_delta ? 0 : seen->pdf_w);
+    // What is replayed keeps its strategy: its ratio of densities is 1, and the weight of the strategy is that at
+    // the offset.
+    const float scale = replays() ? 1 / pdf_sum : s.jacobian / base_pdf_sum;
+    paths_->row(slot).set(m, prefix_.ratio[m] * pdf_sum * scale,
+                          prefix_.value[m] * s.f_cos * seen->radiance * scale);
+    if (onlooker_)
+        onlooker_->ends(m, slot, last_step(slot, m, pdf_sum, scale * base_pdf_sum, is_delta));
+}
+
+/// Whether the way back would be this one, as far as that depends on lengths: shortness alone, or neither there
+/// nor here, keeps the edge from being joined. (Lengths alone would not do: from a mirror beside smooth plastic
+/// one comes to both long and short edges, between which there is no way, and the weights of the three would not
+/// add up to 1.)
+bool Shift::is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const {
+    if (!light_->step_is_connectable(i))
+        return true;
+    const bool is_only_short =
+        is_connectable(next) && !is_long(from, next.position, least_length(settings_, primary_->pixel_width[m]));
+    return is_only_short == (is_connectable(base(i + 1).vertex) && !light_->step_is_long(i));
+}
+
+/// The scatter at x_i done again at y: both must be of one kind.
+std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
+    if (replays())
+        return replay_scatter(i, m);
+    const BaseVertex& x = base(i);
+    const Vertex& y = (*y_)[m];
+    if (x.is_delta) {
+        const std::optional<CopiedScatter> s = copy_delta(x.scatter, y);
+        if (!s)
+            fail(m, x.scatter == Scatter::transmit && y.bsdf.roughness() <= 0 ? ShiftOutcome::total_reflection
+                                                                              : ShiftOutcome::kind_mismatch);
+        return s;
+    }
+    if (y.bsdf.roughness() <= 0 || is_connectable(x.vertex) != is_connectable(y)) {
+        fail(m, ShiftOutcome::kind_mismatch);
+        return {};
+    }
+    const std::optional<CopiedScatter> s = copy_half_vector(x.vertex, x.to_next, y);
+    if (!s)
+        fail(m, ShiftOutcome::no_light);
+    return s;
+}
+
+/// The scatter at x_i done again at y with the same random numbers. Both must be of one kind, or one side would
+/// connect where the other does not.
+std::optional<CopiedScatter> Shift::replay_scatter(int i, int m) {
+    const BaseVertex& x = base(i);
+    const Vertex& y = (*y_)[m];
+    const auto s = y.bsdf.sample(y.to_previous, base_->random.draw(i + 1, Draw::lobe),
+                                 base_->random.draw_2d(i + 1, Draw::direction));
+    if (!s) {
+        fail(m, ShiftOutcome::no_light);
+        return {};
+    }
+    if (s->is_delta != x.is_delta || is_connectable(x.vertex) != is_connectable(y)) {
+        fail(m, ShiftOutcome::kind_mismatch);
+        return {};
+    }
+    // In the space of random numbers the shift is the identity, so its Jacobian undoes the ratio of the pdfs.
+    return CopiedScatter{s->to_next, s->f_cos, s->pdf_w, x.pdf_w / s->pdf_w};
+}
+
+} // namespace tessera
