@@ -68,8 +68,9 @@ Image<float> blended(const Image<float>& values, float own_share, int radius, in
     return blend;
 }
 
-/// Of a gradient between two pixels. Where one has far less noise than the other, as a dark pixel beside a lamp's
-/// edge, it needs the gradient least, and would take the other's noise: what counts is the geometric mean.
+/// The weight of a gradient between two pixels. Where one has far less noise than the other, as a dark pixel
+/// beside a lamp's edge, it needs the gradient least, and would take the other's noise: what counts is the
+/// geometric mean.
 float weight(float alpha, float gradient_variance, float one_primal_variance, float other_primal_variance) {
     const float primal_variance = std::sqrt(one_primal_variance) * std::sqrt(other_primal_variance);
     const float least = alpha * alpha * primal_variance, noise = noise_factor * gradient_variance;

@@ -1,3 +1,4 @@
+// Colours, images, rectangles of pixels, and what a gradient-domain method measures: what every room speaks of.
 #pragma once
 
 #include <algorithm>
@@ -26,6 +27,18 @@ inline bool is_finite(Rgb c) {
 
 inline bool is_black(Rgb c) {
     return c.r <= 0 && c.g <= 0 && c.b <= 0;
+}
+
+/// Takes the CIE's X, Y and Z of 1931 to linear sRGB [IEC 61966-2-1]; colours outside have negative components.
+inline Rgb rgb_of_xyz(glm::vec3 xyz) {
+    const glm::mat3 columns(3.240970f, -0.969244f, 0.055630f, -1.537383f, 1.875968f, -0.203977f, -0.498611f,
+                            0.041555f, 1.056972f);
+    return columns * xyz;
+}
+
+/// The transfer function of sRGB [IEC 61966-2-1], from code 0 to 1 to linear.
+inline float srgb_to_linear(float code) {
+    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
 /// A raster of pixels, row by row from the top left. An image of width or height 0 is empty.
@@ -85,7 +98,7 @@ struct GradientImages {
     float patch = 1;
 
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
-    /// All three.
+    /// Whether all three images have them.
     bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };
 
@@ -99,8 +112,8 @@ struct PixelRect {
     PixelRect clipped(glm::ivec2 size) const {
         return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
     }
-    /// With one more column and row, where the image of that size has them: the neighbours to which forward
-    /// gradients lead.
+    /// The rectangle with one more column and row, where the image of that size has them: the neighbours to which
+    /// forward gradients lead.
     PixelRect with_halo(glm::ivec2 size) const { return PixelRect{x0, y0, x1 + 1, y1 + 1}.clipped(size); }
     bool operator==(const PixelRect&) const = default;
     bool contains(glm::ivec2 p) const { return p.x >= x0 && p.y >= y0 && p.x < x1 && p.y < y1; }
@@ -113,18 +126,6 @@ void for_each_square(PixelRect rect, int edge, Visit&& visit) {
     for (int y = rect.y0; y < rect.y1; y += edge)
         for (int x = rect.x0; x < rect.x1; x += edge)
             visit(PixelRect{x, y, std::min(x + edge, rect.x1), std::min(y + edge, rect.y1)});
-}
-
-/// From the CIE's X, Y and Z of 1931 to linear sRGB [IEC 61966-2-1]; colours outside have negative components.
-inline Rgb rgb_of_xyz(glm::vec3 xyz) {
-    const glm::mat3 columns(3.240970f, -0.969244f, 0.055630f, -1.537383f, 1.875968f, -0.203977f, -0.498611f,
-                            0.041555f, 1.056972f);
-    return columns * xyz;
-}
-
-/// The curve of sRGB [IEC 61966-2-1], from code 0 to 1 to linear.
-inline float srgb_to_linear(float code) {
-    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
 } // namespace tessera

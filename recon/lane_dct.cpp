@@ -97,7 +97,7 @@ void run_butterflies(const float* in_re, const float* in_im, float* out_re, floa
 }
 
 template <int radix>
-void run_pass(ComplexLanes in, ComplexLanes out, int groups, int run, const float* twiddles) {
+void run_stage(ComplexLanes in, ComplexLanes out, int groups, int run, const float* twiddles) {
     // The twiddles of group 0 are 1.
     const int in_step = groups * run;
     run_butterflies<radix, false>(in.re, in.im, out.re, out.im, in_step, run, nullptr);
@@ -122,7 +122,7 @@ LaneFft::LaneFft(int size) : size_(size) {
     for (const int radix : {4, 5, 3, 2}) {
         for (; left % radix == 0; left /= radix) {
             const int groups = left / radix;
-            passes_.push_back({radix, groups, run, static_cast<int>(twiddles_.size())});
+            stages_.push_back({radix, groups, run, static_cast<int>(twiddles_.size())});
             for (int g = 0; g < groups; ++g) {
                 for (int j = 1; j < radix; ++j) {
                     const double angle = -2 * std::numbers::pi * g * j / left;
@@ -136,20 +136,20 @@ LaneFft::LaneFft(int size) : size_(size) {
 }
 
 ComplexLanes LaneFft::transform(ComplexLanes data, ComplexLanes scratch) const {
-    for (const Pass& pass : passes_) {
-        const float* twiddles = twiddles_.data() + pass.first_twiddle;
-        switch (pass.radix) {
+    for (const Stage& stage : stages_) {
+        const float* twiddles = twiddles_.data() + stage.first_twiddle;
+        switch (stage.radix) {
         case 2:
-            run_pass<2>(data, scratch, pass.groups, pass.run, twiddles);
+            run_stage<2>(data, scratch, stage.groups, stage.run, twiddles);
             break;
         case 3:
-            run_pass<3>(data, scratch, pass.groups, pass.run, twiddles);
+            run_stage<3>(data, scratch, stage.groups, stage.run, twiddles);
             break;
         case 4:
-            run_pass<4>(data, scratch, pass.groups, pass.run, twiddles);
+            run_stage<4>(data, scratch, stage.groups, stage.run, twiddles);
             break;
         default:
-            run_pass<5>(data, scratch, pass.groups, pass.run, twiddles);
+            run_stage<5>(data, scratch, stage.groups, stage.run, twiddles);
             break;
         }
         std::swap(data, scratch);

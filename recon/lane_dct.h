@@ -1,3 +1,5 @@
+// Cosine transforms of many lines at a time, from the vector register up: numbers side by side, their Fourier
+// transform, and the cosine transform made of it.
 #pragma once
 
 #include <cstring>
@@ -83,8 +85,8 @@ public:
     ComplexLanes transform(ComplexLanes data, ComplexLanes scratch) const;
 
 private:
-    /// One pass: `groups` butterflies of `radix` points, each over a run of `run` contiguous values.
-    struct Pass {
+    /// One stage: `groups` butterflies of `radix` points, each over a run of `run` contiguous values.
+    struct Stage {
         int radix;
         int groups;
         int run;
@@ -92,7 +94,7 @@ private:
     };
 
     int size_;
-    std::vector<Pass> passes_;
+    std::vector<Stage> stages_;
     std::vector<float> twiddles_;
 };
 
@@ -117,7 +119,7 @@ public:
     /// Where element x of a line stands in a buffer of lines.
     int slot(int x) const { return x % 2 == 0 ? x / 2 : size() - 1 - x / 2; }
 
-    /// From lines (element x at slot(x)) to their transforms (element k at k). Both buffers hold size() * lanes
+    /// Takes lines (element x at slot(x)) to their transforms (element k at k). Both buffers hold size() * lanes
     /// values in re and in im and are overwritten; the one that holds the result is returned.
     ComplexLanes forward(ComplexLanes lines, ComplexLanes scratch) const;
 

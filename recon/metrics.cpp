@@ -76,11 +76,11 @@ std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
     return pieces;
 }
 
-/// Pixels near each other err alike, blocks hardly: the variance of a mean over pieces of unequal size [Cochran
+/// Pixels near each other err alike, pieces hardly: the variance of a mean over pieces of unequal size [Cochran
 /// 1977, 6.4].
-FloorFreeError mean_of_blocks(const Image<double>& errors) {
-    constexpr int block_edge = 16, few_pixels = 16 * block_edge * block_edge;
-    const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : block_edge);
+FloorFreeError mean_of_pieces(const Image<double>& errors) {
+    constexpr int piece_edge = 16, few_pixels = 16 * piece_edge * piece_edge;
+    const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : piece_edge);
     const auto count = static_cast<double>(errors.size());
     const auto piece_count = static_cast<double>(pieces.size());
     FloorFreeError mean;
@@ -118,11 +118,11 @@ Image<double> reference_errors(const RgbImage& reference1, const RgbImage& refer
 
 FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
                                         const RgbImage& reference2) {
-    return mean_of_blocks(floor_free_errors(image, reference1, reference2));
+    return mean_of_pieces(floor_free_errors(image, reference1, reference2));
 }
 
 FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2) {
-    return mean_of_blocks(reference_errors(reference1, reference2));
+    return mean_of_pieces(reference_errors(reference1, reference2));
 }
 
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,

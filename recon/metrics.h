@@ -1,3 +1,4 @@
+// How far images are from a reference, or from two whose noises do not correlate.
 #pragma once
 
 #include "recon/image.h"
@@ -14,7 +15,7 @@ namespace tessera {
 /// Keeps the relative errors of dark pixels finite: the epsilon of [Bauszat 2017, 4], a squared radiance.
 inline constexpr double relative_mse_epsilon = 0.001;
 
-/// The same for MAPE, a radiance.
+/// Keeps the relative errors of dark pixels finite in MAPE: a radiance.
 inline constexpr double mape_epsilon = 0.01;
 
 /// How far an image I is from a reference r. Means are over pixels and their three channels.
@@ -24,10 +25,10 @@ struct ErrorMetrics {
     double mse = 0;                  ///< mean of (I - r)^2
     double mape = 0;                 ///< mean of |I - r| / (|r| + mape_epsilon); 1 is 100 %
     double mean_ratio = 0;           ///< mean of I over mean of r
-    std::size_t bad_pixels = 0; ///< pixels of I that are not finite; if there are any, the figures are not either
+    std::size_t bad_pixels = 0; ///< pixels of I that are not finite; if there are any, the errors are not either
 };
 
-/// Throws std::invalid_argument if the sizes differ or the images are empty.
+/// Measures them all. Throws std::invalid_argument if the sizes differ or the images are empty.
 ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference);
 
 /// The sum of the values of a square piece of an image, and how many pixels that has.
@@ -36,19 +37,21 @@ struct Piece {
     double pixels = 0;
 };
 
-/// Row by row; `edge`: in pixels. Those at the right and at the bottom are what is left.
+/// The pieces of an image, row by row: squares with an edge of `edge` pixels, and what is left at the right and at
+/// the bottom.
 std::vector<Piece> pieces_of(const Image<double>& values, int edge);
 
 /// An estimate of relative_mse to a noiseless reference, from two noisy ones.
 struct FloorFreeError {
     double relative_mse = 0; ///< mean of (I - r1)(I - r2) / (r^2 + epsilon), r = (r1 + r2) / 2
-    double standard_error =
-        0; ///< of it, from how blocks of 16 by 16 pixels differ (pixels, if there are few blocks)
+    /// The standard error of relative_mse, from how pieces of 16 by 16 pixels differ (pixels, if pieces are few).
+    double standard_error = 0;
 };
 
-/// The noises of two independent references do not correlate, so that their products vanish in the mean, and an
-/// image equal to the truth gets 0 give or take the standard error. What is left, as r^2 is noisy too, is of the
-/// order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as measure_error does.
+/// Estimates it. The noises of two independent references do not correlate, so that their products vanish in the
+/// mean, and an image equal to the truth gets 0 give or take the standard error. What is left, as r^2 is noisy
+/// too, is of the order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as
+/// measure_error does.
 FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
                                         const RgbImage& reference2);
 
@@ -64,11 +67,11 @@ std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImag
 /// What both err alike, as a biased reconstruction does, is not in it. Throws as measure_error does.
 FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2);
 
-// The maps of which these are means: a value a pixel, the mean of its channels.
+// The maps of which these are means have a value a pixel, the mean of its channels.
 Image<double> floor_free_errors(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
 Image<double> reference_errors(const RgbImage& reference1, const RgbImage& reference2);
-/// The mean of one of them, and its standard error.
-FloorFreeError mean_of_blocks(const Image<double>& errors);
+/// The mean of such a map, and its standard error.
+FloorFreeError mean_of_pieces(const Image<double>& errors);
 
 /// The exponent b of y ~ x^b, the slope of a line in a log-log chart, by least squares of the logarithms: -1 for
 /// an error that falls as noise does. Left out are points that have no place there. Not a number for fewer than

@@ -1,3 +1,4 @@
+// What a caller lends a solver: threads, and a watch.
 #pragma once
 
 #include <atomic>
@@ -17,7 +18,7 @@ inline void serial_for(int count, const std::function<void(int)>& body) {
         body(i);
 }
 
-/// What a solver asks, and tells, between its steps.
+/// A watch of a solver: it is told between steps how far that is, and says whether to go on.
 class SolveWatch {
 public:
     SolveWatch() = default;
@@ -28,7 +29,7 @@ public:
 
     bool is_stopped() const { return stop_.stop_requested(); }
 
-    /// So many of all steps are done. Whether to go on.
+    /// Tells that `done` of `of` steps are done. False: the solver is to stop.
     bool goes_on(int done, int of) const {
         if (share_)
             *share_ = static_cast<float>(done) / static_cast<float>(of);

@@ -114,7 +114,7 @@ float* half_of(ComplexLanes lines, int half) {
     return half == 0 ? lines.re : lines.im;
 }
 
-/// From rows of interleaved channels, `count` pixels from x = first on, to lanes.
+/// Takes rows of interleaved channels, `count` pixels from x = first on, to lanes.
 void chunk_to_lines(const Chunk& chunk, const LaneDct& dct, int first, int count,
                     const ComplexLanes (&channels)[3]) {
     for (int value = 0; value < 3 * count; value += lanes) {

@@ -65,7 +65,7 @@ private:
 /// or twice again for what it still lacks, A u = b - A I.
 class PoissonSolver {
 public:
-    /// Both >= 1.
+    /// `width` and `height` are >= 1.
     PoissonSolver(int width, int height);
     ~PoissonSolver();
 
@@ -76,7 +76,7 @@ public:
     /// any parallel_for. Allocates in the first call and when alpha changes; one call at a time.
     void solve(const PoissonProblem& problem, RgbImage& image, const ParallelFor& parallel_for = serial_for);
 
-    /// The same for a right side b that is at hand, without refinement: for alpha >= 0.1.
+    /// The answer for a right side b that is at hand, without refinement: for alpha >= 0.1.
     void solve(const RgbImage& right_side, float alpha, RgbImage& image,
                const ParallelFor& parallel_for = serial_for);
 

@@ -39,7 +39,7 @@ enum class Cut { joint, per_channel, scale };
 void cut_factors(Cut cut, float threshold, int count, const float* w, float* factors) {
     switch (cut) {
     case Cut::joint: {
-        // In three loops, of which the second, with all the square roots, fills vectors.
+        // There are three loops, of which the second, with all the square roots, fills vectors.
         float length[chunk_pixels];
         for (int i = 0; i < count; ++i)
             length[i] = w[3 * i] * w[3 * i] + w[3 * i + 1] * w[3 * i + 1] + w[3 * i + 2] * w[3 * i + 2];
@@ -68,7 +68,7 @@ struct L1Solver::Step {
     float park;       ///< 1: q is to be left there as q - g
     float beta;
     float old_dual_scale;  ///< of u: thresholds that change scale it
-    float next_dual_scale; ///< the same for the iteration to come
+    float next_dual_scale; ///< of u in the iteration to come
     Cut gradient_cut, primal_cut;
     float old_threshold, threshold;               ///< of the gradients
     float old_primal_threshold, primal_threshold; ///< of primal_cut
@@ -214,7 +214,7 @@ void L1Solver::start(const PoissonProblem& problem, float scale, RgbImage& image
     });
 }
 
-/// One pass over the images, and an inner solve.
+/// Makes one iteration: a pass over the images, and an inner solve.
 void L1Solver::iterate(const PoissonProblem& problem, const Step& step, RgbImage& image,
                        const ParallelFor& parallel_for) {
     const int bands = borders_.height(), row_values = 3 * solver_.width();

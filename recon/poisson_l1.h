@@ -18,13 +18,14 @@ struct L1Settings {
 /// a scale that an outlier does not move. 1 for a black image.
 float typical_value(const RgbImage& image);
 
-/// As the screened Poisson problem, with absolute values for squares: minimises the sum over the pixels of
+/// The screened Poisson problem with absolute values for squares: minimises the sum over the pixels of
 ///     |Dx I - dx| + |Dy I - dy| + alpha |I - primal| ,
 /// or with (alpha |I - primal|)^2 / typical_value(primal) for the last (square_primal), whose unit is then that of
 /// the others. A cold start comes within 1 % of the least sum in the default iterations.
 ///
-/// The alternating direction method of multipliers [Boyd et al. 2011, 3 and 6.1]. With K = (Dx, Dy, 1) and g =
-/// (dx, dy, primal), the answer's K I is split off as d with the (scaled) dual variable u, and in turn
+/// This is done by the alternating direction method of multipliers [Boyd et al. 2011, 3 and 6.1]. With K = (Dx,
+/// Dy, 1) and g = (dx, dy, primal), the answer's K I is split off as d with the (scaled) dual variable u, and in
+/// turn
 ///     I = argmin |W (K I - d + u)|^2,   d = argmin |d - g| / rho + |W (K I + u - d)|^2 / 2,   u = u + K I - d ,
 /// W = (1, 1, beta). The first is the screened Poisson problem. For the second and third let q = K I + u: then u
 /// is q - g cut to the length t = 1 / rho (of a square: times a number below 1), and d = q - u. So q is all there
@@ -33,7 +34,7 @@ float typical_value(const RgbImage& image);
 /// An object keeps q - g: the next solve of similar data starts where the last one ended (a warm start).
 class L1Solver {
 public:
-    /// Both >= 1.
+    /// `width` and `height` are >= 1.
     L1Solver(int width, int height);
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if

@@ -22,7 +22,7 @@ struct PoissonProblem {
 /// Writes pixels [begin, end) of row y of b to out, 3 values a pixel.
 void poisson_right_side(const PoissonProblem& problem, int y, int begin, int end, float* out);
 
-/// The same of b - A image, worked out in double.
+/// Writes pixels [begin, end) of row y of b - A image, worked out in double, to out, 3 values a pixel.
 void poisson_defect(const PoissonProblem& problem, const RgbImage& image, int y, int begin, int end, float* out);
 
 /// |b - A image| / |b|, 0 if the former is 0.

@@ -186,8 +186,8 @@ void WeightedSolver::make_room() {
             *kept = RgbImage(solver_.width(), solver_.height());
 }
 
-/// By as much as brings the answer nearest to the optimum: a line search in each channel. False: there is nothing
-/// to be tried, as after a black image.
+/// Adds as much of the last correction as brings the answer nearest to the optimum: a line search in each channel.
+/// False: there is nothing to be tried, as after a black image.
 bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
                                          const ParallelFor& parallel_for) {
     const auto [rc, cc] = apply(weights, problem.alpha, correction_, residual_, applied_, parallel_for);

@@ -25,7 +25,7 @@ struct WeightedSettings {
 /// is a few percent from the optimum's; a smaller one would take more.
 class WeightedSolver {
 public:
-    /// Both >= 1.
+    /// `width` and `height` are >= 1.
     WeightedSolver(int width, int height);
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if

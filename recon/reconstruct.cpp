@@ -127,7 +127,7 @@ bool is_linear(Norm norm) {
     return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
 }
 
-/// All but very direct light and time.
+/// Reconstructs without very direct light, and takes no time.
 Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
                                     const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = images.primal.width(), height = images.primal.height();

@@ -56,16 +56,16 @@ struct Reconstruction {
     double seconds = 0;  ///< wall time
 };
 
-/// Reconstructs one image after the other, and keeps what the next can use: plans, memory, and where its solvers
-/// stood. One call at a time.
+/// Reconstructs one image after the other, and keeps what the next can use: prepared transforms, memory, and where
+/// its solvers stood. One call at a time.
 class Reconstructor {
 public:
     Reconstructor();
     ~Reconstructor();
 
-    /// As the function below. If the last image was of this size, L1, mixed and weighted go on from
-    /// where they last ended (a warm start), which is right if it had the same scene and view and a few samples
-    /// less.
+    /// Does what the function below does, but if the last image was of this size, L1, mixed and weighted go on
+    /// from where they last ended (a warm start), which is right if it had the same scene and view and a few
+    /// samples less.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 

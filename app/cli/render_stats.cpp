@@ -14,7 +14,7 @@ namespace tessera {
 
 namespace {
 
-/// As one word of a shell's command line.
+/// The text as one word of a shell's command line.
 std::string shell_word(const std::string& text) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=,:+@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)

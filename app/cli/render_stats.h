@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/cli/scene_source.h"
 #include "app/cli/picture_layers.h"
+#include "app/cli/scene_source.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/picture_identity.h"
 #include "render/run/render.h"
@@ -13,7 +13,8 @@
 
 namespace tessera {
 
-// What is told of samples that were not finite and were left out of a render.
+// The first three functions tell of samples that were not finite and were left out of a render, the others what a
+// render was and cost.
 
 /// The command that opens a sample of such a render in the viewer: what decides its bits and is not so by itself.
 /// Empty: the viewer has no pictures of that size.
@@ -22,11 +23,11 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
 /// Says on stderr how many there were, which was the first, and how to look at it. Nothing, if there were none.
 void warn_of_refused(const SceneSource& source, const Render& render);
 
-/// The first of them: pixel, pass and seed, and the command that opens them, if one does. Empty: there
-/// were none.
+/// The first refused sample: pixel, pass and seed, and the command that opens it and the others, if one does.
+/// Empty: there was none.
 nlohmann::json refused_json(const SceneSource& source, const Render& render);
 
-/// An array of what each cost.
+/// An array of what each reconstruction cost.
 nlohmann::json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions);
 
 /// What was counted: rays, paths, shifts.

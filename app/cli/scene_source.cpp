@@ -42,6 +42,8 @@ std::string line_of(const std::vector<const LoadNote*>& same) {
     return line + ")";
 }
 
+constexpr int per_cent = 100; // steps of the BVH's progress
+
 } // namespace
 
 std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
@@ -58,10 +60,6 @@ std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
         lines.push_back(line_of(group));
     return lines;
 }
-
-namespace {
-constexpr int per_cent = 100; // steps of the BVH's progress
-} // namespace
 
 void check_scene_file(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file))
@@ -85,15 +83,15 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     opened.file_seconds = loaded.file_seconds;
     const double cpu_after_load = process_cpu_seconds();
     opened.load_cpu_seconds = cpu_after_load - cpu_at_start;
-    LoadProgress unwatched;
-    LoadProgress& watched = progress ? *progress : unwatched;
-    watched.begin(LoadProgress::Stage::bvh, per_cent);
+    LoadProgress nobodys;
+    LoadProgress& told = progress ? *progress : nobodys;
+    told.begin(LoadProgress::Stage::bvh, per_cent);
     std::atomic<int> done = 0;
     const BuildMonitor monitor([&](double share) {
         for (int known = done; known < static_cast<int>(share * per_cent);)
             if (done.compare_exchange_weak(known, known + 1))
-                watched.step();
-        return !watched.given_up();
+                told.step();
+        return !told.given_up();
     });
     opened.scene = std::make_shared<const Scene>(std::move(loaded.description));
     opened.bvh_seconds = opened.scene->bvh_seconds();

@@ -31,15 +31,16 @@ struct OpenedScene {
 /// Throws BadInput that names the file where there is none.
 void check_scene_file(const std::filesystem::path& file);
 
-/// Throws LoadError or another std::exception whose what() is fit for the user. `progress` may be null.
+/// Loads and builds a scene. Throws LoadError or another std::exception whose what() is fit for the user.
+/// `progress` may be null.
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress* progress);
-/// The same, telling on a terminal how far it is.
+/// Does the same, and tells on a terminal how far it is.
 OpenedScene open_scene(const SceneSource& source, ThreadPool& pool);
 
 /// Makes the scene of `source`, with `threads` threads as in ThreadPool, whenever it is called: in the background,
 /// the calling thread included, so that what draws comes first.
 SceneLoader loader_of(const SceneSource& source, int threads);
-/// With that loader.
+/// The scene of `source` as the viewer loads it, by loader_of.
 SceneOrigin origin_of(const SceneSource& source, int threads);
 
 /// Makes the folder and those that it lies in, where there are none. Throws BadInput.

@@ -1,3 +1,4 @@
+// What the program and whoever started it tell each other: exit codes, bad input, interrupts and progress.
 #pragma once
 
 #include "render/load/load_progress.h"
@@ -9,7 +10,7 @@
 
 namespace tessera {
 
-/// What the process returns.
+/// What the process returns to the shell.
 enum ExitCode : int { exit_ok = 0, exit_failure = 1, exit_bad_input = 2 };
 
 /// Something that the user gave cannot be used: reported in one message, exit code 2.
@@ -62,7 +63,7 @@ public:
     LoadBar(const LoadBar&) = delete;
     LoadBar& operator=(const LoadBar&) = delete;
 
-    /// For the loader to write to.
+    /// What the loader writes to.
     LoadProgress& progress() { return progress_; }
 
 private:

@@ -1,3 +1,5 @@
+// The commands of the program, one function each, with all that one can ask of them. Those with many options have
+// the words of the command line, too, as a step between it and these.
 #pragma once
 
 #include "app/cli/picture_layers.h"
@@ -23,10 +25,10 @@ namespace tessera {
 /// What run_view returns where there is neither a display nor a way to draw without one: the caller may render the
 /// same comparison headless.
 inline constexpr int view_needs_display = -1;
-/// What it returns where a signal ended a script or a screenshot: as of Ctrl-C in a shell.
+/// What run_view returns where a signal ended a script or a screenshot: what a shell says of Ctrl-C.
 inline constexpr int view_cut_short = 130;
 
-/// `tessera view`.
+/// What `tessera view` is asked for.
 struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
     SceneOpener open;  ///< for scenes dropped on the window
@@ -50,7 +52,7 @@ struct ViewOptions {
 /// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.
 int run_view(const ViewOptions& options);
 
-enum class Clock { wall, cpu };
+enum class ClockChoice { wall, cpu };
 
 /// What `tessera render` is asked for.
 struct RenderOptions {
@@ -59,7 +61,7 @@ struct RenderOptions {
     std::optional<int> max_depth; ///< empty: the scene's own
     std::optional<int> spp;       ///< passes; empty: by time, or 16
     std::optional<double> time;   ///< seconds of rendering, without loading
-    Clock clock = Clock::wall;
+    ClockChoice clock = ClockChoice::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
     std::vector<Norm> norms; ///< empty: weighted where there are gradients; the first is the file's plain RGB
     float alpha = 0.2f;
@@ -70,7 +72,8 @@ struct RenderOptions {
     bool buffers = false;        ///< primal, dx, dy, direct and the variances as layers, too
 };
 
-/// Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything has been written.
+/// Renders a picture. Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything
+/// has been written.
 int run_render(const RenderOptions& options);
 
 /// What `tessera reference` is asked for.
@@ -110,7 +113,8 @@ struct ReconstructOptions {
     std::filesystem::path stats; ///< empty: none
 };
 
-/// Returns an ExitCode. Throws BadInput or another std::exception before anything has been written.
+/// Reconstructs from saved buffers. Returns an ExitCode. Throws BadInput or another std::exception before anything
+/// has been written.
 int run_reconstruct(const ReconstructOptions& options);
 
 /// The words of `tessera reconstruct`, before they are given a meaning.
@@ -169,17 +173,17 @@ void write_saved_picture(const std::filesystem::path& file, const SavedPicture& 
 /// a scene, anew after each round. Returns an ExitCode. Throws as run_sweep does.
 int run_bench(const ExperimentOptions& options);
 
-/// `tessera sweep`: renders every scene with every point of the experiment, compares with references, and writes
+/// `tessera sweep`: renders every scene with every setup of the experiment, compares with references, and writes
 /// sweep.csv, .json, .md and a chart a scene, anew after each round. Returns an ExitCode. Throws BadInput or
 /// another std::exception before anything was rendered, but for scene files that cannot be loaded: these are met
 /// in turn.
 int run_sweep(const ExperimentOptions& options);
 
 /// `tessera stability`: renders small scenes, each made so that some method is known to fail, with all methods and
-/// reconstructions, and judges them by path tracing (app/experiment/stability.h). Writes stability.md, stability.csv and a
-/// sheet of pictures a scene, anew after each round; each scene's journal and pictures are in a folder of its own,
-/// OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the scenes' own. Returns
-/// an ExitCode. Throws BadInput or another std::exception before anything was rendered.
+/// reconstructions, and judges them by path tracing (app/experiment/stability.h). Writes stability.md,
+/// stability.csv and a sheet of pictures a scene, anew after each round; each scene's journal and pictures are in
+/// a folder of its own, OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the
+/// scenes' own. Returns an ExitCode. Throws BadInput or another std::exception before anything was rendered.
 int run_stability(ExperimentOptions options);
 
 } // namespace tessera

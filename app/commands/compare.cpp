@@ -35,7 +35,7 @@ RgbImage read_plain(const std::filesystem::path& path, const std::string& layer)
     return plain ? *plain : read_layer(path, layer);
 }
 
-/// One image, or two that are independent of each other.
+/// What is compared with: one image, or two that are independent of each other.
 struct References {
     RgbImage first;
     std::optional<RgbImage> second;
@@ -116,7 +116,7 @@ void print_text(const ImageComparison& c) {
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
 
-/// A figure that is not finite becomes null.
+/// Prints all figures; one that is not finite becomes null.
 void print_json(const CompareOptions& options, const ImageComparison& c) {
     nlohmann::ordered_json out;
     out["image"] = options.image.string();

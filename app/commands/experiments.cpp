@@ -42,7 +42,7 @@ int run_sweep(const ExperimentOptions& options) {
 
 namespace {
 
-/// Those of the whole suite, for one of its scenes.
+/// The options of the whole suite, made those of one of its scenes.
 ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptions& suite) {
     ExperimentOptions options = suite;
     options.scenes = {scene.source.file};
@@ -54,7 +54,7 @@ ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptio
         options.effort = {static_cast<double>(*scene.needs.spp), Effort::Unit::spp};
         options.recipe.spp = std::max(suite.recipe.spp, 2 * *scene.needs.spp); // each half as good as a picture
     }
-    options.looks_for_artefacts = true;
+    options.measures_artefacts = true;
     options.keeps_images = true;
     options.output = suite.output / "scenes" / scene_name(scene.source);
     return options;

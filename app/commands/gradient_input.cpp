@@ -1,10 +1,10 @@
 #include "app/commands/gradient_input.h"
 
-#include "app/cli/terminal.h"
 #include "app/cli/picture_layers.h"
+#include "app/cli/terminal.h"
 #include "render/io/exr.h"
-#include "render/io/pfm.h"
 #include "render/io/files.h"
+#include "render/io/pfm.h"
 
 #include <algorithm>
 #include <charconv>
@@ -25,7 +25,7 @@ struct NamedImage {
     RgbImage image;
 };
 
-/// In the order of the command line; very direct light may be missing.
+/// The images in the order of the command line; very direct light may be missing.
 using Buffers = std::vector<NamedImage>;
 
 ExrFile read_layers(const std::filesystem::path& path) {

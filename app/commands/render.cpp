@@ -1,11 +1,12 @@
+#include "render/run/render.h"
+
+#include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
 #include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
-#include "render/run/render.h"
 
 #include <algorithm>
 
@@ -17,39 +18,39 @@ namespace tessera {
 namespace {
 
 /// What is asked for, with everything left open filled in from the scene.
-struct Plan {
+struct ResolvedRender {
     RenderSettings settings;
     glm::ivec2 size;
     int spp; ///< 0: by time
     std::vector<Norm> norms;
 };
 
-Plan make_plan(const RenderOptions& options, const Scene& scene) {
-    Plan plan{options.settings, options.size.value_or(scene.size()), 0, options.norms};
-    plan.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
-    plan.spp = options.spp.value_or(options.time ? 0 : 16);
-    if (plan.norms.empty())
-        plan.norms = {has_gradients(plan.settings.method) ? Norm::weighted : Norm::none};
-    return plan;
+ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
+    ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.norms};
+    wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
+    wanted.spp = options.spp.value_or(options.time ? 0 : 16);
+    if (wanted.norms.empty())
+        wanted.norms = {has_gradients(wanted.settings.method) ? Norm::weighted : Norm::none};
+    return wanted;
 }
 
 /// Share of the work done, by whichever limit is nearer.
-double share_done(const RenderOptions& options, const Plan& plan, const Render& render) {
-    double done = plan.spp > 0 ? static_cast<double>(render.spp()) / plan.spp : 0;
+double share_done(const RenderOptions& options, const ResolvedRender& wanted, const Render& render) {
+    double done = wanted.spp > 0 ? static_cast<double>(render.spp()) / wanted.spp : 0;
     if (options.time)
-        done = std::max(done,
-                        (options.clock == Clock::cpu ? render.cpu_seconds() : render.seconds()) / *options.time);
+        done = std::max(done, (options.clock == ClockChoice::cpu ? render.cpu_seconds() : render.seconds()) /
+                                  *options.time);
     return done;
 }
 
-void render_passes(const RenderOptions& options, const Plan& plan, Render& render, ThreadPool& pool) {
+void render_passes(const RenderOptions& options, const ResolvedRender& wanted, Render& render, ThreadPool& pool) {
     const InterruptGuard guard;
-    Progress progress(fmt::format("{} {}x{}", short_name(plan.settings.method), plan.size.x, plan.size.y));
+    Progress progress(fmt::format("{} {}x{}", short_name(wanted.settings.method), wanted.size.x, wanted.size.y));
     double done = 0;
     do {
         render.pass(pool);
-        done = share_done(options, plan, render);
-        const std::string target = plan.spp > 0 ? fmt::format(" of {}", plan.spp) : "";
+        done = share_done(options, wanted, render);
+        const std::string target = wanted.spp > 0 ? fmt::format(" of {}", wanted.spp) : "";
         progress.update(done, render.seconds(), fmt::format("{}{} spp", render.spp(), target));
     } while (done < 1 && !interrupted());
 }
@@ -67,17 +68,18 @@ int run_render(const RenderOptions& options) {
     for (const std::string& note : group_notes(opened.notes))
         fmt::print(stderr, "note: {}\n", note);
 
-    const Plan plan = make_plan(options, *opened.scene);
-    Render render(opened.scene, opened.scene->camera(), plan.size, plan.settings);
-    render_passes(options, plan, render, pool);
+    const ResolvedRender wanted = resolve(options, *opened.scene);
+    Render render(opened.scene, opened.scene->camera(), wanted.size, wanted.settings);
+    render_passes(options, wanted, render, pool);
     warn_of_refused(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
     const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
-    ExrFile file = picture_layers(render.take_images(), maps,
-                                  {plan.norms, options.alpha, options.per_channel, options.buffers}, pool, recon);
+    ExrFile file =
+        picture_layers(render.take_images(), maps,
+                       {wanted.norms, options.alpha, options.per_channel, options.buffers}, pool, recon);
     const nlohmann::json settings =
-        settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
+        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);

@@ -1,13 +1,7 @@
-#include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
-#include "render/io/json_text.h"
 #include "render/io/png.h"
-#include "render/run/first_hits.h"
-#include "render/scene/camera.h"
 #include "ui/gl/gl.h"
-#include "ui/state/buffer.h"
 #include "ui/state/preferences.h"
 #include "ui/viewer/script.h"
 #include "ui/viewer/viewer.h"
@@ -17,18 +11,14 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <limits>
 #include <string>
 #include <utility>
-
-#include <nlohmann/json.hpp>
 
 namespace tessera {
 
 namespace {
 
 constexpr int screenshot_spp = 16;
-constexpr int bad_input = 2;
 
 using WallClock = std::chrono::steady_clock;
 
@@ -41,13 +31,14 @@ std::string title(const std::string& scene) {
     return "Tessera - " + scene;
 }
 
-/// What is done between frames: pictures of the window, and the log of how long things took.
-class FrameWatch {
+/// Does what is to be done after each frame: pictures of the window, its title, and the log of how long things
+/// took.
+class FrameDuties {
 public:
-    FrameWatch(const ViewOptions& options, Surface& surface, Viewer& viewer, WallClock::time_point start)
+    FrameDuties(const ViewOptions& options, Surface& surface, Viewer& viewer, WallClock::time_point start)
         : options_(options), surface_(surface), viewer_(viewer), start_(start) {}
 
-    /// False: the work is done.
+    /// False: the work is done, and no frame is to follow.
     bool after_frame() {
         log_times();
         set_title();
@@ -98,7 +89,7 @@ private:
 
     bool fail(const std::string& text) {
         std::fprintf(stderr, "%s\n", text.c_str());
-        exit_code_ = bad_input;
+        exit_code_ = exit_bad_input;
         return false;
     }
 
@@ -118,7 +109,7 @@ bool is_interactive(const ViewOptions& options) {
     return options.screenshot.empty() && options.script.empty();
 }
 
-/// That of the last window, of the size asked for.
+/// The place of the last window, of the size asked for.
 WindowPlace window_place(const ViewOptions& options) {
     std::string ignored; // the viewer tells
     WindowPlace place =
@@ -162,9 +153,9 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     return result;
 }
 
-/// Runs the viewer with a script: 0, or bad_input with a message on stderr.
+/// Runs the viewer with a script: 0, or exit_bad_input with a message on stderr.
 int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& surface, Viewer& viewer,
-         FrameWatch& watch) {
+         FrameDuties& duties) {
     const auto screenshot = [&](const std::filesystem::path& file) {
         const ScreenPixels screen = read_screen(surface.pixels());
         write_png(file, screen.size, screen.rgb);
@@ -176,15 +167,15 @@ int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& sur
                                  player.after_frame();
                                  if (player.wants_frame())
                                      surface.wake();
-                                 return watch.after_frame();
+                                 return duties.after_frame();
                              },
                              interrupted,
                              {}});
     } catch (const ScriptError& error) {
         std::fprintf(stderr, "%s\n", error.what());
-        return bad_input;
+        return exit_bad_input;
     }
-    return watch.exit_code();
+    return duties.exit_code();
 }
 
 /// A picture or a script that a signal has ended is not done.
@@ -202,7 +193,7 @@ int run_view(const ViewOptions& options) {
             steps = read_script(options.script);
     } catch (const ScriptError& error) {
         std::fprintf(stderr, "%s\n", error.what());
-        return bad_input;
+        return exit_bad_input;
     }
     const std::unique_ptr<Surface> surface = open_surface(options);
     if (!surface)
@@ -210,99 +201,12 @@ int run_view(const ViewOptions& options) {
     Session session(most_panes, options.threads, [&] { surface->wake(); });
     Viewer viewer(session, viewer_options(options, *surface));
     viewer.load(options.scene.name, options.scene.loader, options.scene.source);
-    FrameWatch watch(options, *surface, viewer, start);
+    FrameDuties duties(options, *surface, viewer, start);
     const InterruptGuard guard;
     if (!steps.empty())
-        return exit_code(options, play(std::move(steps), options, *surface, viewer, watch));
-    surface->run(viewer, {{}, [&] { return watch.after_frame(); }, interrupted, [&] { viewer.remember(); }});
-    return exit_code(options, watch.exit_code());
-}
-
-namespace {
-
-nlohmann::json settings_of(const SavedPicture& picture, Norm norm) {
-    const Snapshot& snapshot = *picture.snapshot;
-    const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
-    nlohmann::json json =
-        settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction.alpha);
-    json["norm"] = to_string(norm);
-    json["joint_colour"] = picture.reconstruction.joint_colour;
-    return json;
-}
-
-nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<ReconstructionStats>& reconstructions) {
-    nlohmann::json json{{"seconds",
-                         {{"render", {{"wall", snapshot.seconds}, {"cpu", snapshot.cpu_seconds}}},
-                          {"reconstruct", reconstructions_json(reconstructions)}}},
-                        {"spp", snapshot.spp}};
-    json.update(counters_json(snapshot.counters));
-    return json;
-}
-
-/// The snapshot's own, if the same samples and settings would give it again; null: they would not.
-const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
-    const Snapshot& s = *picture.snapshot;
-    const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
-                            s.reconstructed_with == picture.reconstruction && has_gradients(s.settings.method);
-    return is_current && s.reconstruction->image.size() == s.images->primal.size() ? s.reconstruction.get()
-                                                                                   : nullptr;
-}
-
-/// The layers of `tessera render --buffers`. What the reconstruction cost is added to `stats`: of one that is
-/// taken over, the CPU seconds are not known.
-ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
-    const Snapshot& snapshot = *picture.snapshot;
-    const Reconstruction* finished = finished_reconstruction(picture);
-    ReconstructionLayers wanted{{}, picture.reconstruction.alpha, !picture.reconstruction.joint_colour, true};
-    if (!finished)
-        wanted.norms = {norm};
-    ThreadPool pool(1); // no thread but this one
-    ExrFile exr =
-        picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{}, wanted, pool, stats);
-    if (finished) {
-        exr.layers.insert(exr.layers.begin(), {"", finished->image});
-        stats.push_back({norm, finished->seconds, std::numeric_limits<double>::quiet_NaN(), finished->iterations,
-                         finished->residual});
-    }
-    return exr;
-}
-
-/// First hits, and errors of the picture that is the first layer.
-void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
-    Snapshot snapshot = *saved.snapshot;
-    const RgbImage& image = exr.layers.front().image;
-    snapshot.reconstruction = std::make_shared<Reconstruction>(Reconstruction{image});
-    Companions companions{saved.reference, nullptr};
-    if (saved.scene)
-        companions.first_hits = std::make_shared<FirstHits>(
-            trace_first_hits(*saved.scene, snapshot.camera, {image.width(), image.height()}));
-    for (Buffer buffer : all_buffers) {
-        const bool is_error = family(buffer) == BufferFamily::error;
-        if (!is_error && family(buffer) != BufferFamily::first_hit)
-            continue;
-        RgbImage scratch;
-        const RgbImage& layer = picture(snapshot, buffer, scratch, companions);
-        if (layer.empty())
-            continue;
-        exr.layers.push_back({(is_error ? "error_" : "") + std::string(short_name(buffer)), layer});
-        if (is_error)
-            exr.attributes["tessera:errors_to"] = saved.reference->name;
-    }
-}
-
-} // namespace
-
-void write_saved_picture(const std::filesystem::path& file, const SavedPicture& picture) {
-    const Snapshot& snapshot = *picture.snapshot;
-    const Norm norm = has_gradients(snapshot.settings.method) ? picture.reconstruction.norm : Norm::none;
-    std::vector<ReconstructionStats> stats;
-    ExrFile exr = render_layers(picture, norm, stats);
-    add_companion_layers(exr, picture);
-    exr.attributes["tessera:version"] = TESSERA_VERSION;
-    exr.attributes["tessera:settings"] = to_text(settings_of(picture, norm));
-    exr.attributes["tessera:stats"] = to_text(stats_of(snapshot, stats));
-    exr.attributes["tessera:camera"] = camera_json(snapshot.camera);
-    write_picture(file, exr);
+        return exit_code(options, play(std::move(steps), options, *surface, viewer, duties));
+    surface->run(viewer, {{}, [&] { return duties.after_frame(); }, interrupted, [&] { viewer.remember(); }});
+    return exit_code(options, duties.exit_code());
 }
 
 } // namespace tessera

@@ -24,7 +24,7 @@ double mean_luminance(const RgbImage& image) {
     return sum / static_cast<double>(image.size());
 }
 
-/// By which radiances are multiplied.
+/// The factor that brings radiances to the units of Artefacts.
 double unit_of(const RgbImage& reference1, const RgbImage& reference2) {
     const double mean = (mean_luminance(reference1) + mean_luminance(reference2)) / 2;
     return mean > 0 ? 1 / mean : 1;
@@ -73,7 +73,7 @@ Artefacts measure_artefacts(const RgbImage& image, const RgbImage& reference1, c
     const RgbImage value = in_units(image, unit), r1 = in_units(reference1, unit), r2 = in_units(reference2, unit);
     Image<double> errors = floor_free_errors(value, r1, r2); // checks the sizes, too
     Artefacts artefacts;
-    artefacts.error = mean_of_blocks(errors);
+    artefacts.error = mean_of_pieces(errors);
     artefacts.mean = mean_luminance(value);
     artefacts.pieces = pieces_of(value, r1, r2);
     artefacts.bad_pixels = static_cast<std::size_t>(
@@ -101,11 +101,11 @@ ReferenceNoise measure_reference_noise(const RgbImage& reference1, const RgbImag
     for (std::size_t i = 0; i < r1.size(); ++i) {
         // (n1 - n2)^2 / 4 estimates the variance of (n1 + n2) / 2, and (n1 - n2)^2 / 2 that of n1 and n2.
         mean_variance += std::pow((luminance(r1.data()[i]) - luminance(r2.data()[i])) / 2 / count, 2);
-        // E[((n1 - n2)^2 / 2)^2] = 3 s^4 of normal noise.
+        // Normal noise has E[((n1 - n2)^2 / 2)^2] = 3 s^4.
         fourth_power += std::pow(2 * errors.data()[i], 2) / 3 / count;
     }
     noise.mean_error = std::sqrt(mean_variance);
-    // Var(n1 n2) = s^4; and as r^2 is noisy, too, E[n1 n2 / (1 + (n1 + n2) / 2)^2] = 3/2 s^4 + ...
+    // Var(n1 n2) = s^4; and as r^2 is noisy, too, E[n1 n2 / (1 + (n1 + n2) / 2)^2] = 3/2 s^4 and higher powers.
     noise.squared_error_error = std::hypot(std::sqrt(fourth_power / count), 1.5 * fourth_power);
     return noise;
 }
@@ -184,7 +184,7 @@ Signal row_of(const Image<double>& image, int y) {
     return {image.row(y), image.row(y) + image.width()};
 }
 
-/// Of each column x, the mean squared step from x - 1 to x. There is none to the first: it counts as that to the
+/// For each column x, the mean squared step from x - 1 to x. There is none to the first: it counts as that to the
 /// same place of the second tile.
 Signal mean_steps(const Image<double>& errors, int tile) {
     Signal steps(static_cast<std::size_t>(errors.width()));

@@ -16,15 +16,15 @@ namespace tessera {
 
 namespace {
 
-/// Points that differ in reconstruction alone, by their indices.
-std::vector<std::vector<std::size_t>> by_render(const std::vector<Point>& points) {
+/// The setups that differ in reconstruction alone, by their indices: they share a render.
+std::vector<std::vector<std::size_t>> by_render(const std::vector<Setup>& setups) {
     std::vector<std::vector<std::size_t>> groups;
     const auto render_of = [&](std::size_t i) {
-        PictureSettings settings = points[i].settings;
+        PictureSettings settings = setups[i].settings;
         settings.reconstruction = {};
         return settings;
     };
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < setups.size(); ++i) {
         const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
             return render_of(group.front()) == render_of(i);
         });
@@ -38,18 +38,18 @@ std::vector<std::vector<std::size_t>> by_render(const std::vector<Point>& points
 
 } // namespace
 
-/// A render, and the points that it serves in the order of its reconstructions.
+/// A render, and the setups that it serves in the order of its reconstructions.
 struct Experiment::SharedRun {
-    std::vector<std::size_t> points;
+    std::vector<std::size_t> setups;
     std::unique_ptr<MeasuredRun> run;
 };
 
 Experiment::Experiment(const ExperimentOptions& options)
-    : options_(options), points_(points_of(options.settings, options.methods, options.norms, options.variations)) {
-    for (const Point& point : points_)
-        check(point.settings.render);
+    : options_(options), setups_(setups_of(options.settings, options.methods, options.norms, options.variations)) {
+    for (const Setup& setup : setups_)
+        check(setup.settings.render);
     for (const std::filesystem::path& file : options.scenes)
-        scenes_.emplace_back(SceneSource{file, options.variables, {}}, points_, options.references,
+        scenes_.emplace_back(SceneSource{file, options.variables, {}}, setups_, options.references,
                              options.recipe);
     check_names(scenes_);
     for (const MeasuredScene& scene : scenes_) {
@@ -61,7 +61,7 @@ Experiment::Experiment(const ExperimentOptions& options)
         make_folder(options.output / "images");
     check_writable(options.output / "journal.jsonl");
     journal_.emplace(options.output / "journal.jsonl");
-    renders_ = static_cast<double>(by_render(points_).size() * scenes_.size()) * options.seeds;
+    renders_ = static_cast<double>(by_render(setups_).size() * scenes_.size()) * options.seeds;
 }
 
 void Experiment::run(const std::function<void()>& report) {
@@ -110,68 +110,69 @@ std::vector<Experiment::SharedRun> Experiment::unfinished_runs(const MeasuredSce
                                                                const std::shared_ptr<const Scene>& geometry,
                                                                std::uint64_t seed) {
     std::vector<SharedRun> runs;
-    for (const std::vector<std::size_t>& group : by_render(points_)) {
+    for (const std::vector<std::size_t>& group : by_render(setups_)) {
         SharedRun shared;
         std::vector<ReconstructionSettings> reconstructions;
         for (std::size_t i : group) {
             if (recall(scene, i, seed))
                 continue;
-            shared.points.push_back(i);
-            reconstructions.push_back(points_[i].settings.reconstruction);
+            shared.setups.push_back(i);
+            reconstructions.push_back(setups_[i].settings.reconstruction);
         }
-        if (shared.points.empty()) {
+        if (shared.setups.empty()) {
             --renders_;
             continue;
         }
-        PictureSettings settings = points_[group.front()].settings;
+        PictureSettings settings = setups_[group.front()].settings;
         settings.render.seed = seed;
         shared.run = std::make_unique<MeasuredRun>(
             Render(geometry, geometry->camera(), settings.size, settings.render), options_.effort,
-            options_.halvings, std::move(reconstructions), options_.looks_for_artefacts, scene.reference(settings),
+            options_.halvings, std::move(reconstructions), options_.measures_artefacts, scene.reference(settings),
             pool(settings.threads));
         runs.push_back(std::move(shared));
     }
     return runs;
 }
 
-/// Pictures first: what the journal knows is complete.
+/// Records what a run has found. Pictures are written first, so that what the journal knows is complete.
 void Experiment::finish(const MeasuredScene& scene, const SharedRun& shared, std::uint64_t seed) {
     warn_of_refused(scene.source(), shared.run->render());
-    for (std::size_t i = 0; i < shared.points.size(); ++i) {
-        const Point& point = points_[shared.points[i]];
+    for (std::size_t i = 0; i < shared.setups.size(); ++i) {
+        const Setup& setup = setups_[shared.setups[i]];
         if (keeps_image(seed))
-            write_exr(image_file(scene.name(), point), {{{"", shared.run->images()[i]}}, {}});
+            write_exr(image_file(scene.name(), setup), {{{"", shared.run->images()[i]}}, {}});
         nlohmann::json measurements = nlohmann::json::array();
         for (const Measurement& m : shared.run->measurements()[i])
             measurements.push_back(nlohmann::json(to_json(m)));
-        journal_->record(key_of(scene, point, seed),
+        journal_->record(key_of(scene, setup, seed),
                          {{"program", program_identity()}, {"measurements", measurements}});
-        add(scene, shared.points[i], shared.run->measurements()[i]);
+        add(scene, shared.setups[i], shared.run->measurements()[i]);
     }
     ++finished_;
 }
 
-/// From the journal. False: it is not there, or its picture is not, or artefacts were not looked for.
-bool Experiment::recall(const MeasuredScene& scene, std::size_t point, std::uint64_t seed) {
-    const nlohmann::json known = journal_->find(key_of(scene, points_[point], seed));
+/// Takes measurements from the journal. False: they are not there, or the picture is not, or artefacts were not
+/// measured.
+bool Experiment::recall(const MeasuredScene& scene, std::size_t setup, std::uint64_t seed) {
+    const nlohmann::json known = journal_->find(key_of(scene, setups_[setup], seed));
     if (known.is_null() || (known.at("program") != program_identity() && !options_.takes_any_build) ||
-        (keeps_image(seed) && !std::filesystem::exists(image_file(scene.name(), points_[point]))))
+        (keeps_image(seed) && !std::filesystem::exists(image_file(scene.name(), setups_[setup]))))
         return false;
     std::vector<Measurement> measurements;
     for (const nlohmann::json& m : known.at("measurements")) {
         measurements.push_back(measurement_from_json(m));
-        if (options_.looks_for_artefacts && !measurements.back().artefacts)
+        if (options_.measures_artefacts && !measurements.back().artefacts)
             return false;
     }
-    add(scene, point, measurements);
+    add(scene, setup, measurements);
     return true;
 }
 
-void Experiment::add(const MeasuredScene& scene, std::size_t point, const std::vector<Measurement>& measurements) {
+void Experiment::add(const MeasuredScene& scene, std::size_t setup, const std::vector<Measurement>& measurements) {
     for (const Measurement& m : measurements) {
-        const std::array place{&scene - scenes_.data(), static_cast<std::ptrdiff_t>(point),
+        const std::array place{&scene - scenes_.data(), static_cast<std::ptrdiff_t>(setup),
                                static_cast<std::ptrdiff_t>(-m.halvings)};
-        const Result none{scene.name(), scene.source().file, points_[point], m.halvings, triangles_, {}};
+        const Result none{scene.name(), scene.source().file, setups_[setup], m.halvings, triangles_, {}};
         results_.try_emplace(place, none).first->second.runs.push_back(m);
     }
 }
@@ -187,25 +188,25 @@ bool Experiment::keeps_image(std::uint64_t seed) const {
     return options_.keeps_images && seed == options_.settings.render.seed;
 }
 
-std::filesystem::path Experiment::image_file(const std::string& scene, const Point& point) const {
-    std::string name = fmt::format("{}-{}", scene, name_of(point));
-    for (const std::string& value : point.values)
+std::filesystem::path Experiment::image_file(const std::string& scene, const Setup& setup) const {
+    std::string name = fmt::format("{}-{}", scene, name_of(setup));
+    for (const std::string& value : setup.values)
         name += "-" + value;
     return options_.output / "images" / (name + ".exr");
 }
 
-/// All that the figures depend on, but for the program.
-nlohmann::json Experiment::key_of(const MeasuredScene& scene, const Point& point, std::uint64_t seed) const {
-    RenderSettings settings = point.settings.render;
+/// All that the measurements depend on, but for the program.
+nlohmann::json Experiment::key_of(const MeasuredScene& scene, const Setup& setup, std::uint64_t seed) const {
+    RenderSettings settings = setup.settings.render;
     settings.seed = seed;
     return {{"scene", scene.name()},
             {"scene_checksums", to_string(scene_checksums_)},
-            {"settings", settings_json({}, settings, point.settings.size, 0, point.settings.reconstruction.alpha)},
-            {"recon", to_string(point.settings.reconstruction.norm)},
-            {"threads", point.settings.threads},
+            {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction.alpha)},
+            {"recon", to_string(setup.settings.reconstruction.norm)},
+            {"threads", setup.settings.threads},
             {"effort", to_string(options_.effort)},
             {"halvings", options_.halvings},
-            {"reference", checksum_of(scene.reference(point.settings))},
+            {"reference", checksum_of(scene.reference(setup.settings))},
             {"cpu", cpu_model()}};
 }
 

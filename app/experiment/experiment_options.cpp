@@ -31,7 +31,7 @@ void add_experiment(CLI::App& command, ExperimentWords& words, const char* of_ti
                                   options.settings.threads});
     command.get_option("--size")->description("WIDTHxHEIGHT of the images, pixels")->default_str("640x360");
     command.get_option("--max-depth")->default_str(std::to_string(options.settings.render.max_depth));
-    command.get_option("--seed")->description("of the first render of each point");
+    command.get_option("--seed")->description("of the first render of each setup");
     command
         .add_option("--vary", words.variations,
                     "SETTING=VALUE,VALUE,...: a setting and its values, such as tile=2,4,8, rr-delta=0.01,0.1,1, "
@@ -42,7 +42,7 @@ void add_experiment(CLI::App& command, ExperimentWords& words, const char* of_ti
     command.add_option("-m,--method,--methods", words.methods, "pt, pr, gpt, gpr or several: gpr,pr")
         ->capture_default_str();
     add_effort(command, words, of_time);
-    command.add_option("--seeds", options.seeds, "renders of each point, each with another seed")
+    command.add_option("--seeds", options.seeds, "renders of each setup, each with another seed")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command

@@ -12,18 +12,18 @@
 
 namespace tessera {
 
-MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Point>& points,
+MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Setup>& setups,
                              const std::filesystem::path& folder, const ReferenceRecipe& recipe)
     : source_(std::move(source)), name_(scene_name(source_)) {
     check_scene_file(source_.file);
-    for (const Point& point : points) {
-        const Key key = key_of(point.settings);
+    for (const Setup& setup : setups) {
+        const Key key = key_of(setup.settings);
         if (references_.count(key))
             continue;
-        ReferenceRecipe of_point = recipe;
-        of_point.size = point.settings.size;
-        of_point.settings.max_depth = point.settings.render.max_depth;
-        references_.emplace(key, FolderReference(folder, name_, of_point));
+        ReferenceRecipe of_setup = recipe;
+        of_setup.size = setup.settings.size;
+        of_setup.settings.max_depth = setup.settings.render.max_depth;
+        references_.emplace(key, FolderReference(folder, name_, of_setup));
     }
 }
 
@@ -68,7 +68,7 @@ void check_names(const std::vector<MeasuredScene>& scenes) {
 
 namespace {
 
-/// Empty where no tiles can show.
+/// The tiles' spectrum in the error; empty where no tiles can show.
 std::optional<TileSpectrum> tiles_of(const RgbImage& image, const RgbImage& reference, const RenderSettings& s) {
     const bool is_large = std::min(image.width(), image.height()) >= 4 * s.tile;
     if (!reuses_paths(s.method) || s.tile < 2 || !is_large)
@@ -79,12 +79,11 @@ std::optional<TileSpectrum> tiles_of(const RgbImage& image, const RgbImage& refe
 } // namespace
 
 MeasuredRun::MeasuredRun(Render render, const Effort& effort, int halvings,
-                         std::vector<ReconstructionSettings> reconstructions, bool looks_for_artefacts,
+                         std::vector<ReconstructionSettings> reconstructions, bool measures_artefacts,
                          const ReferenceImage& reference, ThreadPool& pool)
     : render_(std::move(render)), effort_(effort), next_halvings_(halvings),
-      reconstructions_(std::move(reconstructions)), looks_for_artefacts_(looks_for_artefacts),
-      reference_(reference), pool_(pool), measurements_(reconstructions_.size()),
-      images_(reconstructions_.size()) {}
+      reconstructions_(std::move(reconstructions)), measures_artefacts_(measures_artefacts), reference_(reference),
+      pool_(pool), measurements_(reconstructions_.size()), images_(reconstructions_.size()) {}
 
 double MeasuredRun::done() const {
     switch (effort_.unit) {
@@ -127,7 +126,7 @@ void MeasuredRun::measure(int halvings) {
                                     tiles_of(r.image, reference_.mean, render_.settings()),
                                     render_.counters(),
                                     {}});
-        if (looks_for_artefacts_)
+        if (measures_artefacts_)
             measurements_[i].back().artefacts =
                 measure_artefacts(r.image, reference_.halves[0], reference_.halves[1]);
         images_[i] = std::move(r.image);

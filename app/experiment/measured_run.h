@@ -1,15 +1,14 @@
 #pragma once
 
 #include "app/experiment/measurement.h"
-#include "app/experiment/point.h"
 #include "app/experiment/references.h"
+#include "app/experiment/setup.h"
 #include "recon/reconstruct.h"
 #include "render/run/reference_image.h"
 #include "render/run/render.h"
 
 #include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace tessera {
@@ -17,25 +16,25 @@ namespace tessera {
 /// A scene to measure on, and the references it needs.
 class MeasuredScene {
 public:
-    /// One reference for each size and depth of the points, in `folder`; those that are missing are made by the
+    /// One reference for each size and depth of the setups, in `folder`; those that are missing are made by the
     /// recipe, but for its size and depth. Throws BadInput for a file that is not there, and as FolderReference
     /// does.
-    MeasuredScene(SceneSource source, const std::vector<Point>& points, const std::filesystem::path& folder,
+    MeasuredScene(SceneSource source, const std::vector<Setup>& setups, const std::filesystem::path& folder,
                   const ReferenceRecipe& recipe);
 
-    /// scene_name of its source.
+    /// The scene_name of its source.
     const std::string& name() const { return name_; }
     const SceneSource& source() const { return source_; }
 
     /// Throws std::runtime_error where a missing reference cannot be written.
     void check_writable() const;
-    /// Throws BadInput where one of the seeds first, ..., first + count - 1 is a reference's.
+    /// Throws BadInput where one of the `count` seeds from `first` on is a reference's.
     void check_seeds(std::uint64_t first, int count) const;
     /// Renders what references are missing. False: Ctrl-C ended it.
     bool make_references(const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
 
     const ReferenceImage& reference(const PictureSettings& settings) const;
-    /// In the order of size and depth.
+    /// The references in the order of size and depth.
     std::vector<const FolderReference*> references() const;
 
 private:
@@ -53,19 +52,19 @@ void check_names(const std::vector<MeasuredScene>& scenes);
 /// A render that is measured on its way, with one or several reconstructions: measuring costs it no time.
 class MeasuredRun {
 public:
-    /// Is measured after effort / 2^halvings, ..., effort / 2, effort: at the first pass that is not before. Where
-    /// one pass is past several of these, only the last counts. Artefacts are looked for on demand. Keeps
+    /// Is measured after effort / 2^i for i from `halvings` down to 0: at the first pass that is not before. Where
+    /// one pass is past several of these, only the last counts. Artefacts are measured on demand. Keeps
     /// references to the reference and the pool.
     MeasuredRun(Render render, const Effort& effort, int halvings,
-                std::vector<ReconstructionSettings> reconstructions, bool looks_for_artefacts,
+                std::vector<ReconstructionSettings> reconstructions, bool measures_artefacts,
                 const ReferenceImage& reference, ThreadPool& pool);
 
     double done() const; ///< share of the effort; 1 and more: it is at its end
     bool is_done() const { return done() >= 1; }
-    /// One more pass, and measures when it is time to.
+    /// Makes one more pass, and measures when it is time to.
     void pass();
 
-    /// Of each reconstruction, in the order of time.
+    /// The measurements of each reconstruction, in the order of time.
     const std::vector<std::vector<Measurement>>& measurements() const { return measurements_; }
     /// The last picture measured, of each reconstruction.
     const std::vector<RgbImage>& images() const { return images_; }
@@ -78,7 +77,7 @@ private:
     Effort effort_;
     int next_halvings_; ///< of the measurement to come
     std::vector<ReconstructionSettings> reconstructions_;
-    bool looks_for_artefacts_;
+    bool measures_artefacts_;
     const ReferenceImage& reference_;
     ThreadPool& pool_;
     std::vector<std::vector<Measurement>> measurements_;

@@ -50,7 +50,7 @@ nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
             {"pieces", a->pieces}};
 }
 
-/// Also of journals from before there were any.
+/// The artefacts in the JSON; null where none were measured, or the journal is from before there were any.
 std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     if (json.is_null())
         return {};

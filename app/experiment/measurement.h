@@ -21,7 +21,7 @@ struct Effort {
     bool operator==(const Effort&) const = default;
 };
 
-/// "64 spp", "60 CPU s", "60 s".
+/// The effort with its unit: "64 spp", "60 CPU s", "60 s".
 std::string to_string(const Effort& effort);
 
 /// One picture and its errors. Times are of rendering and of this picture's reconstruction.
@@ -35,12 +35,12 @@ struct Measurement {
     FloorFreeError floor_free;
     std::optional<TileSpectrum> tiles; ///< of methods that share light within tiles of two pixels and more
     Counters counters;
-    std::optional<Artefacts> artefacts; ///< where they are looked for
+    std::optional<Artefacts> artefacts; ///< where they are measured
 };
 
-/// All that is above; figures that are not finite become null.
+/// The measurement as JSON; numbers that are not finite become null.
 nlohmann::ordered_json to_json(const Measurement& measurement);
-/// Throws nlohmann::json::exception where something is missing.
+/// What to_json wrote. Throws nlohmann::json::exception where something is missing.
 Measurement measurement_from_json(const nlohmann::json& json);
 
 } // namespace tessera

@@ -16,8 +16,8 @@ std::optional<ReferenceImage> render_reference(const std::filesystem::path& outp
 /// A reference in a folder of many: of one scene, in one size and to one depth.
 class FolderReference {
 public:
-    /// Its file is FOLDER/SCENE-WxH-dDEPTH.exr; what is there is read. Throws BadInput for a picture of another
-    /// size, std::runtime_error for a file that is no reference.
+    /// Reads the file reference_file() if it is there. Throws BadInput for a picture of another size,
+    /// std::runtime_error for a file that is no reference.
     FolderReference(const std::filesystem::path& folder, const std::string& scene_name, ReferenceRecipe recipe);
 
     bool is_complete() const { return image_.has_value(); }

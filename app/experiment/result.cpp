@@ -29,7 +29,7 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Adds to the file's end; on the disk when this returns.
+/// Adds the text to the file's end, where it is on the disk when this returns.
 void append(const std::filesystem::path& file, const std::string& text) {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     const bool written = descriptor >= 0 &&
@@ -54,7 +54,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
             entries_[to_text(line["key"])] = to_text(line["value"]);
     }
     append(file_, begin < text.size() ? "\n" : "");                            // the torn line ends here
-    write_through_folder(file_.has_parent_path() ? file_.parent_path() : "."); // in which it may be new
+    write_through_folder(file_.has_parent_path() ? file_.parent_path() : "."); // the file may be new in it
 }
 
 json Journal::find(const json& key) const {
@@ -98,7 +98,7 @@ double share(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : none;
 }
 
-const Figure figures[] = {
+const ResultColumn columns[] = {
     {"spp", spp_of},
     {"seeds", count},
     {"triangles", [](const Result& r) { return static_cast<double>(r.triangles); }},
@@ -141,13 +141,13 @@ const Figure figures[] = {
 
 } // namespace
 
-std::span<const Figure> all_figures() {
-    return figures;
+std::span<const ResultColumn> result_columns() {
+    return columns;
 }
 
-double figure(std::string_view id, const Result& result) {
-    const auto has_id = [&](const Figure& f) { return f.id == id; };
-    return std::find_if(std::begin(figures), std::end(figures), has_id)->value(result);
+double column_value(std::string_view id, const Result& result) {
+    const auto has_id = [&](const ResultColumn& c) { return c.id == id; };
+    return std::find_if(std::begin(columns), std::end(columns), has_id)->value(result);
 }
 
 double error_of(const Result& r) {
@@ -157,9 +157,9 @@ double error_deviation(const Result& r) {
     return deviation_of(of_runs(r, error));
 }
 double error_uncertainty(const Result& r) {
-    const double of_blocks = mean(r, [](const Measurement& run) { return run.floor_free.standard_error; });
+    const double of_pieces = mean(r, [](const Measurement& run) { return run.floor_free.standard_error; });
     const double of_seeds = error_deviation(r) / std::sqrt(count(r));
-    return of_seeds > of_blocks ? of_seeds : of_blocks; // of_seeds may be no number
+    return of_seeds > of_pieces ? of_seeds : of_pieces; // of_seeds may be no number
 }
 bool is_certain(const Result& r) {
     return error_of(r) > error_uncertainty(r);
@@ -171,7 +171,7 @@ double wall_seconds_of(const Result& r) {
     return mean(r, [](const Measurement& run) { return run.wall_seconds; });
 }
 double speed_of(const Result& r) {
-    const glm::ivec2 size = r.point.settings.size;
+    const glm::ivec2 size = r.setup.settings.size;
     return 1e-6 * size.x * size.y * spp_of(r) / wall_seconds_of(r);
 }
 double cpu_seconds_of(const Result& r) {

@@ -1,7 +1,9 @@
+// What an experiment knows: the journal of what is finished, and the results of its setups with what is worked out
+// from them.
 #pragma once
 
 #include "app/experiment/measurement.h"
-#include "app/experiment/point.h"
+#include "app/experiment/setup.h"
 
 #include <filesystem>
 #include <span>
@@ -23,7 +25,7 @@ public:
 
     /// What was last recorded under this key, which says all that it depends on; null: nothing was.
     nlohmann::json find(const nlohmann::json& key) const;
-    /// Is on the disk when this returns. Throws std::runtime_error that names the file.
+    /// Records a value, which is on the disk when this returns. Throws std::runtime_error that names the file.
     void record(const nlohmann::json& key, const nlohmann::json& value);
 
 private:
@@ -31,17 +33,17 @@ private:
     std::unordered_map<std::string, std::string> entries_; // values by their keys, both as text
 };
 
-/// What is known of one point on one scene after one share of its time or samples.
+/// What is known of one setup on one scene after one share of its time or samples.
 struct Result {
     std::string scene; ///< its name
     std::filesystem::path file;
-    Point point;
+    Setup setup;
     int halvings = 0;
     std::size_t triangles = 0;     ///< of the scene
     std::vector<Measurement> runs; ///< one a seed
 };
 
-/// What is found of each run, in their order.
+/// A value of each run, in their order.
 template <class Value>
 std::vector<double> of_runs(const Result& result, Value value) {
     std::vector<double> values;
@@ -50,22 +52,22 @@ std::vector<double> of_runs(const Result& result, Value value) {
     return values;
 }
 
-/// A figure of a result with at least one run; not a number where there is none.
-struct Figure {
-    std::string_view id; ///< column of a CSV file, field of a JSON file
-    double (*value)(const Result&);
+/// A column of tables of results: a CSV file's, and a field of a JSON file.
+struct ResultColumn {
+    std::string_view id;
+    double (*value)(const Result&); ///< of a result with at least one run; not a number where there is none
 };
 
-/// All figures, in the order of the columns.
-std::span<const Figure> all_figures();
-/// The value of the figure of that id, which must be one of them.
-double figure(std::string_view id, const Result& result);
+/// All columns, in their order.
+std::span<const ResultColumn> result_columns();
+/// The value in the column of that id, which must be one of them.
+double column_value(std::string_view id, const Result& result);
 
-// Means over the runs, and their standard deviations, which take two runs.
+// These are means over the runs, and their standard deviations, which take two runs.
 double error_of(const Result& result); ///< relMSE without the references' noise
 double error_deviation(const Result& result);
-/// Of the error: what is larger, one run's standard error, from how the picture's blocks differ (the references'
-/// noise is the same for all seeds), or that of the mean over the seeds.
+/// The uncertainty of the error, which is the larger of two standard errors: one run's, from how the picture's
+/// pieces differ (the references' noise is the same for all seeds), and that of the mean over the seeds.
 double error_uncertainty(const Result& result);
 /// Whether the error is above its uncertainty, and so can be told from nothing.
 bool is_certain(const Result& result);
@@ -73,12 +75,12 @@ double spp_of(const Result& result);
 double cpu_seconds_of(const Result& result);
 double cpu_seconds_deviation(const Result& result);
 double wall_seconds_of(const Result& result);
-/// 1 / (error x CPU seconds) [Bauszat 2017]; not a number where the error is not certain.
+/// The efficiency 1 / (error x CPU seconds) [Bauszat 2017]; not a number where the error is not certain.
 double efficiency_of(const Result& result);
-/// Millions of samples of pixels a wall second.
+/// The speed in millions of samples of pixels a wall second.
 double speed_of(const Result& result);
 
-// Shares of the base paths of all sampling sets, in [0, 1].
+// These are shares of the base paths of all sampling sets, in [0, 1].
 double reused_share(const Result& result);
 double skipped_share(const Result& result); ///< by the reuse roulette
 double dark_share(const Result& result);    ///< they carry nothing to reuse

@@ -102,15 +102,15 @@ double sigmas(double probability) {
 
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
     std::vector<SceneCurves> scenes;
-    const auto goes_on = [](const std::vector<Curve>& curves, const Point& point) {
-        return !curves.empty() && name_of(last_of(curves.back()).point) == name_of(point) &&
-               last_of(curves.back()).point.values == point.values;
+    const auto goes_on = [](const std::vector<Curve>& curves, const Setup& setup) {
+        return !curves.empty() && name_of(last_of(curves.back()).setup) == name_of(setup) &&
+               last_of(curves.back()).setup.values == setup.values;
     };
     for (const Result& result : results) {
         if (scenes.empty() || scenes.back().name != result.scene)
             scenes.push_back({result.scene, {}});
         std::vector<Curve>& curves = scenes.back().curves;
-        if (!goes_on(curves, result.point))
+        if (!goes_on(curves, result.setup))
             curves.emplace_back();
         curves.back().push_back(result);
     }
@@ -128,7 +128,7 @@ double slope_of(const Curve& curve) {
 const Curve* best_curve(const SceneCurves& scene, Method method) {
     const Curve* best = nullptr;
     for (const Curve& curve : scene.curves)
-        if (last_of(curve).point.settings.render.method == method &&
+        if (last_of(curve).setup.settings.render.method == method &&
             (!best || error_of(last_of(curve)) < error_of(last_of(*best))))
             best = &curve;
     return best;
@@ -181,7 +181,7 @@ double least_error(const std::vector<Place>& places) {
         ->log_error;
 }
 
-/// When the error was last passed on its way down; empty: it was below from the first.
+/// The time at which the error was last passed on its way down; empty: it was below from the first.
 std::optional<double> time_of(const std::vector<Place>& places, double log_error) {
     for (std::size_t i = places.size(); i-- > 1;) {
         const Place &before = places[i - 1], &after = places[i];
@@ -195,7 +195,7 @@ std::optional<double> time_of(const std::vector<Place>& places, double log_error
     return is_first ? std::optional(places.front().log_time) : std::nullopt;
 }
 
-/// Without confidence.
+/// The speed-up without its confidence.
 SpeedUp estimate(const Curve& slower, const Curve& faster) {
     const std::vector<Place> slow = places_of(slower), fast = places_of(faster);
     if (slow.empty() || fast.empty())

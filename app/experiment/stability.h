@@ -1,3 +1,4 @@
+// The stability suite: its scenes, and how it judges a setup on one of them by path tracing.
 #pragma once
 
 #include "app/cli/scene_source.h"
@@ -18,7 +19,7 @@ struct Deviation {
     double sigmas = 0; ///< how far from what is tolerated, as a normal variable would be; 0: within it
 };
 
-/// What the runs of a point say of it, with the same scene's PT for comparison.
+/// What the runs of a setup say of it, with the same scene's PT for comparison.
 struct Findings {
     std::size_t bad_pixels = 0; ///< not finite, in all runs together
     std::size_t refused = 0;    ///< samples that were not finite, and left out
@@ -46,7 +47,7 @@ struct Verdict {
     std::string cause; ///< empty for ok; of what is worse, what of it is cost, and where shifts fail
 };
 
-/// Both results must have runs with artefacts.
+/// Finds it. Both results must have runs with artefacts.
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference);
 
 /// `path_tracing`: what was found of PT on the same scene. Where that looks biased to references that are made by
@@ -72,10 +73,11 @@ struct StabilityScene {
     StabilityNeeds needs;
 };
 
-/// Of each file the scene, or one for each value where it has <!-- vary: NAME = VALUE, VALUE, ... -->. What is
-/// known to fail is in <!-- fails: ... -->, what it needs for that in <!-- needs: ... -->: "100000 spp, 3 seeds,
-/// 16x16 pixels", any of these. Throws BadInput that names a file that is not there, where a variable has no
-/// values, or where a need is none of these; and as load_mitsuba_xml does: all are read once.
+/// The scenes of these files: one of each file, or one for each value where it has <!-- vary: NAME = VALUE, VALUE
+/// -->, with any number of values. What is known to fail is in <!-- fails: REASON -->, what it needs for that in
+/// <!-- needs: NEEDS -->: "100000 spp, 3 seeds, 16x16 pixels", any of these. Throws BadInput that names a file
+/// that is not there, where a variable has no values, or where a need is none of these; and as load_mitsuba_xml
+/// does: all are read once.
 std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
 /// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at

@@ -22,7 +22,7 @@ std::string trimmed(const std::string& text) {
     return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// As one line.
+/// The text as one line.
 std::string folded(const std::string& text) {
     std::istringstream words(text);
     std::string line;
@@ -56,7 +56,7 @@ std::vector<SceneVariables> variants_of(const std::string& text, const fs::path&
     return variants;
 }
 
-/// "100000 spp, 3 seeds, 16x16 pixels".
+/// What a text such as "100000 spp, 3 seeds, 16x16 pixels" says.
 StabilityNeeds needs_of(const std::string& text, const fs::path& file) {
     StabilityNeeds needs;
     std::istringstream list(text);
@@ -82,7 +82,8 @@ StabilityNeeds needs_of(const std::string& text, const fs::path& file) {
     return needs;
 }
 
-/// Of this folder, or the nearest that it lies in.
+/// The stability scenes' folder in this one, or in the nearest one that it lies in and that has some; empty: there
+/// is none.
 std::optional<fs::path> stability_folder(const fs::path& from) {
     for (fs::path folder = from;; folder = folder.parent_path()) {
         if (fs::is_directory(folder / "assets/stability"))

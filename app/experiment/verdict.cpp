@@ -19,8 +19,8 @@ double count_of(const Numbers& values) {
     return static_cast<double>(values.size());
 }
 
-/// In standard deviations of a normal variable, what `excess` is over its standard error, with so many degrees of
-/// freedom. What should not vary at all, and does not, deviates by any excess; where it is not known how far it
+/// What `excess` is over its standard error, with so many degrees of freedom, in standard deviations of a normal
+/// variable. What should not vary at all, and does not, deviates by any excess; where it is not known how far it
 /// varies (one piece), none is significant.
 double significance(double excess, double error, double freedom) {
     if (!(excess > 0) || std::isnan(error))
@@ -36,13 +36,13 @@ struct Tolerance {
     double energy, pieces;
 };
 
-Tolerance tolerance_of(const Point& point) {
+Tolerance tolerance_of(const Setup& setup) {
     constexpr Tolerance linear{1e-4, 1e-4}, smoothing{0.02, 0.1};
-    return is_linear(point.settings.reconstruction.norm) ? linear : smoothing;
+    return is_linear(setup.settings.reconstruction.norm) ? linear : smoothing;
 }
 
-/// Of the pieces' biases. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the squared
-/// bias, without any noise: all four are independent. Pieces tell its standard error.
+/// The squared bias of the pieces. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the
+/// squared bias, without any noise: all four are independent. Pieces tell its standard error.
 Deviation squared_bias_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
     const auto runs = static_cast<double>(result.runs.size());
     Numbers products;
@@ -62,8 +62,9 @@ Deviation squared_bias_of(const Result& result, const ReferenceNoise& reference,
     return bias;
 }
 
-/// By how the seeds differ, and by how the pieces do: rare light that the runs happened to miss makes seeds alike
-/// but pieces differ, noise over many pieces the other way round. What is significant is so to both.
+/// How far the energy is off, by how the seeds differ, and by how the pieces do: rare light that the runs happened
+/// to miss makes seeds alike but pieces differ, noise over many pieces the other way round. What is significant is
+/// so to both.
 Deviation energy_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
     const Numbers means = of_runs(result, [](const Measurement& m) { return m.artefacts->mean; });
     Numbers pieces;
@@ -94,7 +95,7 @@ void find_spikes(const Result& result, Findings& f) {
             share += error;
     }
     std::sort(worst.begin(), worst.end(), std::greater<>());
-    const glm::ivec2 size = result.point.settings.size;
+    const glm::ivec2 size = result.setup.settings.size;
     const double pixels = static_cast<double>(size.x) * size.y * static_cast<double>(result.runs.size());
     const auto rank = static_cast<std::size_t>(1e-4 * pixels);
     f.spike = std::sqrt(worst[std::min(rank, worst.size() - 1)]);
@@ -188,7 +189,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
         if (run.tiles)
             edges.push_back(run.tiles->edges);
     }
-    const Tolerance tolerance = tolerance_of(result.point);
+    const Tolerance tolerance = tolerance_of(result.setup);
     f.cost = cost_of_sample(result) / cost_of_sample(path_tracing);
     f.error = mean_of(errors);
     f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);

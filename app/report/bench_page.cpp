@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// [RFC 4648, 4]
+/// The bytes in base 64 [RFC 4648, 4].
 std::string base64(const std::vector<char>& bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -82,7 +82,7 @@ std::string speed_up_section(const std::vector<SceneCurves>& scenes) {
            "</table>\n<p class=\"note\">CPU seconds of the one method over those of G-PR to come to the same "
            "relMSE, the least that both come to, each with the reconstruction that has the least error at the "
            "end; interpolated on the log-log curves, never extrapolated. In brackets: 95 % confidence from "
-           "the seeds. “At least”: G-PR was below that error when it was first looked at.</p>\n";
+           "the seeds. “At least”: G-PR was below that error when it was first measured.</p>\n";
 }
 
 std::string figures_table(const ExperimentOptions& options, const SceneCurves& scene) {
@@ -95,7 +95,7 @@ std::string figures_table(const ExperimentOptions& options, const SceneCurves& s
                             escaped(curve_label(options, curve)), spp_of(r), number(cpu_seconds_of(r)),
                             number(wall_seconds_of(r)), error_text(r), number(error_deviation(r)),
                             number(slope_of(curve)), number(efficiency_of(r)),
-                            number(figure("tile_edge_spectrum", r)));
+                            number(column_value("tile_edge_spectrum", r)));
     }
     return html + "</table>\n";
 }
@@ -175,38 +175,6 @@ std::string bench_page(const Experiment& experiment, const std::vector<SceneCurv
     for (const SceneCurves& scene : scenes)
         html += scene_section(experiment, scene);
     return html + settings_section(experiment) + "</body></html>\n";
-}
-
-namespace {
-
-bool is_gpr(const Curve& curve) {
-    return last_of(curve).point.settings.render.method == Method::gpr;
-}
-
-std::string cell(double value) {
-    return std::isfinite(value) ? fmt::format("{:.5g}", value) : "";
-}
-
-std::string_view kind_name(SpeedUp::Kind kind) {
-    constexpr std::string_view names[] = {"out of range", "measured", "at least", "at most"};
-    return names[static_cast<int>(kind)];
-}
-
-} // namespace
-
-std::string speed_up_csv(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes) {
-    std::string text = "scene,slower,faster,kind,speed_up,low_95,high_95,relmse\n";
-    for (const SceneCurves& scene : scenes)
-        for (const Curve& slower : scene.curves)
-            for (const Curve& faster : scene.curves) {
-                if (is_gpr(slower) || !is_gpr(faster))
-                    continue;
-                const SpeedUp s = speed_up(slower, faster);
-                text += fmt::format("{},\"{}\",\"{}\",{},{},{},{},{}\n", scene.name, curve_label(options, slower),
-                                    curve_label(options, faster), kind_name(s.kind), cell(s.factor), cell(s.low),
-                                    cell(s.high), cell(s.error));
-            }
-    return text;
 }
 
 } // namespace tessera

@@ -38,8 +38,8 @@ ChartPlot plot_of(const ExperimentOptions& options, const SceneCurves& scene, co
 std::string curve_label(const ExperimentOptions& options, const Curve& curve) {
     const Result& result = last_of(curve);
     std::string label = line_label(options, result);
-    if (!options.variations.empty() && !result.point.values.front().empty())
-        label += fmt::format(", {} {}", options.variations.front().variable.id, result.point.values.front());
+    if (!options.variations.empty() && !result.setup.values.front().empty())
+        label += fmt::format(", {} {}", options.variations.front().variable.id, result.setup.values.front());
     return label;
 }
 
@@ -61,7 +61,7 @@ Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCu
         for (const SceneCurves& scene : scenes)
             if (const Curve* curve = best_curve(scene, method)) {
                 const Result& r = last_of(*curve);
-                const glm::ivec2 size = r.point.settings.size;
+                const glm::ivec2 size = r.setup.settings.size;
                 const double samples = 1e-6 * size.x * size.y * spp_of(r);
                 series.points.push_back({static_cast<double>(r.triangles), samples / cpu_seconds_of(r), 0});
             }
@@ -142,20 +142,21 @@ ChartSeries& series_named(std::vector<ChartSeries>& all, const std::string& labe
     return all.emplace_back(ChartSeries{label, {}, false});
 }
 
-template <typename Point>
+/// `point_of(x, result)` is the point of a result.
+template <typename PointOf>
 ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& results, const std::string& y_label,
-                  Point point) {
+                  PointOf point_of) {
     const Abscissa x = abscissa_of(options);
     ChartPlot plot{x.label, y_label, x.scale, ChartAxis::Scale::log, {}, {}};
     if (x.has_names)
         plot.x_names = x.values;
     for (const Result& result : results) {
         const std::string value = options.variations.empty()
-                                      ? std::string(short_name(result.point.settings.render.method))
-                                      : result.point.values.front();
+                                      ? std::string(short_name(result.setup.settings.render.method))
+                                      : result.setup.values.front();
         ChartSeries& series = series_named(plot.series, line_label(options, result));
         series.is_level = value.empty();
-        series.points.push_back(point(x.at(value), result));
+        series.points.push_back(point_of(x.at(value), result));
     }
     return plot;
 }

@@ -137,13 +137,13 @@ std::string figures_of(const Result& result, std::uint64_t seed) {
     return "";
 }
 
-/// Those that are there, of this size.
+/// The pictures that are there, of the reference's size.
 std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves& scene,
                                  const RgbImage& reference) {
     std::vector<Picture> pictures;
     for (const Curve& curve : scene.curves) {
         const Result& result = last_of(curve);
-        const std::filesystem::path file = experiment.image_file(scene.name, result.point);
+        const std::filesystem::path file = experiment.image_file(scene.name, result.setup);
         if (!std::filesystem::exists(file))
             continue;
         const ExrFile exr = read_exr(file);
@@ -159,7 +159,7 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
 const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurves& scene) {
     for (const MeasuredScene& measured : experiment.scenes())
         if (measured.name() == scene.name)
-            return &measured.reference(last_of(scene.curves.front()).point.settings);
+            return &measured.reference(last_of(scene.curves.front()).setup.settings);
     return nullptr;
 }
 
@@ -176,7 +176,7 @@ std::string overview(const RgbImage& reference, float exposure, const std::vecto
     return html + "</svg></div>\n";
 }
 
-std::string figure(const RgbImage& image, float exposure, const std::string& caption) {
+std::string captioned(const RgbImage& image, float exposure, const std::string& caption) {
     constexpr int shown = 200; // pixels of the page
     return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
                        inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)),
@@ -206,9 +206,9 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     html += overview(truth, exposure, rects);
     for (PixelRect rect : rects) {
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
-        html += figure(crop(truth, rect), exposure, "<b>reference</b>");
+        html += captioned(crop(truth, rect), exposure, "<b>reference</b>");
         for (const Picture& picture : pictures)
-            html += figure(crop(picture.image, rect), exposure, picture.caption);
+            html += captioned(crop(picture.image, rect), exposure, picture.caption);
         html += "</div>\n";
     }
     return html;

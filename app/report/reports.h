@@ -1,3 +1,4 @@
+// What experiments write: pictures, charts, files of results, pages, and the report of the stability suite.
 #pragma once
 
 #include "app/experiment/experiment.h"
@@ -13,9 +14,12 @@
 
 namespace tessera {
 
+// Pictures.
+
 /// <img> of the image as PNG, times 2^exposure, in the page itself. `attributes` are as HTML has them.
 std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes);
 
+/// A picture with its name, in plain ASCII.
 struct LabelledPicture {
     std::string label;
     RgbImage image;
@@ -25,9 +29,8 @@ struct LabelledPicture {
 /// All must be of one size; there must be one.
 RgbImage picture_sheet(const std::vector<LabelledPicture>& pictures, int columns);
 
-/// HTML: the reference of a scene with the crops marked, and these crops of the reference and of every picture of
-/// the first seed. Empty where there is no picture, or none of the reference's size.
-std::string crops_section(const Experiment& experiment, const SceneCurves& scene);
+/// The part of the image in the rectangle, which must lie in it.
+RgbImage crop(const RgbImage& image, PixelRect rect);
 
 /// Up to `count` squares of the image that do not overlap, where the pictures err most, all of them together: of
 /// the squares of that edge the one with the largest sum of relative squared errors, in which no pixel counts for
@@ -35,16 +38,24 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
 std::vector<PixelRect> choose_crops(const RgbImage& reference, const std::vector<const RgbImage*>& pictures,
                                     int edge, int count);
 
-/// That part of the image, which must lie in it.
-RgbImage crop(const RgbImage& image, PixelRect rect);
+/// HTML: the reference of a scene with the crops marked, and these crops of the reference and of every picture of
+/// the first seed. Empty where there is no picture, or none of the reference's size.
+std::string crops_section(const Experiment& experiment, const SceneCurves& scene);
 
 /// The exposure, for write_png, that brings nine tenths of the pixels to below 0.8.
 float usual_exposure(const RgbImage& image);
 
-/// One HTML page that needs no other file: speed-up at equal error, then for every scene its chart, its figures
-/// and crops of the pictures at equal time, and at the end settings and machine. Pictures and references that
-/// cannot be read are left out.
-std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes);
+// Charts, and what their lines are called.
+
+/// The line of a chart that a result is on: "gpr", "gpr l1, roulette absolute". It says what tells the result from
+/// others with the same value of the first variation.
+std::string line_label(const ExperimentOptions& options, const Result& result);
+
+/// What a chart calls the curve: "gpr l2, tile 4".
+std::string curve_label(const ExperimentOptions& options, const Curve& curve);
+
+/// What a result's time or number of samples was to be.
+Effort effort_of(const ExperimentOptions& options, const Result& result);
 
 /// Error against CPU seconds and against samples, a line for each curve, with the spread over the seeds as bars
 /// (the uncertainty for one seed) and the slope in the key. Errors that are not certain are left out.
@@ -54,44 +65,46 @@ Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene);
 /// drawing for two scenes and more.
 Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes);
 
-/// "gpr l2, tile 4".
-std::string curve_label(const ExperimentOptions& options, const Curve& curve);
-
 /// Error, efficiency and speed of one scene's results against the first variation (or the method, if nothing is
 /// varied): a line for every method and value of the second.
 Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results);
 
-/// A line for each result: scene, method, reconstruction, what is varied, the share of time or samples, and all
-/// figures; an empty cell where there is none.
+// Files of results, and the page of `tessera bench`.
+
+/// The results as CSV, a line for each: scene, method, reconstruction, what is varied, the share of time or
+/// samples, and all columns of result.h; an empty cell where there is no value.
 std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& results);
 
-/// The same, with the machine, all settings and every single run.
+/// The results as JSON, with the machine, all settings and every single run.
 std::string to_json(const ExperimentOptions& options, const std::vector<Result>& results);
 
-/// What a result's time or number of samples was to be.
-Effort effort_of(const ExperimentOptions& options, const Result& result);
-
-/// "gpr", "gpr l1, roulette absolute": the line of a chart that a result is on, which says what tells it from
-/// others with the same value of the first variation.
-std::string line_label(const ExperimentOptions& options, const Result& result);
-
-/// A line for each pair of curves of a scene of which the first is not of G-PR and the second is.
+/// CSV with a line for each pair of curves of a scene of which the first is not of G-PR and the second is.
 std::string speed_up_csv(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes);
 
-/// What the suite says of one point on one scene.
+/// One HTML page that needs no other file: speed-up at equal error, then for every scene its chart, its figures
+/// and crops of the pictures at equal time, and at the end settings and machine. Pictures and references that
+/// cannot be read are left out.
+std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes);
+
+/// Writes sweep.csv, sweep.json, sweep.md, and a chart of each scene, sweep-SCENE.svg, to the sweep's folder.
+void write_sweep(const ExperimentOptions& options, const std::vector<Result>& results);
+
+// The stability suite.
+
+/// What the suite says of one setup on one scene.
 struct OverviewCell {
-    std::string scene, point; ///< their names
+    std::string scene, setup; ///< their names
     Verdict::Kind verdict = Verdict::Kind::ok;
     double factor = 0; ///< as in Findings
 };
 
-/// A table in Markdown: a line a scene, a column a point, each in the order in which they come: the ratio of
-/// errors, or what is wrong. Empty where there is no such cell. Scenes link to their anchors.
-std::string overview(const std::vector<OverviewCell>& cells);
-
 /// What leads to a scene's section, to stand before its heading: headings have anchors of their own, but without
 /// the dots of a name.
 std::string anchor(const std::string& scene);
+
+/// A table in Markdown: a line a scene, a column a setup, each in the order in which they come: the ratio of
+/// errors, or what is wrong. Empty where there is no such cell. Scenes link to their anchors.
+std::string overview(const std::vector<OverviewCell>& cells);
 
 /// A scene of the suite and what is rendered of it.
 struct StabilityCase {
@@ -102,14 +115,11 @@ struct StabilityCase {
     const std::string& name() const { return experiment->scenes().front().name(); }
 };
 
-/// Writes stability.md and stability.csv on the scenes that have two runs and more of each point, to the folder of
+/// Writes stability.md and stability.csv on the scenes that have two runs and more of each setup, to the folder of
 /// the suite's options.
 void write_stability(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases);
 
-/// Writes SCENE.png: the reference, and the pictures of the first seed with the names of their points.
+/// Writes SCENE.png: the reference, and the pictures of the first seed with the names of their setups.
 void write_sheet(const ExperimentOptions& suite, const StabilityCase& of);
-
-/// Writes sweep.csv, sweep.json, sweep.md, and a chart of each scene, sweep-SCENE.svg, to the sweep's folder.
-void write_sweep(const ExperimentOptions& options, const std::vector<Result>& results);
 
 } // namespace tessera

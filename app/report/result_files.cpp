@@ -1,5 +1,4 @@
 #include "app/cli/machine.h"
-#include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
 #include "render/io/json_text.h"
@@ -30,7 +29,7 @@ ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-/// As a number where it is one; null where it makes no difference.
+/// The value as a number where it is one; null where it makes no difference.
 ordered_json value_json(const Variation& variation, const std::string& value) {
     if (value.empty())
         return nullptr;
@@ -41,21 +40,34 @@ ordered_json value_json(const Variation& variation, const std::string& value) {
 }
 
 ordered_json result_json(const ExperimentOptions& options, const Result& result) {
-    const PictureSettings& s = result.point.settings;
+    const PictureSettings& s = result.setup.settings;
     const SceneSource source{result.file, {}, {}};
     ordered_json row{{"scene", result.scene},
                      {"method", short_name(s.render.method)},
                      {"recon", to_string(s.reconstruction.norm)}};
     for (std::size_t i = 0; i < options.variations.size(); ++i)
-        row[options.variations[i].variable.id] = value_json(options.variations[i], result.point.values[i]);
+        row[options.variations[i].variable.id] = value_json(options.variations[i], result.setup.values[i]);
     row["effort"] = to_string(effort_of(options, result));
-    for (const Figure& figure : all_figures())
-        row[std::string(figure.id)] = number(figure.value(result));
+    for (const ResultColumn& column : result_columns())
+        row[std::string(column.id)] = number(column.value(result));
     row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction.alpha);
     row["runs"] = ordered_json::array();
     for (const Measurement& run : result.runs)
         row["runs"].push_back(to_json(run));
     return row;
+}
+
+bool is_gpr(const Curve& curve) {
+    return last_of(curve).setup.settings.render.method == Method::gpr;
+}
+
+std::string cell(double value) {
+    return std::isfinite(value) ? fmt::format("{:.5g}", value) : "";
+}
+
+std::string_view kind_name(SpeedUp::Kind kind) {
+    constexpr std::string_view names[] = {"out of range", "measured", "at least", "at most"};
+    return names[static_cast<int>(kind)];
 }
 
 } // namespace
@@ -65,16 +77,16 @@ std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& 
     for (const Variation& variation : options.variations)
         text += fmt::format(",{}", variation.variable.id);
     text += ",effort";
-    for (const Figure& figure : all_figures())
-        text += fmt::format(",{}", figure.id);
+    for (const ResultColumn& column : result_columns())
+        text += fmt::format(",{}", column.id);
     for (const Result& result : results) {
-        text += fmt::format("\n{},{},{}", csv_cell(result.scene), short_name(result.point.settings.render.method),
-                            to_string(result.point.settings.reconstruction.norm));
-        for (const std::string& value : result.point.values)
+        text += fmt::format("\n{},{},{}", csv_cell(result.scene), short_name(result.setup.settings.render.method),
+                            to_string(result.setup.settings.reconstruction.norm));
+        for (const std::string& value : result.setup.values)
             text += "," + csv_cell(value);
         text += "," + to_string(effort_of(options, result));
-        for (const Figure& figure : all_figures()) {
-            const double value = figure.value(result);
+        for (const ResultColumn& column : result_columns()) {
+            const double value = column.value(result);
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
         }
     }
@@ -109,14 +121,29 @@ Effort effort_of(const ExperimentOptions& options, const Result& result) {
 }
 
 std::string line_label(const ExperimentOptions& options, const Result& result) {
-    const PictureSettings& s = result.point.settings;
+    const PictureSettings& s = result.setup.settings;
     std::string label(short_name(s.render.method));
     if (options.norms.size() > 1 && has_gradients(s.render.method))
         label += fmt::format(" {}", to_string(s.reconstruction.norm));
     for (std::size_t i = 1; i < options.variations.size(); ++i)
-        if (!result.point.values[i].empty())
-            label += fmt::format(", {} {}", options.variations[i].variable.id, result.point.values[i]);
+        if (!result.setup.values[i].empty())
+            label += fmt::format(", {} {}", options.variations[i].variable.id, result.setup.values[i]);
     return label;
+}
+
+std::string speed_up_csv(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes) {
+    std::string text = "scene,slower,faster,kind,speed_up,low_95,high_95,relmse\n";
+    for (const SceneCurves& scene : scenes)
+        for (const Curve& slower : scene.curves)
+            for (const Curve& faster : scene.curves) {
+                if (is_gpr(slower) || !is_gpr(faster))
+                    continue;
+                const SpeedUp s = speed_up(slower, faster);
+                text += fmt::format("{},\"{}\",\"{}\",{},{},{},{},{}\n", scene.name, curve_label(options, slower),
+                                    curve_label(options, faster), kind_name(s.kind), cell(s.factor), cell(s.low),
+                                    cell(s.high), cell(s.error));
+            }
+    return text;
 }
 
 } // namespace tessera

@@ -15,7 +15,7 @@ namespace tessera {
 
 namespace {
 
-/// Each once, in the order in which they come.
+/// The names in the cells, each once, in the order in which they come.
 std::vector<std::string> names(const std::vector<OverviewCell>& cells, std::string OverviewCell::*member) {
     std::vector<std::string> names;
     for (const OverviewCell& cell : cells)
@@ -36,18 +36,18 @@ std::string text_of(const OverviewCell& cell) {
 } // namespace
 
 std::string overview(const std::vector<OverviewCell>& cells) {
-    const std::vector<std::string> points = names(cells, &OverviewCell::point);
+    const std::vector<std::string> setups = names(cells, &OverviewCell::setup);
     std::string text = "| scene |", rule = "| --- |";
-    for (const std::string& point : points) {
-        text += fmt::format(" {} |", point);
+    for (const std::string& setup : setups) {
+        text += fmt::format(" {} |", setup);
         rule += " --- |";
     }
     text += "\n" + rule + "\n";
     for (const std::string& scene : names(cells, &OverviewCell::scene)) {
         text += fmt::format("| [{0}](#{0}) |", scene);
-        for (const std::string& point : points) {
+        for (const std::string& setup : setups) {
             const auto cell = std::find_if(cells.begin(), cells.end(), [&](const OverviewCell& c) {
-                return c.scene == scene && c.point == point;
+                return c.scene == scene && c.setup == setup;
             });
             text += cell == cells.end() ? " |" : fmt::format(" {} |", text_of(*cell));
         }
@@ -62,7 +62,7 @@ std::string anchor(const std::string& scene) {
 
 namespace {
 
-/// What was found of one point on one scene.
+/// What was found of one setup on one scene.
 struct Row {
     const StabilityCase* of;
     Result result;
@@ -75,18 +75,18 @@ const ReferenceImage& reference_of(const StabilityCase& c) {
 }
 
 /// The suite is to call a mean wrong that is not once in a hundred times, all its tests together [Bonferroni]:
-/// energy and bias of each point.
+/// energy and bias of each setup.
 double level_of(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases) {
-    const auto points = points_of(suite.settings, suite.methods, suite.norms, suite.variations).size();
-    return 0.01 / static_cast<double>(2 * points * cases.size());
+    const auto setups = setups_of(suite.settings, suite.methods, suite.norms, suite.variations).size();
+    return 0.01 / static_cast<double>(2 * setups * cases.size());
 }
 
-/// None before there are two runs of PT, and of points that have none yet.
+/// The rows of a case; there are none before there are two runs of PT, and for setups that have none yet.
 std::vector<Row> rows_of(const StabilityCase& c, double level) {
     std::vector<Result> results = c.experiment->results();
     std::erase_if(results, [](const Result& r) { return r.runs.size() < 2; });
     const auto pt = std::find_if(results.begin(), results.end(),
-                                 [](const Result& r) { return r.point.settings.render.method == Method::pt; });
+                                 [](const Result& r) { return r.setup.settings.render.method == Method::pt; });
     if (pt == results.end())
         return {};
     const ReferenceImage& reference = reference_of(c);
@@ -108,7 +108,7 @@ std::vector<Row> rows_of(const std::vector<StabilityCase>& cases, double level) 
     return all;
 }
 
-/// Brighter by that factor, and in pixels twice as large.
+/// The image brighter by that factor, and in pixels twice as large.
 RgbImage shown(const RgbImage& image, float factor) {
     RgbImage large(2 * image.width(), 2 * image.height());
     for (int y = 0; y < large.height(); ++y)
@@ -125,7 +125,7 @@ std::string percent(const Deviation& d) {
     return fmt::format("{:+.2f} ± {:.2f}", 100 * d.value, 100 * d.error);
 }
 
-/// Of a squared one; what is below nothing is noise.
+/// The cell of a squared deviation; what is below nothing is noise.
 std::string bias_cell(const Deviation& d) {
     return fmt::format("{:.2f} (< {:.2f})", 100 * std::sqrt(std::max(0.0, d.value)),
                        100 * std::sqrt(std::max(0.0, d.value + 2 * d.error)));
@@ -144,7 +144,7 @@ std::string csv(const std::vector<Row>& rows) {
         "refused_samples\n";
     for (const Row& row : rows) {
         const Findings& f = row.findings;
-        const PictureSettings& s = row.result.point.settings;
+        const PictureSettings& s = row.result.setup.settings;
         text += fmt::format("{},{},{},{},\"{}\",{}", row.of->name(), short_name(s.render.method),
                             to_string(s.reconstruction.norm), to_string(row.verdict.kind), row.verdict.cause,
                             row.result.runs.size());
@@ -177,7 +177,7 @@ std::string csv(const std::vector<Row>& rows) {
 std::vector<OverviewCell> cells_of(const std::vector<Row>& rows) {
     std::vector<OverviewCell> cells;
     for (const Row& row : rows)
-        cells.push_back({row.of->name(), name_of(row.result.point), row.verdict.kind, row.findings.factor});
+        cells.push_back({row.of->name(), name_of(row.result.setup), row.verdict.kind, row.findings.factor});
     return cells;
 }
 
@@ -191,7 +191,7 @@ std::string table(const std::vector<Row>& rows) {
         text += fmt::format(
             "| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {} | {:.3g} ± "
             "{:.1g} | {:.4g} |\n",
-            name_of(row.result.point), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high),
+            name_of(row.result.setup), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high),
             percent(f.energy), bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x, f.worst_pixel.y,
             100 * f.worst_share, cell(f.tile_edges), f.error, f.error_error, spp_of(row.result));
     }
@@ -259,10 +259,10 @@ void write_sheet(const ExperimentOptions& suite, const StabilityCase& c) {
     const float exposure = usual_exposure(reference);
     std::vector<LabelledPicture> pictures = {{"reference", reference}};
     for (const Result& result : results) {
-        const std::filesystem::path file = c.experiment->image_file(c.name(), result.point);
+        const std::filesystem::path file = c.experiment->image_file(c.name(), result.setup);
         if (std::filesystem::exists(file)) {
             const ExrFile exr = read_exr(file);
-            pictures.push_back({name_of(result.point), require_layer(exr, "", file)});
+            pictures.push_back({name_of(result.setup), require_layer(exr, "", file)});
         }
     }
     for (LabelledPicture& picture : pictures)

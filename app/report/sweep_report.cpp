@@ -33,7 +33,7 @@ std::string rule(std::size_t columns, std::size_t left) {
     return text + "\n";
 }
 
-/// Error, time and efficiency by value.
+/// A table of error, time and efficiency by value.
 std::string error_table(const ExperimentOptions& options, const Results& results) {
     std::string text = "| scene | method |";
     for (const Variation& variation : options.variations)
@@ -41,8 +41,8 @@ std::string error_table(const ExperimentOptions& options, const Results& results
     text += " spp | relMSE | uncertainty | deviation | CPU s | deviation | efficiency |\n";
     text += rule(9 + options.variations.size(), 2);
     for (const Result& r : results) {
-        text += fmt::format("| {} | {} |", r.scene, name_of(r.point));
-        for (const std::string& value : r.point.values)
+        text += fmt::format("| {} | {} |", r.scene, name_of(r.setup));
+        for (const std::string& value : r.setup.values)
             text += fmt::format(" {} |", value_cell(value));
         text += fmt::format(" {} | {} | {} | {} | {} | {} | {} |\n", cell(spp_of(r)), error_cell(r),
                             cell(error_uncertainty(r)), cell(error_deviation(r)), cell(cpu_seconds_of(r)),
@@ -52,7 +52,7 @@ std::string error_table(const ExperimentOptions& options, const Results& results
 }
 
 std::string first_value(const Result& result) {
-    return result.point.values.empty() ? "" : result.point.values.front();
+    return result.setup.values.empty() ? "" : result.setup.values.front();
 }
 
 std::string percent(double share) {
@@ -98,7 +98,7 @@ bool has_tiles(const Result& r) {
     return std::any_of(r.runs.begin(), r.runs.end(), [](const Measurement& m) { return m.tiles.has_value(); });
 }
 
-/// How much the grid of tiles shows in the error.
+/// A table of how much the grid of tiles shows in the error.
 std::string tile_table(const ExperimentOptions& options, const Results& results) {
     std::string text = "| scene | method |";
     for (const Variation& variation : options.variations)
@@ -107,11 +107,11 @@ std::string tile_table(const ExperimentOptions& options, const Results& results)
     for (const Result& r : results) {
         if (!has_tiles(r))
             continue;
-        text += fmt::format("| {} | {} |", r.scene, name_of(r.point));
-        for (const std::string& value : r.point.values)
+        text += fmt::format("| {} | {} |", r.scene, name_of(r.setup));
+        for (const std::string& value : r.setup.values)
             text += fmt::format(" {} |", value_cell(value));
         for (const char* id : {"tile_error_spectrum", "tile_edge_spectrum", "tile_edge_ratio"})
-            text += fmt::format(" {} |", cell(figure(id, r)));
+            text += fmt::format(" {} |", cell(column_value(id, r)));
         text += "\n";
     }
     return text;
@@ -123,7 +123,7 @@ std::string markdown(const ExperimentOptions& options, const Results& results) {
         "# Sweep\n\n"
         "{}x{} pixels, {}, {} seed{}.\n\n"
         "## Error, time and efficiency\n\n"
-        "relMSE without the references' noise, with its uncertainty (of one render, from how its blocks differ, "
+        "relMSE without the references' noise, with its uncertainty (of one render, from how its pieces differ, "
         "or "
         "of the mean over the seeds, if that is larger), CPU seconds of rendering and reconstruction, means over "
         "the seeds and their standard deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"

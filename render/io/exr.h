@@ -32,7 +32,8 @@ const RgbImage& require_layer(const ExrFile& file, const std::string& name, cons
 /// Writes to a temporary name beside `path` and renames it. Throws std::runtime_error that names the file.
 void write_exr(const std::filesystem::path& path, const ExrFile& file);
 
-/// Is told now and then which share of a file is read, [0, 1]; false: it is wanted no more.
+/// A watch of a file that is read: it is told now and then which share is done, [0, 1], and says whether to go on.
+/// False: the file is wanted no more.
 using ReadWatch = std::function<bool(float share)>;
 
 /// Reads every layer with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part),

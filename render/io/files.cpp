@@ -117,8 +117,8 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::commit() {
-    // On the disk before it takes the old one's place: else a power cut could leave neither. A full or broken disk
-    // may say so only now.
+    // The file is to be on the disk before it takes the old one's place: else a power cut could leave neither. A
+    // full or broken disk may say so only now.
     if (const int error = write_through(temporary_))
         throw std::filesystem::filesystem_error("cannot be written", final_, {error, std::generic_category()});
     std::filesystem::rename(temporary_, final_);

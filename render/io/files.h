@@ -1,9 +1,9 @@
+// Files as a whole: they are read at once, and written so that there is never half a one.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <string>
 #include <string>
 
 namespace tessera {

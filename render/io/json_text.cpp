@@ -26,7 +26,7 @@ public:
         return std::min(text_.find_first_not_of(" \t\r\n", at), text_.size());
     }
 
-    /// After the value that begins here.
+    /// The place after the value that begins at `at`.
     std::size_t skip_value(std::size_t at) const {
         if (text_[at] == '"')
             return skip_string(at);
@@ -44,7 +44,7 @@ public:
         return at;
     }
 
-    /// Where the member or element of that name begins, of the value that begins here; npos: there is none.
+    /// Where the member or element of that name begins in the value that begins at `at`; npos: there is none.
     std::size_t find(std::size_t at, std::string_view name) const {
         const bool is_object = text_[at] == '{';
         if (!is_object && text_[at] != '[')

@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// As text, on one line, or with `indent` blanks a level. What is not UTF-8, as names of files may be, becomes
-/// U+FFFD: the library's own dump() throws.
+/// The value as text, on one line, or with `indent` blanks a level. What is not UTF-8, as names of files may be,
+/// becomes U+FFFD: the library's own dump() throws.
 std::string to_text(const nlohmann::json& value, int indent = -1);
 std::string to_text(const nlohmann::ordered_json& value, int indent = -1);
 
@@ -32,10 +32,10 @@ public:
     /// The value at a path alone, all else made blank: places in it are those in the whole.
     std::string only(std::string_view path) const;
 
-    /// Its line and column.
+    /// The line and column of place_of(path).
     FilePosition position_of(std::string_view path) const;
 
-    /// Throws LoadError there. npos: at no place.
+    /// Throws LoadError that points at this byte; npos: at no place in the text.
     [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
 
 private:

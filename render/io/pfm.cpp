@@ -1,7 +1,7 @@
 #include "render/io/pfm.h"
 
-#include "render/io/text.h"
 #include "render/io/files.h"
+#include "render/io/text.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view white_space = " \t\r\n";
 
-struct Header {
+struct PfmHeader {
     int width, height;
     int channels; ///< 3 or 1
     bool is_little_endian;
@@ -42,7 +42,7 @@ double take_number(std::string_view& bytes, const std::string& name) {
     return *number;
 }
 
-/// In pixels; what is no size of an image gets its message from check_image_size.
+/// Reads a width or height, in pixels; what is no size of an image gets its message from check_image_size.
 std::int64_t take_length(std::string_view& bytes, const std::string& name) {
     const double number = take_number(bytes, name);
     if (std::trunc(number) != number)
@@ -51,7 +51,7 @@ std::int64_t take_length(std::string_view& bytes, const std::string& name) {
 }
 
 /// Takes the header from the bytes, so that the pixels are left.
-Header take_header(std::string_view& bytes) {
+PfmHeader take_header(std::string_view& bytes) {
     const std::size_t file_bytes = bytes.size();
     if (!bytes.starts_with("PF") && !bytes.starts_with("Pf"))
         throw std::runtime_error("it is not a PFM file, which begins with PF or Pf");
@@ -79,7 +79,7 @@ float read_float(const char* bytes, bool is_little_endian) {
 } // namespace
 
 RgbImage parse_pfm(std::string_view bytes) {
-    const Header header = take_header(bytes);
+    const PfmHeader header = take_header(bytes);
     const std::size_t pixel_bytes = sizeof(float) * static_cast<std::size_t>(header.channels);
     const std::size_t expected =
         pixel_bytes * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);

@@ -12,7 +12,7 @@ namespace tessera {
 /// alone has a meaning to all programs. Throws std::runtime_error that names the file.
 RgbImage read_pfm(const std::filesystem::path& path);
 
-/// The same for the bytes of a file; the error names none.
+/// Reads the bytes of such a file; the error names none.
 RgbImage parse_pfm(std::string_view bytes);
 
 } // namespace tessera

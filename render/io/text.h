@@ -1,3 +1,4 @@
+// The text of files: places in it, what is said of them, its encoding, and numbers.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,6 @@
 #include "render/load/bsdf_readers.h"
 #include "render/load/plugins.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 

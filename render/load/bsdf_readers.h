@@ -3,11 +3,9 @@
 #include "render/load/load_context.h"
 #include "render/load/properties.h"
 
-#include <vector>
-
 namespace tessera {
 
-// One reader for each plugin <bsdf type="...">. They name nothing: that is left to read_bsdf(). All throw
+// There is one reader for each plugin <bsdf type="...">. They name nothing: that is left to read_bsdf(). All throw
 // LoadError.
 Material read_diffuse(LoadContext& context, Properties& p);
 Material read_rough_diffuse(LoadContext& context, Properties& p);

@@ -15,6 +15,30 @@ const char* diffuse_name(const Properties& p) {
     return p.has("diffuse_reflectance") && !p.has("reflectance") ? "diffuse_reflectance" : "reflectance";
 }
 
+ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
+    ConductorMaterial conductor;
+    const ComplexIndex index = metal_parameter(context, p);
+    conductor.eta = index.eta;
+    conductor.k = index.k;
+    conductor.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    return conductor;
+}
+
+/// What plastic and roughplastic share, a coating of roughness `alpha`.
+Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
+    PlasticMaterial plastic;
+    plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
+    plastic.nonlinear = p.boolean("nonlinear", false);
+    plastic.facets = facets;
+    auto& coating = context.coatings[{plastic.eta, facets.distribution, facets.alpha}];
+    if (!coating)
+        coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+    plastic.coating = coating;
+    plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
+    plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
+    return {{}, plastic};
+}
+
 } // namespace
 
 Material read_diffuse(LoadContext& context, Properties& p) {
@@ -57,19 +81,6 @@ Material read_thin_dielectric(LoadContext& context, Properties& p) {
     return material;
 }
 
-namespace {
-
-ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
-    ConductorMaterial conductor;
-    const ComplexIndex index = metal_parameter(context, p);
-    conductor.eta = index.eta;
-    conductor.k = index.k;
-    conductor.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
-    return conductor;
-}
-
-} // namespace
-
 Material read_conductor(LoadContext& context, Properties& p) {
     return {{}, smooth_part(context, p)};
 }
@@ -81,25 +92,6 @@ Material read_rough_conductor(LoadContext& context, Properties& p) {
     p.ignore({"sample_visible"}); // visible normals are always sampled
     return {{}, conductor};
 }
-
-namespace {
-
-/// What plastic and roughplastic share, a coating of roughness `alpha`.
-Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
-    PlasticMaterial plastic;
-    plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
-    plastic.nonlinear = p.boolean("nonlinear", false);
-    plastic.facets = facets;
-    auto& coating = context.coatings[{plastic.eta, facets.distribution, facets.alpha}];
-    if (!coating)
-        coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
-    plastic.coating = coating;
-    plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
-    plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
-    return {{}, plastic};
-}
-
-} // namespace
 
 Material read_plastic(LoadContext& context, Properties& p) {
     return plastic_of(context, p, {MicrofacetDistribution::beckmann, 0});

@@ -23,7 +23,7 @@ Rgb hexadecimal(const XmlElement& element, const std::string& text) {
     return Rgb(value >> 16, value >> 8 & 0xff, value & 0xff) / 255.0f;
 }
 
-/// One number or three, or "#rrggbb".
+/// A colour given as one number or three, or as "#rrggbb".
 Rgb triple(const XmlElement& element) {
     if (element.tag() == "float" || element.tag() == "integer")
         return Rgb(element.number("value"));
@@ -100,7 +100,7 @@ Rgb color_of_arrays(Properties& p) {
     return color_of_samples(p.element(), samples);
 }
 
-/// <spectrum type="..."> of Mitsuba 3.
+/// The colour of a plugin <spectrum type="..."> of Mitsuba 3.
 Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes) {
     Properties p(element, notes);
     Rgb color = fallback;

@@ -22,7 +22,7 @@ namespace tessera {
 /// are only read.
 class FileSearch {
 public:
-    /// Null: a scene in memory, which has no files.
+    /// `scene` is where files are named; null: a scene in memory, which has no files.
     explicit FileSearch(const XmlDocument* scene = nullptr) : scene_(scene) {}
 
     /// The path to the file that an element's attribute names. Throws LoadError when there is none.

@@ -92,7 +92,8 @@ bool has_old_syntax(const XmlElement& root, std::vector<LoadNote>& notes) {
     return *major < 2;
 }
 
-/// By place, each once: what is referred to twice is read twice. Included files come after what includes them.
+/// Orders notes by place, and drops repeated ones: what is referred to twice is read twice. Included files come
+/// after what includes them.
 void order_notes(std::vector<LoadNote>& notes, const std::vector<const XmlDocument*>& documents) {
     const auto number_of = [&](const std::string& file) {
         const auto is_it = [&](const XmlDocument* document) { return document->name() == file; };
@@ -115,10 +116,10 @@ void note_encodings(const std::vector<const XmlDocument*>& documents, std::vecto
 }
 
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
-                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* watched) {
+                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* told) {
     const Stopwatch parsing;
-    LoadProgress unwatched;
-    LoadProgress& progress = watched ? *watched : unwatched;
+    LoadProgress nobodys;
+    LoadProgress& progress = told ? *told : nobodys;
     progress.begin(LoadProgress::Stage::xml);
     LoadContext context;
     XmlDocument document(std::move(text), name, std::move(folder));

@@ -29,7 +29,7 @@ using SceneVariables = std::map<std::string, std::string>;
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables = {},
                              const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
-/// The same for a scene in memory, which has no files beside it; `name` stands in messages.
+/// Reads a scene in memory, which has no files beside it; `name` stands in messages.
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables = {},
                               const ParallelFor& parallel_for = serial_for, LoadProgress* progress = nullptr);
 
@@ -40,7 +40,7 @@ struct SceneSource {
     std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
 };
 
-/// The name to show for it.
+/// The name to show for a scene: the path of its file, or that it is the built-in one.
 std::string to_string(const SceneSource& source);
 
 /// A name for files that are made of it: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the

@@ -1,3 +1,4 @@
+// What the loader makes of each element of a scene, from its materials to its camera.
 #pragma once
 
 #include "render/load/load_context.h"
@@ -15,7 +16,7 @@ struct Plugin {
     Function read;
 };
 
-/// Null: there is no such plugin.
+/// The row of that type; null: there is no such plugin.
 template <class Function, std::size_t count>
 const Plugin<Function>* find_plugin(const Plugin<Function> (&table)[count], std::string_view type) {
     for (const Plugin<Function>& plugin : table)
@@ -57,7 +58,8 @@ std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties&
 /// A parameter that is a colour, a texture or a reference to a texture.
 Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
 
-/// The same for a share of light: a constant above 1 is cut, with a note; one below 0 throws LoadError.
+/// Such a parameter that is a share of light: a constant above 1 is cut, with a note; one below 0 throws
+/// LoadError.
 Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
 
 /// Stands for what this program does not know, so that it meets the eye.

@@ -1,3 +1,4 @@
+// The parameters of a plugin, and what their values mean: colours, transforms, spectra and indices of refraction.
 #pragma once
 
 #include "recon/image.h"
@@ -17,8 +18,8 @@
 
 namespace tessera {
 
-/// A plugin's element (<bsdf type="...">, <shape type="...">, ...) with its parameters. Remembers which were asked
-/// for: the others end as notes, so that nothing in a file is passed over in silence.
+/// A plugin's element, such as <bsdf type="...">, with its parameters. Remembers which were asked for: the others
+/// end as notes, so that nothing in a file is passed over in silence.
 ///
 /// Parameters are asked for in the spelling of Mitsuba 3; "intIOR" of 0.6 answers to "int_ior". All readers return
 /// the fallback when the parameter is absent and throw LoadError when it has another type or a bad value.
@@ -88,7 +89,8 @@ glm::mat4 read_transform(const XmlElement& transform);
 /// The rotation (and mirroring) nearest to a transform, by Gram and Schmidt; empty: the transform is flat.
 std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
 
-/// The same as read_transform() for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of 16.
+/// The product of a <transform>'s steps for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of
+/// 16. Throws LoadError.
 glm::mat3 read_uv_transform(const XmlElement& transform);
 
 /// A <point> or <vector>: value="x y z", or attributes x, y and z, 0 where one is left out. Throws LoadError.
@@ -99,11 +101,12 @@ glm::vec3 read_point(const XmlElement& point);
 /// are cut at 0. A single sample stands for a constant.
 Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples);
 
-/// Linear sRGB of the radiance of a black body, W / (m^2 sr nm) weighted by the CIE's curves, as Mitsuba has it;
-/// kelvin > 0. White is D65.
+/// Linear sRGB of the radiance of a black body, W / (m^2 sr nm) weighted by the CIE's matching functions, as
+/// Mitsuba has it; kelvin > 0. White is D65.
 Rgb rgb_of_black_body(double kelvin);
 
-/// Index of refraction of a transparent material by its usual name ("bk7", "water", ...), in any case.
+/// The index of refraction of a transparent material by its usual name, such as "bk7" or "water", in any case;
+/// empty: the name is not known.
 std::optional<float> refraction_index(std::string_view name);
 
 /// A metal's complex index of refraction against vacuum, for red, green and blue.
@@ -112,7 +115,8 @@ struct ComplexIndex {
     Rgb k;
 };
 
-/// By chemical symbol ("Au", "Cu", ...) as in Mitsuba; "none" is a mirror that reflects all.
+/// The index of a metal by its chemical symbol, such as "Au", as in Mitsuba; "none" is a mirror that reflects all.
+/// Empty: the name is not known.
 std::optional<ComplexIndex> metal_index(std::string_view name);
 
 } // namespace tessera

@@ -58,7 +58,8 @@ private:
         }
     }
 
-    /// As in Mitsuba, where $spp_high means "$spp" followed by "_high" if there is only spp.
+    /// The name that a "$" stands before, as in Mitsuba, where $spp_high means "$spp" followed by "_high" if there
+    /// is only spp.
     std::string longest_known_name(std::string_view text, const XmlElement& element, const char* attribute) const {
         const auto end = std::find_if_not(text.begin(), text.end(), is_name_character);
         const std::string whole(text.begin(), end);

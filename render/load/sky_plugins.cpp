@@ -97,7 +97,7 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
                                      day.to_world};
 }
 
-/// Where the disk stands, in the world.
+/// The direction of the sun's disk, in the world.
 glm::vec3 disk_direction(const Daylight& day) {
     const float zenith_angle = day.stretch * (pi / 2 - day.elevation());
     const glm::vec3 along(day.sun.x, 0, day.sun.z);

@@ -29,7 +29,7 @@ glm::dvec3 matching_functions(double nm) {
             lobe(nm, 1.217, 437.0, 11.8, 36.0) + lobe(nm, 0.681, 459.0, 26.0, 13.8)};
 }
 
-/// From X, Y and Z to linear sRGB [IEC 61966-2-1].
+/// Takes X, Y and Z to linear sRGB [IEC 61966-2-1].
 glm::dvec3 rgb_of_xyz(glm::dvec3 xyz) {
     const glm::dmat3 columns(3.240970, -0.969244, 0.055630, -1.537383, 1.875968, -0.203977, -0.498611, 0.041555,
                              1.056972);
@@ -88,7 +88,7 @@ struct Dielectric {
     float index;
 };
 
-// At 589 nm and room temperature [Hecht, Optics].
+// Indices are those at 589 nm and room temperature [Hecht, Optics].
 constexpr Dielectric dielectrics[] = {
     {"vacuum", 1.0f},
     {"helium", 1.000036f},

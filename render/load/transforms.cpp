@@ -1,11 +1,9 @@
 #include "render/load/properties.h"
 
 #include <cmath>
-#include <functional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace tessera {

@@ -69,15 +69,15 @@ public:
     const XmlDocument& document() const { return *document_; }
     std::string_view tag() const { return node_.name(); }
     bool has(const char* attribute) const { return !node_.attribute(attribute).empty(); }
-    /// Empty when there is no such attribute.
+    /// The value of an attribute; empty when there is none of that name.
     std::string attribute(const char* name) const { return node_.attribute(name).value(); }
-    /// Throws LoadError when there is no such attribute.
+    /// The value of an attribute. Throws LoadError when there is none of that name.
     std::string required(const char* name) const;
-    /// In order of the file; in the place of an <include> what it stands for: the elements in its <scene>, or its
-    /// root.
+    /// The elements in this one, in order of the file; in the place of an <include> what it stands for: the
+    /// elements in its <scene>, or its root.
     std::vector<XmlElement> children() const;
 
-    /// Of the element, or of an attribute's value.
+    /// The place of the element, or of an attribute's value.
     FilePosition position(const char* attribute = nullptr) const { return document_->position(node_, attribute); }
     LoadError error(const std::string& text, const char* attribute = nullptr) const;
     [[noreturn]] void fail(const std::string& text, const char* attribute = nullptr) const {
@@ -88,7 +88,7 @@ public:
     float number(const char* name) const;
     std::vector<float> numbers(const char* name) const;
 
-    /// The same for all handles of an element.
+    /// A key of the element, which is equal for all handles of it.
     const void* key() const { return node_.internal_object(); }
 
 private:

@@ -1,9 +1,9 @@
+// Meshes from files, their way into a scene, and shapes made of triangles.
 #pragma once
 
 #include "render/surface/mesh.h"
 
 #include <filesystem>
-#include <fstream>
 #include <istream>
 #include <string>
 #include <string_view>
@@ -25,8 +25,8 @@ struct PlyColors {
 };
 
 /// Stanford PLY, text or binary of either byte order: vertices with x y z, nx ny nz, u v (or s t, or texture_u
-/// texture_v), red green blue (or r g b, or diffuse_red ...) and faces; polygons become fans, other elements and
-/// properties are passed over. Errors as above.
+/// texture_v), red green blue (or r g b, or the same with diffuse_ before them) and faces; polygons become fans,
+/// other elements and properties are passed over. Throws as read_obj does.
 Mesh read_ply(const std::filesystem::path& file, PlyColors colors = {});
 Mesh parse_ply(std::string_view bytes, PlyColors colors = {});
 
@@ -53,29 +53,30 @@ struct MeshPlacement {
 /// std::runtime_error when a position is not finite.
 std::string place_mesh(Mesh& mesh, const MeshPlacement& placement);
 
-/// The same for a shape made of flat faces, whose order of corners follows to_world: what was outside stays
-/// outside under a mirror image.
+/// Moves a shape made of flat faces, whose order of corners follows to_world: what was outside stays outside under
+/// a mirror image.
 void place_flat_mesh(Mesh& mesh, const MeshPlacement& placement);
 
 /// Smooth normals, the faces weighted by their angles [Thuermer and Wuethrich 1998]. A vertex without a face of
 /// positive area gets +z.
 void compute_normals(Mesh& mesh);
 
-/// [-1, 1]^2 in the plane z = 0, its front toward +z, with uv from 0 to 1.
+/// The square [-1, 1]^2 in the plane z = 0, its front toward +z, with uv from 0 to 1.
 Mesh make_rectangle();
 
-/// [-1, 1]^3, seen from outside, with uv from 0 to 1 on every face as Mitsuba lays it.
+/// The cube [-1, 1]^3, seen from outside, with uv from 0 to 1 on every face as Mitsuba lays it.
 Mesh make_cube();
 
 // Round shapes as triangles, with the exact normals and Mitsuba's uv at the vertices. Each has its shape's exact
 // area (to float precision): the vertices stand a little outside of it, the middles of the triangles a little
 // inside.
 
-/// Radius 1 about the origin, seen from outside; u = phi / 2 pi about +z, v = theta / pi from +z. No point of it
-/// is further than 2e-4 from the sphere.
+/// A sphere of radius 1 about the origin, seen from outside; u = phi / 2 pi about +z, v = theta / pi from +z. No
+/// point of it is further than 2e-4 from the exact one.
 Mesh make_sphere();
 
-/// Radius 1 about the origin in the plane z = 0, its front toward +z, without normals; u = radius, v = phi / 2 pi.
+/// A disk of radius 1 about the origin in the plane z = 0, its front toward +z, without normals; u = radius, v =
+/// phi / 2 pi.
 Mesh make_disk();
 
 /// The side of a cylinder of radius 1 about the z axis from z = 0 to 1, seen from outside and open at both ends;

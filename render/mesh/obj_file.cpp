@@ -115,18 +115,18 @@ public:
         // What is no longer needed goes before the next array comes.
         release(first_of_);
         mesh_.positions.reserve(vertices_.size());
-        for (const Vertex& v : vertices_)
+        for (const ObjVertex& v : vertices_)
             mesh_.positions.push_back(positions_[v.position]);
         release(positions_);
         if (!normals_.empty()) {
             mesh_.normals.reserve(vertices_.size());
-            for (const Vertex& v : vertices_)
+            for (const ObjVertex& v : vertices_)
                 mesh_.normals.push_back(v.normal == none ? glm::vec3(0) : normals_[v.normal]);
             release(normals_);
         }
         if (!uvs_.empty()) {
             mesh_.uvs.reserve(vertices_.size());
-            for (const Vertex& v : vertices_)
+            for (const ObjVertex& v : vertices_)
                 mesh_.uvs.push_back(v.uv == none ? glm::vec2(0) : uvs_[v.uv]);
         }
         mesh_.triangles.shrink_to_fit();
@@ -136,7 +136,7 @@ public:
 private:
     static constexpr unsigned none = ~0u;
 
-    struct Vertex {
+    struct ObjVertex {
         unsigned position, uv, normal;
         unsigned next; // another vertex at the same position
     };
@@ -180,7 +180,7 @@ private:
     std::vector<glm::vec3> positions_;
     std::vector<glm::vec3> normals_;
     std::vector<glm::vec2> uvs_;
-    std::vector<Vertex> vertices_;
+    std::vector<ObjVertex> vertices_;
     std::vector<unsigned> first_of_; // by position, an index of vertices_
     std::size_t faces_ = 0;
     Mesh mesh_;

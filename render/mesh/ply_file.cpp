@@ -217,7 +217,7 @@ private:
         return static_cast<std::uint32_t>(index);
     }
 
-    /// At the end, as faces may stand before the vertices.
+    /// Is called at the end, as faces may stand before the vertices.
     void check_indices() const {
         for (const glm::uvec3& t : mesh_.triangles)
             for (int i = 0; i < 3; ++i)

@@ -140,6 +140,8 @@ private:
     PlyHeader header_;
 };
 
+constexpr std::size_t longest_word = 4096; // bytes; a longer one is no number
+
 } // namespace
 
 std::size_t size_of(PlyType type) {
@@ -163,12 +165,6 @@ std::size_t size_of(PlyType type) {
 PlyHeader parse_ply_header(std::string_view bytes) {
     return HeaderParser(bytes).parse();
 }
-
-namespace {
-
-constexpr std::size_t longest_word = 4096; // bytes; a longer one is no number
-
-} // namespace
 
 template <class T>
 T PlyValues::next_binary() {

@@ -12,7 +12,7 @@ namespace tessera {
 enum class PlyFormat : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a value in the binary formats.
+/// How many bytes a value has in the binary formats.
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
@@ -34,7 +34,7 @@ struct PlyHeader {
     std::size_t size = 0; ///< bytes, up to the first value
 };
 
-/// Throws std::runtime_error with the line.
+/// Reads the header at the beginning of the bytes. Throws std::runtime_error with the line.
 PlyHeader parse_ply_header(std::string_view bytes);
 
 /// The values after the header of a PLY file, one after another, as text or as bytes of either order.
@@ -43,10 +43,10 @@ public:
     PlyValues(ByteWindow& bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
 
     bool is_text() const { return format_ == PlyFormat::ascii; }
-    /// Bytes to come.
+    /// How many bytes are still to come.
     std::uint64_t left() const { return bytes_.left(); }
 
-    /// Throws std::runtime_error when there is none, or what is there is no number.
+    /// Takes one value. Throws std::runtime_error when there is none, or what is there is no number.
     double next(PlyType type);
 
 private:

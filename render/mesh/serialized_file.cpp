@@ -1,5 +1,5 @@
-#include "render/io/files.h"
 #include "render/io/byte_stream.h"
+#include "render/io/files.h"
 #include "render/mesh/meshes.h"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ Mesh make_rectangle() {
 }
 
 Mesh make_cube() {
-    // Of each face the corner at uv (0, 1), and the ways from there along u and against v.
+    // A face by its corner at uv (0, 1), and the ways from there along u and against v.
     struct Face {
         glm::vec3 corner, along_u, against_v;
     };

@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 /// The file: this, the identity, the state. Read by the program that wrote it, on the machine that wrote it.
-struct Header {
+struct CheckpointHeader {
     char magic[8] = {'T', 'S', 'S', 'R', 'C', 'K', 'P', '1'};
     std::uint64_t identity_bytes = 0;
     std::uint64_t state_bytes = 0;
@@ -31,7 +31,7 @@ void write(std::ofstream& out, std::span<const std::byte> bytes) {
 } // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const Memory& memory) {
-    Header header;
+    CheckpointHeader header;
     header.identity_bytes = identity.size();
     std::uint32_t sum = checksum(bytes_of(identity));
     for (std::span<const std::byte> piece : memory) {
@@ -54,9 +54,9 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const auto fail = [&](const char* why) { throw std::runtime_error(path.string() + ": " + why); };
     std::ifstream in(path, std::ios::binary);
-    Header header;
+    CheckpointHeader header;
     if (!in || !in.read(reinterpret_cast<char*>(&header), sizeof header) ||
-        std::memcmp(header.magic, Header().magic, sizeof header.magic) != 0)
+        std::memcmp(header.magic, CheckpointHeader().magic, sizeof header.magic) != 0)
         fail("is not a checkpoint");
     // Sizes are looked at before memory is asked for.
     const std::uint64_t rest = std::filesystem::file_size(path) - sizeof header;

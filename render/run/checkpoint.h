@@ -17,7 +17,7 @@ struct Checkpoint {
 /// the file.
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const Memory& memory);
 
-/// Throws std::runtime_error that names the file where it is no checkpoint, or damaged.
+/// Reads a checkpoint. Throws std::runtime_error that names the file where it is none, or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 /// Whether the memory has the size that it had when the checkpoint was written.

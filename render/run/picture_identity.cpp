@@ -28,26 +28,6 @@ json value_json(const Setting& setting, const RenderSettings& s) {
     return setting.text(s);
 }
 
-} // namespace
-
-json settings_json(const SceneSource& scene, const RenderSettings& s, glm::ivec2 size, int spp, float alpha) {
-    json settings{{"version", TESSERA_VERSION},
-                  {"scene", to_string(scene)},
-                  {"variables", scene.variables},
-                  {"camera", scene.camera.string()},
-                  {"method", short_name(s.method)},
-                  {"width", size.x},
-                  {"height", size.y},
-                  {"spp", spp},
-                  {"alpha", alpha},
-                  {"seed", s.seed}};
-    for (const Setting& setting : all_settings())
-        settings[std::string(setting.id)] = value_json(setting, s);
-    return settings;
-}
-
-namespace {
-
 std::uint32_t checksum_of(const RgbImage& image, std::uint32_t before) {
     return checksum(std::as_bytes(std::span(image.data(), image.size())), before);
 }
@@ -71,6 +51,22 @@ std::uint32_t checksum_of_samples(const PictureSubject& subject, const RenderSet
 }
 
 } // namespace
+
+json settings_json(const SceneSource& scene, const RenderSettings& s, glm::ivec2 size, int spp, float alpha) {
+    json settings{{"version", TESSERA_VERSION},
+                  {"scene", to_string(scene)},
+                  {"variables", scene.variables},
+                  {"camera", scene.camera.string()},
+                  {"method", short_name(s.method)},
+                  {"width", size.x},
+                  {"height", size.y},
+                  {"spp", spp},
+                  {"alpha", alpha},
+                  {"seed", s.seed}};
+    for (const Setting& setting : all_settings())
+        settings[std::string(setting.id)] = value_json(setting, s);
+    return settings;
+}
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
                              ThreadPool& pool) {

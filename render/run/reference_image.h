@@ -20,21 +20,21 @@ struct ReferenceImage {
     std::array<RgbImage, 2> halves;
     std::array<std::uint64_t, 2> seeds;       ///< of the halves: no picture to be measured may have one of them
     std::string settings;                     ///< JSON: how it was made
-    std::string camera = {};                  ///< JSON: from where (render/load/camera_file.h)
+    std::string camera = {};                  ///< JSON: from where (render/scene/camera.h)
     std::optional<SceneChecksums> scene = {}; ///< what it shows; empty: its file does not say
 };
 
-/// Of the mean.
+/// How far the mean is from the truth, by what the halves differ.
 FloorFreeError error_of(const ReferenceImage& reference);
 
-/// Of the mean, in each pixel and channel: ((h1 - h2) / 2)^2 [radiance^2], which is unbiased where the halves are
-/// independent, but has one degree of freedom: look at it blurred, or its mean.
+/// The variance of the mean, in each pixel and channel: ((h1 - h2) / 2)^2 [radiance^2], which is unbiased where
+/// the halves are independent, but has one degree of freedom: it says something only when blurred, or as a mean.
 RgbImage variance_of(const ReferenceImage& reference);
 
 /// The mean of two images of one size.
 RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 
-/// Of the halves' pixels.
+/// A checksum of the halves' pixels.
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
 /// An EXR file: the mean as plain RGB, the layers half1, half2 and variance (see above), and in its header the
@@ -44,7 +44,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
 /// Whether the file is one of these. Throws std::runtime_error that names a file that is no EXR.
 bool is_reference(const std::filesystem::path& path);
 
-/// Throws std::runtime_error that names the file if it is none that write_reference wrote.
+/// Reads what write_reference wrote. Throws std::runtime_error that names the file if it is anything else.
 ReferenceImage read_reference(const std::filesystem::path& path);
 
 /// What the header of a picture says that it shows; empty: it does not, as those of other programs.

@@ -53,10 +53,10 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
         resume();
 }
 
-bool ReferenceRender::run(const Watch& go_on) {
+bool ReferenceRender::run(const Watch& watch) {
     auto last = Clock::now();
     while (!is_complete()) {
-        if (!go_on(*this)) {
+        if (!watch(*this)) {
             write();
             return false;
         }

@@ -29,7 +29,7 @@ struct ReferenceRecipe {
     double checkpoint_seconds = 60;                          ///< wall time between checkpoints
 };
 
-/// FOLDER/SCENE-WxH-dDEPTH.exr, where references of a scene lie.
+/// The file of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
                                      glm::ivec2 size, int depth);
 
@@ -45,23 +45,23 @@ public:
     ReferenceRender(std::filesystem::path output, PictureSubject subject, const ReferenceRecipe& recipe,
                     ThreadPool& pool);
 
-    /// Is asked before each pass whether to go on.
+    /// A watch of a reference: it is shown the render before each pass, and says whether to go on.
     using Watch = std::function<bool(const ReferenceRender&)>;
 
-    /// Until it is complete, or `go_on` says no; then after a last checkpoint. True: it is complete.
-    bool run(const Watch& go_on);
+    /// Renders until it is complete, or `watch` says no; then writes a last checkpoint. True: it is complete.
+    bool run(const Watch& watch);
 
     int spp() const { return halves_[0].spp() + halves_[1].spp(); } ///< of both halves
     int spp_wanted() const { return recipe_.spp; }
     int spp_resumed() const { return spp_resumed_; }                          ///< those of the checkpoint
     double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time of passes since
     double seconds_left() const;                                              ///< infinite before the first pass
-    /// That of the mean, were it to be complete now; both halves need a sample. Costs two reconstructions.
+    /// The error of the mean, were it to be complete now; both halves need a sample. Costs two reconstructions.
     FloorFreeError error_so_far() const;
-    /// As they are so far.
+    /// The two renders as they are so far.
     const std::array<Render, 2>& halves() const { return halves_; }
 
-    /// Once it is complete: writes it, and only then takes the checkpoint away. Nothing may follow.
+    /// Writes the reference once it is complete, and only then takes the checkpoint away. Nothing may follow.
     ReferenceImage finish();
 
 private:

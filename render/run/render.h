@@ -28,9 +28,10 @@ public:
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Camera& camera() const { return camera_; }
     glm::ivec2 size() const { return size_; }
+    /// Means of the passes so far.
     GradientImages images() const { return with_patch(film_.means(spp_)); }
-    /// The same, and gives up what the render has summed, reuse_maps() with it: no pass may follow. Times and
-    /// counts stay.
+    /// What images() returns, giving up all that the render has summed, reuse_maps() with it: no pass may follow.
+    /// Times and counts stay.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
     /// What the newest pass knew of where tiles are to be cut.

@@ -36,7 +36,7 @@ struct ThreadPool::Loop {
     std::stop_token stop;
     std::atomic<int> next{0};
     int workers_inside = 0;   // guarded by ThreadPool::mutex_
-    std::exception_ptr error; // likewise
+    std::exception_ptr error; // guarded by ThreadPool::mutex_
 
     void run(int worker, std::mutex& mutex) {
         for (int i = next++; i < count && !stop.stop_requested(); i = next++) {

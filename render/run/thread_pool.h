@@ -16,7 +16,8 @@ namespace tessera {
 /// core as soon as it has something to do. Where that cannot be done, nothing happens.
 void work_in_background();
 
-/// The same to those that work in background, too: where these want all cores, it has about a quarter of the time.
+/// Makes the calling thread give way also to those that work in background: where these want all cores, it has
+/// about a quarter of the time.
 void work_behind_others();
 
 /// Threads that run the iterations of one loop at a time. Own threads, not TBB's, so that the thread sanitizer
@@ -39,7 +40,7 @@ public:
     /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
     void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
 
-    /// The same for those who need not know the worker: solvers, loaders. The pool must live as long.
+    /// The pool's loops for those who need not know the worker: solvers, loaders. The pool must live as long.
     ParallelFor loops();
 
 private:

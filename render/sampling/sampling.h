@@ -135,8 +135,8 @@ public:
     std::size_t size() const { return entries_.size(); }
     float probability(std::size_t i) const { return entries_[i].probability; }
 
-    /// With random numbers in [0, 1)^2. One of its own for the threshold: of one float, many entries would leave
-    /// few bits for it.
+    /// Chooses an entry with random numbers in [0, 1)^2. The threshold has one of its own: of one float, many
+    /// entries would leave few bits for it.
     std::size_t choose(glm::vec2 u) const {
         const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
         const std::size_t first = slot < entries_.size() ? slot : entries_.size() - 1;

@@ -12,7 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// Half the width of the picture at distance 1.
+/// Half the width of the picture at distance 1 from the camera.
 float half_width(float fov, FovAxis axis, float aspect) {
     const float t = std::tan(glm::radians(fov) / 2);
     switch (axis) {

@@ -15,9 +15,9 @@ namespace tessera {
 
 enum class FovAxis { x, y, diagonal, smaller, larger };
 
-/// As in Mitsuba's "fov_axis".
+/// The name that Mitsuba's "fov_axis" has for it.
 std::string_view to_string(FovAxis axis);
-/// Nothing: there is none of that name.
+/// The axis of that name; empty: there is none.
 std::optional<FovAxis> fov_axis_from_name(std::string_view name);
 
 /// A pinhole with Mitsuba's conventions: looks along +z of `to_world`, +y is up, +x is to the left.
@@ -56,17 +56,20 @@ private:
     float pixel_angle_;
 };
 
-/// A camera as JSON: "to_world" (16 numbers, row by row as in Mitsuba's <matrix>), "fov" (degrees), "fov_axis"
-/// ("x" if absent). "origin", "target" and "up" are written for whoever looks at the file, and not read.
+// Cameras in files are JSON: "to_world" (16 numbers, row by row as in Mitsuba's <matrix>), "fov" (degrees),
+// "fov_axis" ("x" if absent). "origin", "target" and "up" are written for whoever reads the file, and not read
+// back.
 
-/// Throws LoadError with file, line and column for whatever is broken, missing, unknown, or makes no camera.
+/// Reads a file with a camera. Throws LoadError with file, line and column for whatever is broken, missing,
+/// unknown, or makes no camera.
 Camera read_camera(const std::filesystem::path& file);
-/// The same for text in memory; `name` stands in messages.
+/// Reads such a text in memory; `name` stands in messages.
 Camera parse_camera(const std::string& json, const std::string& name);
 
-/// What read_camera makes the same camera of, bit by bit. The last row of the matrix is always 0 0 0 1.
+/// The text of which read_camera makes the same camera, bit by bit. The last row of the matrix is always 0 0 0 1.
 std::string camera_json(const Camera& camera);
-/// Writes to a temporary name beside `file` and renames it. Throws std::runtime_error that names the file.
+/// Writes camera_json to a temporary name beside `file` and renames it. Throws std::runtime_error that names the
+/// file.
 void write_camera(const std::filesystem::path& file, const Camera& camera);
 
 /// What stands for the camera inside a <sensor> of a Mitsuba scene: fov, fov_axis and to_world.

@@ -80,8 +80,8 @@ std::string triple(glm::vec3 v) {
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }
 
-/// Row by row, as in files. The last row is kept where it is one (with the signs of its zeros), else replaced: it
-/// means nothing to a camera, but no other is read.
+/// The matrix row by row, as in files. The last row is kept where it is one (with the signs of its zeros), else
+/// replaced: it means nothing to a camera, but no other is read.
 std::array<std::string, 16> rows(glm::mat4 m) {
     if (glm::row(m, 3) != glm::vec4(0, 0, 0, 1))
         m = glm::row(m, 3, glm::vec4(0, 0, 0, 1));

@@ -59,13 +59,13 @@ double share_above(double v) {
     return 0.5 - 0.5 * std::cos(3.14159265358979323846 * std::clamp(v, 0.0, 1.0));
 }
 
-/// Of one cell of a row, where the sphere is cut into `count` cells.
+/// The solid angle of one cell of a row, where the sphere is cut into `count` cells.
 double cell_solid_angle(int row, glm::ivec2 count) {
     return 4 * 3.14159265358979323846 / count.x *
            (share_above((row + 1.0) / count.y) - share_above(double(row) / count.y));
 }
 
-/// Of what is nearest to a pixel of a row.
+/// The solid angle of what is nearest to a pixel of a row.
 double pixel_solid_angle(const Bitmap& bitmap, int row) {
     const double steps = std::max(bitmap.height - 1, 1);
     const double below = bitmap.height == 1 ? 1 : share_above((row + 0.5) / steps);
@@ -89,7 +89,7 @@ glm::vec3 direction_of_map(glm::vec2 uv) {
 
 glm::vec2 map_of_direction(glm::vec3 d) {
     const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
-    // By atan2, which is exact at the poles, too.
+    // atan2 is exact at the poles, too, where acos is not.
     return {u < 0 ? u + 1 : u, std::atan2(std::hypot(d.x, d.z), d.y) * inv_pi};
 }
 

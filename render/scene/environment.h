@@ -16,7 +16,7 @@ namespace tessera {
 struct Bitmap;
 
 /// Where a unit direction is on a map in latitude and longitude, as in Mitsuba: u = atan2(x, -z) / 2 pi in [0, 1]
-/// and v = acos(y) / pi; +y is up, v = 0 the top row. And the way back.
+/// and v = acos(y) / pi; +y is up, v = 0 the top row. direction_of_map is the way back.
 glm::vec2 map_of_direction(glm::vec3 direction);
 glm::vec3 direction_of_map(glm::vec2 uv);
 

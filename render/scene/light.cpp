@@ -16,7 +16,7 @@ namespace tessera {
 Rgb PointLight::toward(glm::vec3 direction) const {
     if (cutoff >= 180)
         return intensity;
-    // Not by acos, which has no digits left for narrow cones.
+    // acos would have no digits left for narrow cones.
     const float angle =
         glm::degrees(std::atan2(glm::length(glm::cross(direction, axis)), glm::dot(direction, axis)));
     if (angle <= full_within)

@@ -71,7 +71,8 @@ struct LightPoint {
     bool can_be_hit() const { return kind == Kind::surface || kind == Kind::environment; }
     bool is_at_infinity() const { return kind == Kind::directional || kind == Kind::environment; }
 
-    /// Empty: no light goes that way.
+    /// The light as a receiver at that point sees it, without what may stand between; empty: no light goes that
+    /// way.
     std::optional<LightRay> seen_from(glm::vec3 receiver) const {
         if (kind != Kind::surface)
             return seen_without_surface(receiver);
@@ -98,7 +99,8 @@ struct LightTriangle {
     float pdf_a;       ///< of choosing this triangle and a point on it, per area
     std::size_t light; ///< index of its area light
 
-    // Where radiance varies: its texture, and which triangle of which mesh this is.
+    // Where radiance varies, its texture is looked up, for which one must know which triangle of which mesh this
+    // is.
     const Texture* radiance_map = nullptr;
     const Mesh* mesh = nullptr;
     std::size_t index = 0;

@@ -6,8 +6,6 @@
 #include "render/surface/mesh.h"
 #include "render/trace/intersector.h"
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>

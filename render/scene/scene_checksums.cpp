@@ -129,17 +129,18 @@ SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera)
     std::vector<std::uint32_t> of_materials;
     for (const Material& material : materials)
         of_materials.push_back(SceneDigest(bitmaps).add(material).checksum());
-    SceneDigest geometry(bitmaps), looks(bitmaps), lights(bitmaps);
+    SceneDigest geometry(bitmaps), surfaces(bitmaps), lights(bitmaps);
     for (const auto& [name, mesh, material, area_light] : shapes) {
         geometry.add(mesh);
-        looks.add(
+        surfaces.add(
             of_materials.at(static_cast<std::size_t>(material))); // not its index: unused ones may come and go
         lights.add(area_light >= 0);
         if (area_light >= 0)
             lights.add(area_lights.at(static_cast<std::size_t>(area_light)));
     }
     lights.add(point_lights, directional_lights, environment);
-    return {geometry.checksum(), looks.checksum(), lights.checksum(), SceneDigest(bitmaps).add(camera).checksum()};
+    return {geometry.checksum(), surfaces.checksum(), lights.checksum(),
+            SceneDigest(bitmaps).add(camera).checksum()};
 }
 
 std::string to_string(const SceneChecksums& sums) {

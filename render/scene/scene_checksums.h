@@ -35,7 +35,7 @@ private:
     struct IsVector<glm::vec<n, T, q>> : std::true_type {};
     template <glm::length_t n, glm::length_t m, class T, glm::qualifier q>
     struct IsVector<glm::mat<n, m, T, q>> : std::true_type {};
-    /// Its bytes are all that it is: it has no padding and no pointers.
+    /// Whether the bytes of a value are all that it is: it has no padding and no pointers.
     template <class T>
     static constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || IsVector<T>::value;
 
@@ -97,9 +97,9 @@ private:
     std::uint32_t sum_ = 0;
 };
 
-/// Of all that a picture shows, part by part: two scenes that are alike have the same ones, whatever their files
-/// and ids are called and wherever they lie. Of what was loaded, bit by bit: they know nothing of how it is
-/// rendered, nor of the size of the film.
+/// Checksums of all that a picture shows, part by part: two scenes that are alike have the same ones, whatever
+/// their files and ids are called and wherever they lie. They are taken of what was loaded, bit by bit, and know
+/// nothing of how it is rendered, nor of the size of the film.
 struct SceneChecksums {
     std::uint32_t geometry = 0;
     std::uint32_t materials = 0; ///< shape by shape, textures and all
@@ -111,11 +111,12 @@ struct SceneChecksums {
 
 SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera);
 
-/// "geometry 8c1f00d2 materials ...", for headers and keys; and back. Empty: it is no such text.
+/// A text for headers and keys: "geometry 8c1f00d2 materials 00000000 lights 00000000 camera 00000000".
 std::string to_string(const SceneChecksums& sums);
+/// What such a text says; empty: it is none.
 std::optional<SceneChecksums> scene_checksums_from(const std::string& text);
 
-/// What is another in one than in the other: "geometry", "materials and camera"; empty: nothing.
+/// The parts in which the two differ: "geometry", "materials and camera"; empty: they do not.
 std::string difference(const SceneChecksums& a, const SceneChecksums& b);
 
 } // namespace tessera

@@ -62,7 +62,7 @@ float angle_between(glm::vec3 a, glm::vec3 b) {
     return 2 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// The same azimuth, with another zenith angle.
+/// The direction of the same azimuth with another zenith angle.
 glm::vec3 at_zenith_angle(glm::vec3 direction, float zenith_angle) {
     const float across = std::hypot(direction.x, direction.z);
     const float sine = std::sin(zenith_angle);
@@ -233,7 +233,7 @@ glm::vec3 sun_direction(const PlaceAndTime& when) {
                              0.0001134 - 0.0000203 * std::sin(omega);
     const double obliquity = 0.4090928 - 6.2140e-9 * n + 0.0000396 * std::cos(omega);
 
-    // From there to the equator, and by the sidereal time to the place [eqs. 8 to 12].
+    // The way goes from there to the equator, and by the sidereal time to the place [eqs. 8 to 12].
     const double right_ascension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
     const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
     const double sidereal_hours = 6.6974243242 + 0.0657098283 * n + hours;

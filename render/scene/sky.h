@@ -1,9 +1,9 @@
+// Daylight: the sky, the sun's disk, and where the sun stands.
 #pragma once
 
 #include "recon/image.h"
 #include "render/surface/texture.h"
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -50,9 +50,9 @@ Bitmap sky_bitmap(const Sky& sky, int width);
 /// Half the angle under which the sun's disk is seen, in radians: 0.5358 / 2 degrees, as in Mitsuba.
 inline constexpr float sun_angular_radius = 0.2679f * 3.14159265f / 180;
 
-/// Mean radiance of the sun's disk, in the unit of sky.h, after the air has taken its part [Preetham 1999, A.1];
-/// Mitsuba 0.6 uses the same formulas. `elevation` above the horizon in radians, in [0, pi/2]; turbidity in
-/// [1, 10]. Never negative: what lies outside sRGB is clamped.
+/// Mean radiance of the sun's disk, in the unit of all radiances here, after the air has taken its part [Preetham
+/// 1999, A.1]; Mitsuba 0.6 uses the same formulas. `elevation` above the horizon in radians, in [0, pi/2];
+/// turbidity in [1, 10]. Never negative: what lies outside sRGB is clamped.
 Rgb sun_radiance(float turbidity, float elevation);
 
 /// Solid angle in sr of a disk with this angular radius in radians.

@@ -1,7 +1,6 @@
 #include "render/run/thread_pool.h"
 #include "render/session/session_pane.h"
 
-#include <algorithm>
 #include <chrono>
 #include <tuple>
 #include <utility>
@@ -28,7 +27,8 @@ Session::Session(int panes, int threads, std::function<void()> on_publish)
 Session::~Session() {
     {
         const std::lock_guard lock(mutex_);
-        // And no new sources, as of a request: a thread that takes a token only now is to find it stopped.
+        // There are no new stop sources, as a request has them: a thread that takes a token only now is to find it
+        // stopped.
         for (const auto& pane : panes_) {
             pane->stop.request_stop();
             pane->solve_stop.request_stop();
@@ -152,16 +152,16 @@ std::vector<std::string> Session::take_messages() {
 }
 
 /// The pane whose turn it is, of those with work to do: first those that have shown nothing of their request yet,
-/// then those that have had but looks, the one served longest ago before the others; then the one that has had the
-/// least of what the pace shares out. A pane that began later than the others so catches up with them. Null: none.
-/// Needs the lock.
+/// then those that have had but previews, the one served longest ago before the others; then the one that has had
+/// the least of what the pace shares out. A pane that began later than the others so catches up with them. Null:
+/// none. Needs the lock.
 Session::Pane* Session::next_pane() {
     Pane* next = nullptr;
     const auto order = [&](const Pane& p) {
         const double had = p.is_fresh()                      ? 0
                            : pace_.equal == Pace::Equal::spp ? p.render->spp()
                                                              : p.render->seconds();
-        return std::tuple(!p.lacks_look(), !p.is_fresh(), had, p.served);
+        return std::tuple(!p.lacks_preview(), !p.is_fresh(), had, p.served);
     };
     for (const auto& pane : panes_) {
         if (pane->wants_pass(pace_, paused_) && (!next || order(*pane) < order(*next)))
@@ -210,7 +210,7 @@ void Session::render_loop(std::stop_token stop) {
     }
 }
 
-/// `session_stop` ends what no request would.
+/// One pass of a pane, or one preview before the first. `session_stop` ends what no request would.
 void Session::render_pass(Pane& pane, std::stop_token session_stop) {
     RenderRequest request;
     std::uint64_t generation;
@@ -226,16 +226,16 @@ void Session::render_pass(Pane& pane, std::stop_token session_stop) {
     try {
         if (pane.render_generation != generation) {
             pane.render.reset(); // there are never two films
-            if (pane.looks.divisor(generation, request.size) > 0) {
-                // A first look is not stopped by a newer request: while a camera is dragged, each frame makes one,
-                // and a picture somewhat late is better than none.
-                look(pane, request, generation, pane.looks.is_first(generation) ? session_stop : stop);
+            if (pane.previews.divisor(generation, request.size) > 0) {
+                // A first preview is not stopped by a newer request: while a camera is dragged, each frame makes
+                // one, and a picture somewhat late is better than none.
+                preview(pane, request, generation, pane.previews.is_first(generation) ? session_stop : stop);
                 return; // the other panes are next
             }
             pane.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
             pane.render_generation = generation;
             pane.published_spp = 0;
-            return; // the other panes' looks come first, and there may be a pause
+            return; // the other panes' previews come first, and there may be a pause
         }
         if (!pane.render->pass(pool_, stop))
             return;
@@ -259,14 +259,14 @@ void Session::report(std::string message) {
     tell();
 }
 
-/// Nothing more to do for this generation.
+/// Leaves the pane at rest until its next request.
 void Session::give_up(Pane& pane, std::uint64_t generation) {
     const std::lock_guard lock(mutex_);
     if (pane.generation == generation)
         pane.failed = true;
 }
 
-/// One of the steps asked for, if there are any, is done.
+/// Counts that one of the steps asked for, if there are any, is done.
 void Session::count_step(Pane& pane, std::uint64_t generation) {
     const std::lock_guard lock(mutex_);
     if (pane.generation == generation && pane.steps > 0)

@@ -54,9 +54,8 @@ public:
     Session(int panes, int threads, std::function<void()> on_publish = {});
     ~Session();
 
-    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped,
-    /// all but a first look.
-    /// Returns the generation that snapshots of this request will carry.
+    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped, all but a
+    /// first preview. Returns the generation that snapshots of this request will carry.
     std::uint64_t submit(int pane, RenderRequest request);
 
     /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
@@ -66,15 +65,16 @@ public:
     /// again, renders nothing.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
-    /// The one under way in the pane; empty: none is.
+    /// The reconstruction under way in the pane; empty: there is none.
     std::optional<ReconstructionUnderWay> reconstructing(int pane) const;
-    /// Ends it. What is rendered so far stays without, until there are other settings.
+    /// Ends the reconstruction under way. What is rendered so far stays without one, until there are other
+    /// settings.
     void give_up_reconstruction(int pane);
 
     void set_paused(bool paused);
     bool paused() const;
     void set_pace(const Pace& pace);
-    /// One more pass of every pane, also while paused or beyond a limit.
+    /// Asks for one more pass of every pane, also while paused or beyond a limit.
     void step();
 
     /// The pane's newest snapshot; null before the first. It may answer an older request: compare generations.
@@ -96,8 +96,8 @@ private:
     void render_pass(Pane& pane, std::stop_token session_stop);
     void tell();
     void report(std::string message);
-    void look(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
-    double look_budget() const;
+    void preview(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
+    double preview_budget() const;
     void give_up(Pane& pane, std::uint64_t generation);
     void count_step(Pane& pane, std::uint64_t generation);
     static std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor);

@@ -10,20 +10,20 @@
 
 namespace tessera {
 
-// What a pane shows at once, before its render begins.
+// The first two functions make what a pane shows at once, before its render begins.
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double looks_period = 1 / 15.0; // seconds for a first look of each pane, while a camera moves
+constexpr double preview_period = 1 / 15.0; // seconds for a first preview of each pane, while a camera moves
 
 } // namespace
 
-/// A look: one sample a pixel of a small image. It is reconstructed before it is shown, as the next may be there
-/// before another thread had done so.
-void Session::look(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop) {
+/// Renders a preview: one sample a pixel of a small image. It is reconstructed before it is shown, as the next may
+/// be there before another thread had done so.
+void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop) {
     const Clock::time_point start = Clock::now();
-    const int divisor = pane.looks.divisor(generation, request.size);
+    const int divisor = pane.previews.divisor(generation, request.size);
     const glm::ivec2 size = (request.size + divisor - 1) / divisor;
     Render coarse(request.scene, request.camera, size, request.settings);
     if (!coarse.pass(pool_, stop))
@@ -41,19 +41,19 @@ void Session::look(Pane& pane, const RenderRequest& request, std::uint64_t gener
     snapshot->reconstruction_spp = snapshot->spp;
     snapshot->reconstruction_seconds = snapshot->seconds;
     publish(pane, snapshot);
-    pane.looks.count(generation, divisor, std::chrono::duration<double>(Clock::now() - start).count(),
-                     look_budget());
+    pane.previews.count(generation, divisor, std::chrono::duration<double>(Clock::now() - start).count(),
+                        preview_budget());
 }
 
-/// Seconds that a pane's first look may take, so that all panes have one in time. Takes the lock.
-double Session::look_budget() const {
+/// Seconds that a pane's first preview may take, so that all panes have one in time. Takes the lock.
+double Session::preview_budget() const {
     const std::lock_guard lock(mutex_);
     const auto in_use = std::count_if(panes_.begin(), panes_.end(),
                                       [](const auto& pane) { return pane->request.scene != nullptr; });
-    return looks_period / static_cast<double>(std::max(in_use, std::ptrdiff_t{1}));
+    return preview_period / static_cast<double>(std::max(in_use, std::ptrdiff_t{1}));
 }
 
-// How a session's passes become snapshots.
+// The next ones make snapshots of a session's passes.
 
 std::shared_ptr<Snapshot> Session::snapshot_of(const Render& render, std::uint64_t generation, int divisor) {
     auto snapshot = std::make_shared<Snapshot>();
@@ -73,9 +73,10 @@ std::shared_ptr<Snapshot> Session::snapshot_of(const Render& render, std::uint64
     return snapshot;
 }
 
-/// One without a reconstruction gets that of the render's snapshot before, until there is a newer one.
+/// Makes the snapshot the pane's latest. One without a reconstruction gets that of the render's snapshot before,
+/// until there is a newer one.
 void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
-    std::shared_ptr<const Snapshot> latest = snapshot; // and then the one before, given up without the lock
+    std::shared_ptr<const Snapshot> latest = snapshot; // the one before takes its place, and goes without the lock
     std::shared_ptr<const GradientImages> reconstructed;
     {
         const std::lock_guard lock(mutex_);
@@ -107,8 +108,8 @@ void Session::tell() {
     }
 }
 
-/// The pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again with
-/// later passes: the render itself has lost nothing.
+/// Publishes the pane's passes up to now. What goes wrong (there is no memory for a copy) is told, and tried again
+/// with later passes: the render itself has lost nothing.
 void Session::publish_passes(Pane& pane) {
     try {
         publish(pane, snapshot_of(*pane.render, pane.render_generation, 1));
@@ -119,7 +120,7 @@ void Session::publish_passes(Pane& pane) {
     pane.published_at = std::chrono::steady_clock::now();
 }
 
-// The session's second thread: pictures from primal and gradients, the newest snapshot first.
+// The session's second thread makes pictures from primal and gradients, the newest snapshot first.
 
 void Session::reconstruct_loop(std::stop_token stop) {
     work_in_background();
@@ -156,7 +157,8 @@ void Session::reconstruct_loop(std::stop_token stop) {
 void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                                    std::stop_token stop) {
     auto result = std::make_shared<Reconstruction>();
-    std::shared_ptr<const GradientImages> reconstructed = snapshot.images; // and then the one before
+    std::shared_ptr<const GradientImages> reconstructed =
+        snapshot.images; // those before take their place, and go without the lock
     std::shared_ptr<const Snapshot> latest;
     std::string failure;
     try {

@@ -12,15 +12,15 @@
 
 namespace tessera {
 
-/// How coarse the looks are that a pane has before its render: the first is there soon enough to follow a camera
-/// that moves, on slow machines as well; where the camera rests, finer ones follow. A look has one pixel for
-/// divisor x divisor of the picture's.
-class FirstLooks {
+/// How coarse the previews are that a pane has before its render: the first is there soon enough to follow a
+/// camera that moves, on slow machines as well; where the camera rests, finer ones follow. A preview has one pixel
+/// for divisor x divisor of the picture's.
+class Previews {
 public:
     static constexpr int finest = 4, coarsest = 16;
-    static constexpr int least_edge = 40; ///< pixels that a look coarser than the finest has along either edge
+    static constexpr int least_edge = 40; ///< pixels that a preview coarser than the finest has along either edge
 
-    /// Of the next look at a request for a picture of that size; 0: there have been enough.
+    /// The divisor of the next preview of a request for a picture of that size; 0: there have been enough.
     int divisor(std::uint64_t generation, glm::ivec2 size) const {
         if (!is_first(generation))
             return next_;
@@ -29,13 +29,11 @@ public:
             divisor /= 2;
         return divisor;
     }
-    /// Whether there has been none at this request.
+    /// Whether the request has had no preview yet.
     bool is_first(std::uint64_t generation) const { return generation != generation_; }
 
-    /// That one has been made.
-    /// @param divisor  of the look
-    /// @param seconds  that it took
-    /// @param budget   how long the first look at a request may take
+    /// Takes down that a preview with this divisor has been made in so many seconds.
+    /// @param budget  seconds that the first preview of a request may take
     void count(std::uint64_t generation, int divisor, double seconds, double budget) {
         adapt(divisor, seconds, budget);
         generation_ = generation;
@@ -43,7 +41,8 @@ public:
     }
 
 private:
-    /// Half the divisor takes at most four times as long. Margins keep it from going back and forth.
+    /// Sets the divisor of the next request's first preview. Half the divisor takes at most four times as long;
+    /// margins keep it from going back and forth.
     void adapt(int divisor, double seconds, double budget) {
         constexpr double margin = 1.5;
         if (divisor < first_ && margin * seconds < budget)
@@ -54,9 +53,9 @@ private:
             first_ = std::max(first_ / 2, finest);
     }
 
-    int first_ = finest;           // divisor of a request's first look
-    int next_ = 0;                 // ... and of the next at generation_
-    std::uint64_t generation_ = 0; // the last that was looked at
+    int first_ = finest;           // divisor of a request's first preview
+    int next_ = 0;                 // divisor of the next preview of generation_
+    std::uint64_t generation_ = 0; // the last that had a preview
 };
 
 struct Session::Pane {
@@ -65,8 +64,8 @@ struct Session::Pane {
     std::uint64_t generation = 0; // 0: nothing asked for yet
     ReconstructionSettings reconstruction;
     std::shared_ptr<const Snapshot> latest;
-    std::stop_source stop;       // ends work on the present generation, ...
-    std::stop_source solve_stop; // ... and its reconstruction with the present settings
+    std::stop_source stop;       // ends work on the present generation
+    std::stop_source solve_stop; // ends its reconstruction with the present settings
     bool failed = false;         // nothing more to do for this generation
     int steps = 0;               // passes to do whatever the pace says
 
@@ -79,7 +78,7 @@ struct Session::Pane {
     std::weak_ptr<const GradientImages> given_up; // nothing is to be made from these
 
     // Used by the render thread alone.
-    FirstLooks looks;
+    Previews previews;
     std::unique_ptr<Render> render;
     std::uint64_t render_generation = 0;
     int published_spp = 0;
@@ -97,7 +96,7 @@ struct Session::Pane {
     }
 
     bool is_fresh() const { return render_generation != generation; } ///< nothing of its request is rendered yet
-    bool lacks_look() const { return is_fresh() && looks.is_first(generation); }
+    bool lacks_preview() const { return is_fresh() && previews.is_first(generation); }
 
     bool is_at_limit(const Pace& pace) const {
         return !is_fresh() && ((pace.spp_limit > 0 && render->spp() >= pace.spp_limit) ||
@@ -108,7 +107,8 @@ struct Session::Pane {
     bool wants_pass(const Pace& pace, bool paused) const {
         if (generation == 0 || failed || !request.scene)
             return false;
-        return steps > 0 || is_fresh() || (!paused && !is_at_limit(pace)); // a first look is there, paused or not
+        return steps > 0 || is_fresh() ||
+               (!paused && !is_at_limit(pace)); // a first preview is there, paused or not
     }
 
     bool has_unseen_passes() const { return render && !is_fresh() && published_spp < render->spp(); }
@@ -119,7 +119,8 @@ struct Session::Pane {
     int solved_divisor = 0;
     ReconstructionSettings solved_with;
 
-    /// Of a request that has been replaced, only a first look is worth it.
+    /// Whether the newest snapshot is to be reconstructed. Of a request that has been replaced, only a preview is
+    /// worth it.
     bool needs_reconstruction() const {
         return latest && (latest->coarse() || latest->generation == generation) &&
                (latest->images != reconstructed || !(reconstructed_with == reconstruction)) &&

@@ -18,7 +18,7 @@ class Scene;
 /// What a pane shows: the state of a render after a whole number of passes. Immutable once published.
 struct Snapshot {
     std::uint64_t generation = 0; ///< of the request that it answers
-    int divisor = 1;              ///< of the size asked for; more than 1 in a first look (FirstLooks)
+    int divisor = 1;              ///< of the size asked for; more than 1 in a preview (Previews)
     int spp = 0;                  ///< samples a pixel
     double seconds = 0;           ///< wall time spent on this pane's passes
     double cpu_seconds = 0;       ///< CPU time of all workers for these passes
@@ -30,11 +30,11 @@ struct Snapshot {
     std::shared_ptr<const GradientImages> images;
     std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)
 
-    /// Of the newest pass that has been reconstructed, perhaps an older one than `images`; empty at first.
+    /// The newest pass that has been reconstructed, perhaps an older one than `images`; null at first.
     std::shared_ptr<const Reconstruction> reconstruction;
     ReconstructionSettings reconstructed_with; ///< what it was asked for with
-    int reconstruction_spp = 0;                ///< the samples a pixel that it stands on, ...
-    double reconstruction_seconds = 0;         ///< ... and the wall time spent on these
+    int reconstruction_spp = 0;                ///< the samples a pixel that it stands on
+    double reconstruction_seconds = 0;         ///< the wall time spent on these samples
 
     bool coarse() const { return divisor > 1; }
 };

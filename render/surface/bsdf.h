@@ -25,8 +25,8 @@ struct Bsdf {
                  ThinDielectric, Plastic, Phong, Mixture, Coated>
         kind = Diffuse{};
 
-    /// Where relief has bent the frame: the normal before that, in the frame. What is above the one surface and
-    /// below the other is cut off, or light would leak through.
+    /// The normal before relief bent the frame, in the frame. What is above the one surface and below the other is
+    /// cut off, or light would leak through.
     glm::vec3 unbent_normal{0, 0, 1};
     /// How much light is lost as it gets steep to the unbent normal, where else its shadow would have a sharp edge
     /// [Estevez 2019]: the square of the roughness in that formula. 0: none is. Negative: the frame is not bent.
@@ -78,7 +78,7 @@ private:
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
 
-/// What kind of BSDF it is, in the words of scene files: "diffuse", "roughconductor", ...
+/// What kind of BSDF it is, in the words of scene files, such as "diffuse" or "roughconductor".
 std::string_view kind_name(const Bsdf& bsdf);
 
 // Paths are made of these: plain numbers, and no more of them than a plastic takes. (libstdc++ visits up to 11

@@ -83,7 +83,7 @@ float largest(Rgb c) {
 
 /// A direction about +z with density (n + 1) / (2 pi) cos^n.
 glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
-    // By logarithms, as a float next to 1 has no digits for what a sharp lobe is made of.
+    // Logarithms serve here, as a float next to 1 has no digits for what a sharp lobe is made of.
     const float log_z = std::log1p(-u.x) / (exponent + 1);
     const float z = std::exp(log_z);
     const float r = std::sqrt(-std::expm1(2 * log_z));
@@ -127,7 +127,8 @@ std::optional<BsdfSample> Phong::sample(glm::vec3 to_previous, float lobe, glm::
 }
 
 float Phong::roughness() const {
-    // Of the microfacets whose normals have this exponent [Walter 2007, 5.2]; the lobe itself is narrower.
+    // This is the roughness of microfacets whose normals have this exponent [Walter 2007, 5.2]; the lobe itself is
+    // narrower.
     return is_black(diffuse_reflectance) ? std::min(std::sqrt(2 / (exponent + 2)), 1.0f) : 1;
 }
 

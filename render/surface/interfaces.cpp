@@ -67,7 +67,7 @@ std::optional<BsdfSample> sample_delta(const B& bsdf, glm::vec3 to_previous, flo
     return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, scatter);
 }
 
-/// Share that a thin pane reflects: R + T R T + T R R R T + ... = 2 R / (1 + R).
+/// The share of light that a thin pane reflects: R + T R T + T R R R T + ... = 2 R / (1 + R), where T = 1 - R.
 float pane_reflectance(float cosine, float eta) {
     const float r = fresnel_dielectric(std::abs(cosine), eta).reflectance;
     return 2 * r / (1 + r);

@@ -5,7 +5,7 @@
 namespace tessera {
 
 glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 t) {
-    // In double: the square of a small or large triangle's area is beyond floats.
+    // Double is needed: the square of a small or large triangle's area is beyond floats.
     const glm::dvec3 corner = mesh.positions[t.x];
     const glm::dvec3 cross =
         glm::cross(glm::dvec3(mesh.positions[t.y]) - corner, glm::dvec3(mesh.positions[t.z]) - corner);

@@ -41,7 +41,7 @@ struct Plastic {
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
-    /// The base's, through which paths can be connected; without one the coating's.
+    /// The roughness of the base, through which paths can be connected; without one that of the coating.
     float roughness() const { return is_black(base) ? facets.alpha : 1; }
 
 private:

@@ -1,6 +1,5 @@
 #include "render/surface/scattering.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>

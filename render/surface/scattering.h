@@ -7,7 +7,6 @@
 #include <optional>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {

@@ -24,7 +24,7 @@ namespace {
 thread_local const BuildMonitor* newest = nullptr;
 } // namespace
 
-BuildMonitor::BuildMonitor(Watcher watcher) : watcher_(std::move(watcher)), outer_(newest) {
+BuildMonitor::BuildMonitor(Watch watch) : watch_(std::move(watch)), outer_(newest) {
     newest = this;
 }
 
@@ -61,26 +61,26 @@ bool count_bytes(void* sum, ssize_t bytes, bool) {
 }
 
 /// What a monitor is told, and whether it has ended the build.
-struct Watch {
+struct BuildState {
     const BuildMonitor* monitor;
     std::atomic<bool> given_up = false;
 };
 
-bool watch_build(void* watch, double share) {
-    Watch& w = *static_cast<Watch*>(watch);
-    if (!w.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
-        w.given_up = true;
-    return !w.given_up;
+bool tell_monitor(void* state, double share) {
+    BuildState& s = *static_cast<BuildState*>(state);
+    if (!s.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
+        s.given_up = true;
+    return !s.given_up;
 }
 
 /// Builds the BVH; throws std::runtime_error if that is wanted no more.
 void build(RTCScene scene) {
-    Watch watch{BuildMonitor::current()};
-    if (watch.monitor)
-        rtcSetSceneProgressMonitorFunction(scene, watch_build, &watch);
+    BuildState state{BuildMonitor::current()};
+    if (state.monitor)
+        rtcSetSceneProgressMonitorFunction(scene, tell_monitor, &state);
     rtcCommitScene(scene);
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    if (watch.given_up)
+    if (state.given_up)
         throw std::runtime_error("building the BVH was given up");
 }
 
@@ -114,7 +114,7 @@ RTCRay8 empty_packet() {
     return packet;
 }
 
-/// False: it is not fit to be traced.
+/// Puts segment m into a lane of the packet. False: it is not fit to be traced.
 bool set_ray(RTCRay8& packet, int lane, const SegmentLanes& s, int m) {
     packet.org_x[lane] = s.from.x[m];
     packet.org_y[lane] = s.from.y[m];

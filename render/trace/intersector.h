@@ -16,25 +16,25 @@
 
 namespace tessera {
 
-/// Watches the BVHs that the calling thread builds while this lives: whoever loads a scene is far from where its
-/// BVH is built, and is the only one to watch.
+/// Tells a watch of the BVHs that the calling thread builds while this lives: whoever loads a scene is far from
+/// where its BVH is built, and is the only one to watch.
 class BuildMonitor {
 public:
-    /// Gets the share of a BVH that is done, [0, 1], from any of the threads that build it, several at once.
-    /// False: it is wanted no more, and its constructor throws std::runtime_error.
-    using Watcher = std::function<bool(double share)>;
+    /// It is told the share of a BVH that is done, [0, 1], by any of the threads that build it, several at once,
+    /// and says whether to go on. False: the BVH is wanted no more, and its constructor throws std::runtime_error.
+    using Watch = std::function<bool(double share)>;
 
-    explicit BuildMonitor(Watcher watcher);
+    explicit BuildMonitor(Watch watch);
     ~BuildMonitor();
     BuildMonitor(const BuildMonitor&) = delete;
     BuildMonitor& operator=(const BuildMonitor&) = delete;
 
-    /// The calling thread's newest; null: none.
+    /// The calling thread's newest monitor; null: it has none.
     static const BuildMonitor* current();
-    bool is_wanted(double share) const { return watcher_(share); }
+    bool is_wanted(double share) const { return watch_(share); }
 
 private:
-    Watcher watcher_;
+    Watch watch_;
     const BuildMonitor* outer_;
 };
 
@@ -73,6 +73,7 @@ public:
     /// Makes `hit` the first triangle on the ray, beyond its origin. False: there is none.
     bool closest(const Ray& ray, Hit& hit) const;
 
+    /// Whether anything stands between the ends of the segment.
     bool occluded(const Segment& segment) const;
 
     /// What Embree holds: the BVH and its own copy of the triangles.
@@ -87,8 +88,8 @@ public:
         return position + step * geometric_normal * glm::max(glm::abs(position), smallest_coordinate_);
     }
 
-    /// As occluded(), for segments that share one end or nearly so: packets. Only lanes that are asked for are
-    /// traced; the others are not blocked.
+    /// Does as the other occluded() does for `count` segments that share one end or nearly so, in packets. Only
+    /// lanes that are asked for are traced; the others are not blocked.
     void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const;
 
 private:

@@ -1,3 +1,4 @@
+// Rays and segments, one at a time and side by side in lanes.
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ TEST(ReferenceNoise, HasNoFirstAndSecondReference) {
 }
 
 TEST(ReferenceNoise, IsTheStandardErrorThatReferencesGiveToErrors) {
-    // Of an image without an error of its own, relMSE is the mean of n1 n2 / (1 + epsilon).
+    // For an image without an error of its own, relMSE is the mean of n1 n2 / (1 + epsilon).
     constexpr int runs = 200;
     const RgbImage truth(32, 24, Rgb(1));
     double squares = 0, expected = 0;

@@ -37,7 +37,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the first one that begins so stands in the list, from some place on.
+/// The place in the list, from some place on, of the first event that begins so.
 std::size_t find(const std::string& beginning, std::size_t from) {
     while (from < synced.size() && synced[from].rfind(beginning, 0) != 0)
         ++from;

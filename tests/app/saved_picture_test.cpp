@@ -33,7 +33,7 @@ struct SavedPictureTest : testing::Test {
         std::filesystem::remove(file);
         return exr;
     }
-    /// That of the snapshot: one that no solver would come to.
+    /// Gives the snapshot a reconstruction that no solver would come to.
     void reconstruct(int spp) {
         snapshot->reconstruction = std::make_shared<Reconstruction>(Reconstruction{marked, 0.25, 42, 1.5});
         snapshot->reconstruction_spp = spp;

@@ -47,7 +47,7 @@ TEST(SpeedUp, IsTheRatioOfTimesAtEqualError) {
 TEST(SpeedUp, IsABoundWhereCurvesDoNotMeet) {
     const SpeedUp fast = speed_up(curve(1000, 1, 3), curve(1, 1, 3));
     EXPECT_EQ(fast.kind, SpeedUp::Kind::at_least);
-    EXPECT_NEAR(fast.factor, 4, 1e-9) << "4 s against the first look at 1 s";
+    EXPECT_NEAR(fast.factor, 4, 1e-9) << "4 s against the first measurement at 1 s";
     EXPECT_EQ(to_string(fast), "at least 4");
     const SpeedUp slow = speed_up(curve(1, 1, 3), curve(1000, 1, 3));
     EXPECT_EQ(slow.kind, SpeedUp::Kind::at_most);
@@ -57,7 +57,7 @@ TEST(SpeedUp, IsABoundWhereCurvesDoNotMeet) {
 /// A spike that one seed keeps for a while does not decide when an error was reached.
 TEST(SpeedUp, RisesAreLevelled) {
     Curve fast = curve(1, 1, 7);
-    fast[3].runs[0].floor_free.relative_mse *= 4; // 1, 1/2, 1/4, 1/2, 1/16, ...: the rise is shared out
+    fast[3].runs[0].floor_free.relative_mse *= 4; // 1, 1/2, 1/4, 1/2, 1/16: the rise is shared out
     const SpeedUp s = speed_up(curve(8, 1, 7), fast);
     EXPECT_EQ(s.kind, SpeedUp::Kind::measured);
     EXPECT_NEAR(s.error, 8.0 / 64, 1e-9);
@@ -74,7 +74,7 @@ TEST(SpeedUp, LeavesOutWhatIsBelowItsUncertainty) {
     EXPECT_EQ(speed_up(curve(8, 1, 4), Curve(1)).kind, SpeedUp::Kind::none);
 }
 
-/// Of many experiments with five seeds the truth is within the interval in about 95 %.
+/// In many experiments with five seeds the truth is within the interval in about 95 %.
 TEST(SpeedUp, ConfidenceCoversTheTruth) {
     int covered = 0;
     constexpr unsigned rounds = 300;
@@ -99,7 +99,7 @@ TEST(Curve, ResultsAreGroupedBySceneAndPoint) {
     std::vector<Result> results(6);
     for (std::size_t i = 0; i < 6; ++i) {
         results[i].scene = i < 4 ? "a" : "b";
-        results[i].point.settings.render.method = i < 2 ? Method::pt : Method::pr;
+        results[i].setup.settings.render.method = i < 2 ? Method::pt : Method::pr;
     }
     const auto scenes = curves_by_scene(results);
     ASSERT_EQ(scenes.size(), 2u);

@@ -27,7 +27,7 @@ Rgb truth(int x, int y) {
 /// What a method makes of the truth at a pixel in the mean.
 using Mean = std::function<Rgb(int x, int y)>;
 
-/// With relative noise of that standard deviation, from pixel to pixel.
+/// The mean with relative noise of that standard deviation, from pixel to pixel.
 RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random, glm::ivec2 size = {width, height}) {
     std::normal_distribution<double> normal;
     RgbImage image(size.x, size.y);
@@ -48,9 +48,9 @@ public:
 
     Result result(const Mean& mean, double deviation, Method method = Method::pr, Norm norm = Norm::none) {
         Result result;
-        result.point.settings.size = size_;
-        result.point.settings.render.method = method;
-        result.point.settings.reconstruction.norm = norm;
+        result.setup.settings.size = size_;
+        result.setup.settings.render.method = method;
+        result.setup.settings.reconstruction.norm = norm;
         for (int seed = 0; seed < seeds; ++seed) {
             Measurement m;
             m.seed = static_cast<std::uint64_t>(seed);

@@ -18,7 +18,7 @@ constexpr glm::ivec2 image_size(640, 360);
 constexpr int max_depth = 8;
 constexpr int gpr_border = 1; // of a set of G-PR beyond its tile, to the right and below
 
-/// Empty: there is no such file.
+/// The file of that scene; empty: there is none.
 std::filesystem::path file_of(const std::string& name) {
     for (const std::filesystem::path& file :
          {std::filesystem::path(TESSERA_SHARED_DIR) / "scenes" / name / "scene.xml",

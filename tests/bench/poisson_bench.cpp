@@ -53,7 +53,7 @@ void l2_solve(benchmark::State& state) {
         solver.solve(problem, image, parallel_for);
 }
 
-/// As in a viewer: plans and memory are kept; a warm start goes on from the last solve.
+/// Solves as in a viewer: prepared transforms and memory are kept; a warm start goes on from the last solve.
 void reconstruction(benchmark::State& state, Norm norm, bool warm) {
     const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
     GradientImages images{noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};

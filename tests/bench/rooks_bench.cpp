@@ -35,7 +35,7 @@ RenderSettings path_tracing(int max_depth) {
     return settings;
 }
 
-/// As in 2002: x1 is joined to x2, and all paths are reused.
+/// The method of 2002: x1 is joined to x2, and all paths are reused.
 RenderSettings rooks(int pixels) {
     RenderSettings settings = path_tracing(8);
     settings.method = Method::pr;
@@ -47,7 +47,7 @@ RenderSettings rooks(int pixels) {
     return settings;
 }
 
-/// Over the pixels that have light, but none directly.
+/// The variance, summed over the pixels that have light, but none directly.
 double indirect_variance(const GradientImages& images, const RgbImage& direct) {
     double sum = 0;
     for (std::size_t i = 0; i < direct.size(); ++i)

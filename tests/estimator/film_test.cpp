@@ -70,7 +70,7 @@ TEST(Film, SumsOfManyPassesDoNotDrift) {
     }
 }
 
-/// Of a pixel's three samples by hand: the means' variances are sums over the channels of s^2 / n.
+/// A pixel's three samples are summed by hand: the means' variances are sums over the channels of s^2 / n.
 TEST(Film, VariancesOfTheMeans) {
     Film film(2, 2, {.gradients = true});
     Counters counters;

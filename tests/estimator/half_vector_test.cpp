@@ -22,7 +22,7 @@ Bsdf glass(float eta, float alpha = 0.5f) {
     return {RoughDielectric{{MicrofacetDistribution::ggx, alpha}, eta}};
 }
 
-/// Solid angle at the offset over that at the base, by differences.
+/// The solid angle at the offset over that at the base, by differences.
 double measured_jacobian(const Vertex& base, glm::vec3 to_next, const Vertex& offset) {
     const Frame around(to_next);
     const float step = 5e-4f;

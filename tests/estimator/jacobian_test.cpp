@@ -182,7 +182,7 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
     EXPECT_GT(count, 200);
 }
 
-/// The same for a point on a light: the ratio of densities is that of the sums over both strategies.
+/// For a point on a light, the ratio of densities is that of the sums over both strategies.
 TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
     const auto scene = Room().build();
     Counters counters;

@@ -53,7 +53,7 @@ TEST(ReusePlan, PartsFillEveryTileWhateverItsEdge) {
         for (int n : {1, 2, 3, 4, 8, 64, 4096}) {
             ReusePlan plan(size, settings_of(Method::gpr, tile));
             plan.learn(luminance(n));
-            // Also tiles beyond the image's borders.
+            // Tiles beyond the image's borders are cut, too.
             for (PixelRect r : {left, right, PixelRect{-5, -5, 1, 1}, PixelRect{63, 31, 69, 37}}) {
                 EXPECT_GE(plan.part_edge(r), 1) << tile << ' ' << n;
                 EXPECT_LE(plan.part_edge(r), tile) << tile << ' ' << n;

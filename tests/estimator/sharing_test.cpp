@@ -25,8 +25,8 @@ constexpr int edge = 3; // of the sampling set
 struct Tally {
     int shared = 0;  ///< light paths that more than one pixel could have made
     int lost = 0;    ///< of these, without a way to one of the pixels that got light
-    int unequal = 0; ///< shared out in another way by another pixel, or with weights that do not sum to one, ...
-    int apart = 0;   ///< ... by more than the rounding of short edges explains
+    int unequal = 0; ///< shared out in another way by another pixel, or with weights that do not sum to one
+    int apart = 0;   ///< those of them that differ by more than the rounding of short edges explains
     int astray = 0;  ///< not back at its own vertices after the shift there and back
 };
 
@@ -160,8 +160,8 @@ TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     }
 }
 
-/// But those with masks: a mask lets a ray through by chance, which is another one for a ray that differs by
-/// rounding.
+/// All scenes but those with masks: a mask lets a ray through by chance, which is another one for a ray that
+/// differs by rounding.
 std::vector<TestScene> scenes_without_masks() {
     std::vector<TestScene> scenes = all_test_scenes();
     std::erase_if(scenes, [](const TestScene& t) { return t.name.starts_with("masks"); });

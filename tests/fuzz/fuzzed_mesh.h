@@ -24,7 +24,7 @@ inline void require_sound(const Mesh& mesh) {
     require(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
 }
 
-/// The same, with normals that can be shaded.
+/// Fails for a mesh that does not hold together, or has normals that cannot be shaded.
 inline void require_placed(const Mesh& mesh) {
     require_sound(mesh);
     for (const auto& n : mesh.normals)

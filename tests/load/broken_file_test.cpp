@@ -4,7 +4,6 @@
 #include "render/io/files.h"
 #include "render/io/png.h"
 #include "render/load/mitsuba_xml.h"
-#include "render/mesh/meshes.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"
 
@@ -19,7 +18,7 @@ constexpr const char* formats[] = {"obj", "ply", "serialized"};
 
 class BrokenFile : public testing::Test {
 protected:
-    /// Of a scene with a shape of that type and file, or "no error".
+    /// The error of a scene with a shape of that type and file, or "no error".
     std::string error_of_shape(const std::string& type, const std::string& file) const {
         return error_of("<shape type='" + type + "'><string name='filename' value='" + file + "'/></shape>");
     }
@@ -190,7 +189,7 @@ TEST_F(BrokenFile, VerticesThatAreNoNumbers) {
 }
 
 TEST_F(BrokenFile, TrianglesWithoutAreaAndInsideOutLoad) {
-    // One point, one line, one triangle, and the same seen from behind.
+    // There are one point, one line, one triangle, and the same seen from behind.
     const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n2 0 0\n";
     const std::string faces = "3 0 0 0\n3 0 1 3\n3 0 1 2\n3 0 2 1\n";
     folder.write("m.ply", ply(vertices, 4, faces, 4));

@@ -77,7 +77,7 @@ TEST(BsdfPlugins, Relief) {
     const Read both = read(around("normalmap", check + around("bumpmap", check + diffuse)));
     EXPECT_EQ(both.notes, "the relief inside this one is left out\n");
     EXPECT_EQ(both.material.relief->kind, Relief::Kind::normal_map);
-    // All at once, in any order.
+    // All adapters at once may stand in any order.
     const Read all = read(around("twosided", around("mask", around("bumpmap", check + diffuse))));
     EXPECT_TRUE(all.material.opacity && all.material.relief && all.material.two_sided);
     EXPECT_EQ(all.notes, "");

@@ -4,7 +4,6 @@
 #include "render/load/properties.h"
 #include "render/mesh/meshes.h"
 
-#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

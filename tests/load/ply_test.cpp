@@ -125,7 +125,7 @@ TEST(Ply, TruncatedAnywhereItThrowsOrLoads) {
                                      binary_square<std::uint8_t, std::int32_t>(true, "uchar int")}) {
         for (std::size_t length = 0; length < whole.size(); ++length) {
             const std::string message = error_of(whole.substr(0, length));
-            // Of a text, the last number may go; of a binary file, nothing.
+            // A text may lose its last number, a binary file nothing.
             if (length + 1 < whole.size()) {
                 EXPECT_NE(message, "no error") << length;
             }

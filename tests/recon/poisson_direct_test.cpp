@@ -2,7 +2,6 @@
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -116,7 +115,7 @@ TEST(PoissonSolver, ServesManyProblemsOfItsSize) {
     }
 }
 
-/// Of any width: some do not fill whole vectors of the transforms.
+/// Widths are chosen so that some do not fill whole vectors of the transforms.
 TEST(PoissonSolver, WhatIsNotFiniteLeavesNoTrace) {
     for (int width = 60; width < 110; ++width) {
         const Inputs good(width, 20);

@@ -26,7 +26,7 @@ RgbImage solve(const PoissonProblem& problem, const EdgeWeights& weights, const 
     return image;
 }
 
-/// From 1 down to 1e-4, and some of 0.
+/// Weights from 1 down to 1e-4, and some of 0.
 EdgeWeights random_weights(int width, int height) {
     const RgbImage noise = random_image(width, height, 21);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};

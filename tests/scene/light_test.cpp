@@ -40,7 +40,7 @@ TEST(AliasTable, WithoutWeightAllIsZero) {
     EXPECT_TRUE(AliasTable(std::vector<double>{}).empty());
 }
 
-/// One of each kind, of very different power.
+/// A scene with one light of each kind, of very different power.
 std::shared_ptr<const Scene> all_kinds() {
     SceneBuilder b;
     b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
@@ -73,8 +73,8 @@ TEST(LightTable, EverySampleIsWeighedByItsPdf) {
         sums[light.kind] +=
             std::max(glm::dot(seen->direction, normal), 0.0f) * luminance(seen->radiance) / seen->pdf_w / samples;
     }
-    // By hand: cos / r^2 for points; the environment's upper half is 1 but for the mixing with the lower at the
-    // horizon: integral of cos (3/4 + cos-dependent) is taken from a fine sum.
+    // Worked out by hand: cos / r^2 for points; the environment's upper half is 1 but for the mixing with the
+    // lower at the horizon: integral of cos (3/4 + cos-dependent) is taken from a fine sum.
     const double point = 3 * 1 / std::pow(0.04 + 1 + 0.01, 1.5);
     const double to_spot2 = 0.09 + 1 + 0.01;
     const double angle = std::acos(1 / std::sqrt(to_spot2)) * 180 / double(pi);
@@ -117,7 +117,7 @@ TEST(LightTable, RaysThatMissAllLightsAreKnown) {
     EXPECT_FALSE(dark.build()->lights().may_be_hit({{0.5f, 0.5f, 2}, {0, 0, -1}}));
 }
 
-/// Of many rays through a mask, its opacity is stopped; single rays and packets agree on the share.
+/// A mask stops its opacity's share of many rays; single rays and packets agree on the share.
 TEST(Intersector, MaskStopsItsShareOfRays) {
     SceneBuilder b;
     Material half{"half", DiffuseMaterial{}, true};

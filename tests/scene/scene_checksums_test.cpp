@@ -40,7 +40,7 @@ SceneChecksums sums(const SceneDescription& scene) {
     return checksums_of(scene, scene.camera);
 }
 
-/// In what a room differs from one that was changed.
+/// What a room differs in from one that was changed.
 std::string after(const std::function<void(SceneDescription&)>& change) {
     static const SceneDescription before = room();
     SceneDescription scene = before;
@@ -48,7 +48,7 @@ std::string after(const std::function<void(SceneDescription&)>& change) {
     return difference(sums(before), sums(scene));
 }
 
-/// One with the bitmap of the first wall's, but for one byte.
+/// A texture with the bitmap of the first wall's, but for one byte.
 Texture with_one_byte_more(const Texture& texture) {
     Texture other = texture;
     auto& kind = std::get<BitmapTexture>(other.kind);

@@ -105,7 +105,7 @@ TEST(Sky, PositiveAboveTheHorizonAndBlackBelow) {
         }
 }
 
-// Also across the sun, where the angle to it is small, and as the sun sets.
+// The sky is continuous also across the sun, where the angle to it is small, and as the sun sets.
 TEST(Sky, Continuous) {
     const Sky sky = sky_of(3, 30, 90);
     for (float elevation = 1; elevation < 89; elevation += 0.5f) {

@@ -1,4 +1,3 @@
-#include "render/load/mitsuba_xml.h"
 #include "render/scene/traits.h"
 #include "tests/support/scene_builder.h"
 

@@ -11,7 +11,7 @@ namespace tessera::test {
 
 namespace {
 
-/// Of some hundred thousand triangles.
+/// A scene of some hundred thousand triangles.
 SceneBuilder large_scene() {
     SceneBuilder scene;
     const int white = scene.diffuse(Rgb(0.5f));

@@ -1,4 +1,4 @@
-// One sample of one pixel, looked at: the same numbers as in the picture.
+// The inspection of one sample of one pixel: the same numbers as in the picture.
 #include "render/estimator/tile_grid.h"
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
@@ -116,7 +116,7 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
                 ++seen_steps;
                 stretched += std::abs(jacobian - 1) > 1e-3f;
                 EXPECT_FLOAT_EQ(s->steps.back().shifted.ratio, s->ratio);
-                // Of all light paths together, the pixel gets at least that of this one.
+                // The pixel gets at least as much of all light paths together as of this one.
                 EXPECT_GE(luminance(s->value) * 1.0001f, luminance(s->steps.back().shifted.value) * s->weight);
             }
     }

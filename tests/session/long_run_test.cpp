@@ -73,8 +73,8 @@ double drift(int passes) {
     return largest;
 }
 
-// Of 90 values that are not 0, few of them independent, with Student's t of 38 degrees: passed by chance once in
-// about a thousand seeds.
+// There are 90 values that are not 0, few of them independent, with Student's t of 38 degrees: passed by chance
+// once in about a thousand seeds.
 constexpr double limit = 4.5;
 
 TEST(LongRun, TheMeanDoesNotDrift) {

@@ -29,7 +29,7 @@ struct References : testing::Test {
 
     ReferenceRender begin(const char* name) { return {file(name), subject, recipe, pool}; }
 
-    /// Until it has so many samples; empty: it was complete before.
+    /// Renders until it has so many samples; empty: it was complete before.
     std::optional<int> run_to(const char* name, int spp) {
         ReferenceRender render = begin(name);
         if (render.run([&](const ReferenceRender& r) { return r.spp() < spp; }))

@@ -95,7 +95,7 @@ TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
     expect_found_again(settings, {7, 5});
 }
 
-/// Of the last pixel, which has no neighbours, the film takes what the others share with it in no buffer.
+/// The last pixel has no neighbours: the film takes what the others share with it in no buffer.
 TEST(RefusedBasePrimal, SamplesAreFoundAgainByPixelPassAndSeed) {
     RenderSettings settings;
     settings.method = Method::gpr;

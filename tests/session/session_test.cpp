@@ -34,7 +34,7 @@ Pace until(int spp) {
     return {Pace::Equal::time, spp, 0};
 }
 
-/// Within two minutes: other tests run beside, on machines that others use as well.
+/// Whether something comes true within two minutes: other tests run beside, on machines that others use as well.
 bool eventually(const std::function<bool()>& holds) {
     for (const auto end = std::chrono::steady_clock::now() + 2min; std::chrono::steady_clock::now() < end;) {
         if (holds())

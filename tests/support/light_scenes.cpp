@@ -79,7 +79,7 @@ std::shared_ptr<const Scene> masks() {
     return r.build();
 }
 
-/// Such panes in front of a glossy floor, a sky and a sun.
+/// Masked panes in front of a glossy floor, a sky and a sun.
 std::shared_ptr<const Scene> masks_outside() {
     OpenRoom r;
     r.sky();

@@ -21,7 +21,7 @@ struct Room : SceneBuilder {
     void ceiling_light(int material) { quad({-0.7f, 0.98f, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, material, lamp); }
 };
 
-/// Without a ceiling: an environment above, uneven, turned, and with a sun.
+/// A room without a ceiling: an environment above, uneven, turned, and with a sun.
 struct OpenRoom : SceneBuilder {
     int w = diffuse(white), r = diffuse(red);
 

@@ -47,7 +47,7 @@ private:
     SceneDescription description_;
 };
 
-/// Mitsuba's lookat.
+/// The matrix of Mitsuba's lookat.
 glm::mat4 look_at(glm::vec3 origin, glm::vec3 target, glm::vec3 up = {0, 1, 0});
 
 struct TestScene {
@@ -66,7 +66,7 @@ inline void PrintTo(const TestScene& t, std::ostream* out) {
 
 /// Small scenes, each for one thing that an estimator can get wrong.
 std::vector<TestScene> all_test_scenes();
-/// Those of them that are about lights, masks and relief.
+/// The test scenes that are about lights, masks and relief.
 std::vector<TestScene> light_scenes();
 
 } // namespace tessera::test

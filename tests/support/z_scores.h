@@ -27,7 +27,7 @@ struct ZResult {
 };
 ZResult z_test(const Measured& a, const Measured& b);
 
-/// Of dx from neighbours that were measured independently.
+/// The measurement of dx from neighbours that were measured independently.
 Measured difference_x(const Measured& image);
 Measured difference_y(const Measured& image);
 

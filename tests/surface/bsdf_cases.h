@@ -7,7 +7,6 @@
 #include <memory>
 #include <ostream>
 #include <random>
-#include <vector>
 
 namespace tessera::test {
 
@@ -17,7 +16,7 @@ struct Case {
     Bsdf bsdf;
     float eta = 1;
 
-    /// Over that above the surface, on the side of d.
+    /// The index over that above the surface, on the side of d.
     float index(glm::vec3 d) const { return d.z > 0 ? 1 : eta; }
 };
 

@@ -1,4 +1,4 @@
-#include "app/experiment/point.h"
+#include "app/experiment/setup.h"
 
 #include "app/cli/option_values.h"
 #include "app/cli/terminal.h"
@@ -96,7 +96,7 @@ Variable variable_named(std::string_view id) {
 
 namespace {
 
-/// As the setting itself spells it: "0.10" is "0.1".
+/// The value as the setting itself spells it: "0.10" is "0.1".
 std::string spelled(const Variable& variable, std::string_view value) {
     PictureSettings settings;
     variable.set_text(settings, value);
@@ -145,7 +145,7 @@ Variation parse_variation(std::string_view text) {
     }
 }
 
-std::vector<Point> points_of(const PictureSettings& base, const std::vector<Method>& methods,
+std::vector<Setup> setups_of(const PictureSettings& base, const std::vector<Method>& methods,
                              const std::vector<Norm>& norms, const std::vector<Variation>& variations) {
     std::vector<PictureSettings> all;
     for (Method method : methods) {
@@ -158,24 +158,24 @@ std::vector<Point> points_of(const PictureSettings& base, const std::vector<Meth
     for (const Variation& variation : variations)
         all = varied(all, variation);
 
-    std::vector<Point> points;
+    std::vector<Setup> setups;
     for (const PictureSettings& settings : all) {
-        Point point{plain(settings), {}};
+        Setup setup{plain(settings), {}};
         for (const Variation& v : variations)
-            point.values.push_back(v.variable.matters(settings) ? v.variable.text(settings) : "");
-        const auto is_same = [&](const Point& p) {
-            return name_of(p) == name_of(point) && p.values == point.values;
+            setup.values.push_back(v.variable.matters(settings) ? v.variable.text(settings) : "");
+        const auto is_same = [&](const Setup& p) {
+            return name_of(p) == name_of(setup) && p.values == setup.values;
         };
-        if (std::none_of(points.begin(), points.end(), is_same))
-            points.push_back(point);
+        if (std::none_of(setups.begin(), setups.end(), is_same))
+            setups.push_back(setup);
     }
-    return points;
+    return setups;
 }
 
-std::string name_of(const Point& point) {
-    std::string name(short_name(point.settings.render.method));
-    if (has_gradients(point.settings.render.method))
-        name += fmt::format("-{}", to_string(point.settings.reconstruction.norm));
+std::string name_of(const Setup& setup) {
+    std::string name(short_name(setup.settings.render.method));
+    if (has_gradients(setup.settings.render.method))
+        name += fmt::format("-{}", to_string(setup.settings.reconstruction.norm));
     return name;
 }
 

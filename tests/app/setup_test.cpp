@@ -1,7 +1,7 @@
-// What a sweep renders, and the figures it draws from that.
+// What a sweep renders, and the columns of what it finds.
 #include "app/cli/terminal.h"
-#include "app/experiment/point.h"
 #include "app/experiment/result.h"
+#include "app/experiment/setup.h"
 
 #include <cmath>
 
@@ -14,9 +14,9 @@ namespace {
 
 using testing::ElementsAre;
 
-std::string label(const Point& point) {
-    std::string text = name_of(point);
-    for (const std::string& value : point.values)
+std::string label(const Setup& setup) {
+    std::string text = name_of(setup);
+    for (const std::string& value : setup.values)
         text += " " + value;
     return text;
 }
@@ -27,12 +27,12 @@ std::vector<std::string> labels(const std::vector<Method>& methods, const std::v
     for (const std::string& text : variations)
         parsed.push_back(parse_variation(text));
     std::vector<std::string> result;
-    for (const Point& point : points_of({}, methods, norms, parsed))
-        result.push_back(label(point));
+    for (const Setup& setup : setups_of({}, methods, norms, parsed))
+        result.push_back(label(setup));
     return result;
 }
 
-TEST(Points, AreAllCombinations) {
+TEST(Setups, AreAllCombinations) {
     EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {}), ElementsAre("gpr-l2"));
     EXPECT_THAT(labels({Method::gpr, Method::pr}, {Norm::l2}, {"tile=2,4"}),
                 ElementsAre("gpr-l2 2", "gpr-l2 4", "pr 2", "pr 4"));
@@ -40,28 +40,28 @@ TEST(Points, AreAllCombinations) {
                 ElementsAre("gpr-l2 2 relative", "gpr-l2 2 none", "gpr-l2 4 relative", "gpr-l2 4 none"));
 }
 
-TEST(Points, HaveEveryReconstructionWhereThereAreGradients) {
+TEST(Setups, HaveEveryReconstructionWhereThereAreGradients) {
     EXPECT_THAT(labels({Method::pt, Method::gpt}, {Norm::l2, Norm::l1}, {}),
                 ElementsAre("pt", "gpt-l2", "gpt-l1"));
     EXPECT_THAT(labels({Method::pr, Method::gpr}, {Norm::l2}, {"recon=none,mixed", "alpha=0.1,0.2"}),
                 ElementsAre("pr  ", "gpr-none none ", "gpr-mixed mixed 0.1", "gpr-mixed mixed 0.2"));
 }
 
-TEST(Points, WhatMakesNoDifferenceIsOnePoint) {
+TEST(Setups, WhatMakesNoDifferenceIsOneSetup) {
     EXPECT_THAT(labels({Method::pt, Method::pt}, {Norm::l2}, {"tile=2,4"}), ElementsAre("pt "));
     EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {"rr_delta=0.1,0.10,1", "roulette=absolute,none"}),
                 ElementsAre("gpr-l2 0.1 absolute", "gpr-l2  none", "gpr-l2 1 absolute"));
 }
 
-TEST(Points, CarryTheirSettings) {
+TEST(Setups, CarryTheirSettings) {
     PictureSettings base;
     base.render.light_samples = 3;
-    const auto points =
-        points_of(base, {Method::pr}, {Norm::l2}, {parse_variation("tile=5"), parse_variation("q-min=0.5")});
-    ASSERT_EQ(points.size(), 1u);
-    EXPECT_EQ(points[0].settings.render.tile, 5);
-    EXPECT_EQ(points[0].settings.render.q_min, 0.5f);
-    EXPECT_EQ(points[0].settings.render.light_samples, 3);
+    const auto setups =
+        setups_of(base, {Method::pr}, {Norm::l2}, {parse_variation("tile=5"), parse_variation("q-min=0.5")});
+    ASSERT_EQ(setups.size(), 1u);
+    EXPECT_EQ(setups[0].settings.render.tile, 5);
+    EXPECT_EQ(setups[0].settings.render.q_min, 0.5f);
+    EXPECT_EQ(setups[0].settings.render.light_samples, 3);
 }
 
 TEST(Variable, OthersThanRenderSettingsCanBeVaried) {
@@ -102,25 +102,25 @@ TEST(Result, TakesMeansAndDeviationsOverTheSeeds) {
         run.counters.shifts[1] = 2;
         result.runs.push_back(run);
     }
-    EXPECT_DOUBLE_EQ(figure("cpu_seconds", result), 2);
-    EXPECT_DOUBLE_EQ(figure("cpu_seconds_deviation", result), std::sqrt(2));
-    EXPECT_DOUBLE_EQ(figure("relmse_floor_free", result), 0.2);
-    EXPECT_DOUBLE_EQ(figure("relmse_floor_free_uncertainty", result), 0.1) << "that of the two seeds";
-    EXPECT_DOUBLE_EQ(figure("relmse_floor_free_deviation", result), std::sqrt(0.02));
-    EXPECT_DOUBLE_EQ(figure("efficiency", result), 2.5);
-    EXPECT_DOUBLE_EQ(figure("reused_share", result), 0.6);
-    EXPECT_DOUBLE_EQ(figure("skipped_share", result), 0.3);
-    EXPECT_DOUBLE_EQ(figure("dark_share", result), 0.1);
-    EXPECT_DOUBLE_EQ(figure("shift_attempts", result), 10);
-    EXPECT_DOUBLE_EQ(figure("shift_success_share", result), 0.8);
+    EXPECT_DOUBLE_EQ(column_value("cpu_seconds", result), 2);
+    EXPECT_DOUBLE_EQ(column_value("cpu_seconds_deviation", result), std::sqrt(2));
+    EXPECT_DOUBLE_EQ(column_value("relmse_floor_free", result), 0.2);
+    EXPECT_DOUBLE_EQ(column_value("relmse_floor_free_uncertainty", result), 0.1) << "that of the two seeds";
+    EXPECT_DOUBLE_EQ(column_value("relmse_floor_free_deviation", result), std::sqrt(0.02));
+    EXPECT_DOUBLE_EQ(column_value("efficiency", result), 2.5);
+    EXPECT_DOUBLE_EQ(column_value("reused_share", result), 0.6);
+    EXPECT_DOUBLE_EQ(column_value("skipped_share", result), 0.3);
+    EXPECT_DOUBLE_EQ(column_value("dark_share", result), 0.1);
+    EXPECT_DOUBLE_EQ(column_value("shift_attempts", result), 10);
+    EXPECT_DOUBLE_EQ(column_value("shift_success_share", result), 0.8);
     result.runs.resize(1);
-    EXPECT_TRUE(std::isnan(figure("relmse_floor_free_deviation", result)));
+    EXPECT_TRUE(std::isnan(column_value("relmse_floor_free_deviation", result)));
     result.runs[0].floor_free.relative_mse = -1e-6;
-    EXPECT_TRUE(std::isnan(figure("efficiency", result))) << "the error is below its noise";
+    EXPECT_TRUE(std::isnan(column_value("efficiency", result))) << "the error is below its noise";
     result.runs[0].floor_free = {0.01, 0.02};
-    EXPECT_TRUE(std::isnan(figure("relmse_floor_free", result))) << "and is not reported as a number";
-    EXPECT_EQ(figure("relmse_floor_free_uncertainty", result), 0.02);
-    EXPECT_EQ(figure("below_uncertainty", result), 1);
+    EXPECT_TRUE(std::isnan(column_value("relmse_floor_free", result))) << "and is not reported as a number";
+    EXPECT_EQ(column_value("relmse_floor_free_uncertainty", result), 0.02);
+    EXPECT_EQ(column_value("below_uncertainty", result), 1);
 }
 
 } // namespace

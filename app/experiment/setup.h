@@ -1,3 +1,4 @@
+// What an experiment varies, and the setups that come of it.
 #pragma once
 
 #include "recon/reconstruct.h"
@@ -29,15 +30,15 @@ struct Variable {
     std::string id;    ///< "rr_delta"
     std::string label; ///< of an axis
     std::function<std::string(const PictureSettings&)> text;
-    /// Throws std::invalid_argument that says what it may be.
+    /// Sets the value from a text. Throws std::invalid_argument that says what it may be.
     std::function<void(PictureSettings&, std::string_view)> set_text;
     /// Whether it makes a difference while the others are as they are.
     std::function<bool(const PictureSettings&)> matters;
-    /// Its place on an axis; empty: it is no number.
+    /// The value's place on an axis; empty: it is no number.
     std::function<std::optional<double>(const PictureSettings&)> number;
 };
 
-/// By its id, or by the option's name with hyphens. Throws std::invalid_argument that names all.
+/// The variable of that id, or of the option's name with hyphens. Throws std::invalid_argument that names all.
 Variable variable_named(std::string_view id);
 
 /// A setting and the values that it takes in turn.
@@ -46,21 +47,22 @@ struct Variation {
     std::vector<std::string> values; ///< as Variable::text() has them
 };
 
-/// "tile=2,3,4". Throws BadInput for an unknown setting, an empty list or a value outside the setting's limits.
+/// What a text such as "tile=2,3,4" says. Throws BadInput for an unknown setting, an empty list or a value outside
+/// the setting's limits.
 Variation parse_variation(std::string_view text);
 
 /// One way to make a picture of a scene.
-struct Point {
+struct Setup {
     PictureSettings settings;
     std::vector<std::string> values; ///< one a variation; empty: it makes no difference here
 };
 
 /// Every method with every norm and every combination of values, those of the last variation next to each other.
-/// Combinations that differ only in what makes no difference (a tile for PT) are one point.
-std::vector<Point> points_of(const PictureSettings& base, const std::vector<Method>& methods,
+/// Combinations that differ only in what makes no difference (a tile for PT) are one setup.
+std::vector<Setup> setups_of(const PictureSettings& base, const std::vector<Method>& methods,
                              const std::vector<Norm>& norms, const std::vector<Variation>& variations);
 
-/// "pt", "gpr-l2": method and, where there are gradients, reconstruction.
-std::string name_of(const Point& point);
+/// Its method and, where there are gradients, reconstruction: "pt", "gpr-l2".
+std::string name_of(const Setup& setup);
 
 } // namespace tessera

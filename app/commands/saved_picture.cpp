@@ -1,0 +1,103 @@
+#include "app/cli/picture_layers.h"
+#include "app/cli/render_stats.h"
+#include "app/commands/commands.h"
+#include "render/io/json_text.h"
+#include "render/run/first_hits.h"
+#include "render/scene/camera.h"
+#include "ui/state/buffer.h"
+
+#include <limits>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+nlohmann::json settings_of(const SavedPicture& picture, Norm norm) {
+    const Snapshot& snapshot = *picture.snapshot;
+    const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
+    nlohmann::json json =
+        settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction.alpha);
+    json["norm"] = to_string(norm);
+    json["joint_colour"] = picture.reconstruction.joint_colour;
+    return json;
+}
+
+nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<ReconstructionStats>& reconstructions) {
+    nlohmann::json json{{"seconds",
+                         {{"render", {{"wall", snapshot.seconds}, {"cpu", snapshot.cpu_seconds}}},
+                          {"reconstruct", reconstructions_json(reconstructions)}}},
+                        {"spp", snapshot.spp}};
+    json.update(counters_json(snapshot.counters));
+    return json;
+}
+
+/// The snapshot's own, if the same samples and settings would give it again; null: they would not.
+const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
+    const Snapshot& s = *picture.snapshot;
+    const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
+                            s.reconstructed_with == picture.reconstruction && has_gradients(s.settings.method);
+    return is_current && s.reconstruction->image.size() == s.images->primal.size() ? s.reconstruction.get()
+                                                                                   : nullptr;
+}
+
+/// The layers of `tessera render --buffers`. What the reconstruction cost is added to `stats`: of one that is
+/// taken over, the CPU seconds are not known.
+ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
+    const Snapshot& snapshot = *picture.snapshot;
+    const Reconstruction* finished = finished_reconstruction(picture);
+    ReconstructionLayers wanted{{}, picture.reconstruction.alpha, !picture.reconstruction.joint_colour, true};
+    if (!finished)
+        wanted.norms = {norm};
+    ThreadPool pool(1); // no thread but this one
+    ExrFile exr =
+        picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{}, wanted, pool, stats);
+    if (finished) {
+        exr.layers.insert(exr.layers.begin(), {"", finished->image});
+        stats.push_back({norm, finished->seconds, std::numeric_limits<double>::quiet_NaN(), finished->iterations,
+                         finished->residual});
+    }
+    return exr;
+}
+
+/// First hits, and errors of the picture that is the first layer.
+void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
+    Snapshot snapshot = *saved.snapshot;
+    const RgbImage& image = exr.layers.front().image;
+    snapshot.reconstruction = std::make_shared<Reconstruction>(Reconstruction{image});
+    Companions companions{saved.reference, nullptr};
+    if (saved.scene)
+        companions.first_hits = std::make_shared<FirstHits>(
+            trace_first_hits(*saved.scene, snapshot.camera, {image.width(), image.height()}));
+    for (Buffer buffer : all_buffers) {
+        const bool is_error = family(buffer) == BufferFamily::error;
+        if (!is_error && family(buffer) != BufferFamily::first_hit)
+            continue;
+        RgbImage scratch;
+        const RgbImage& layer = picture(snapshot, buffer, scratch, companions);
+        if (layer.empty())
+            continue;
+        exr.layers.push_back({(is_error ? "error_" : "") + std::string(short_name(buffer)), layer});
+        if (is_error)
+            exr.attributes["tessera:errors_to"] = saved.reference->name;
+    }
+}
+
+} // namespace
+
+void write_saved_picture(const std::filesystem::path& file, const SavedPicture& picture) {
+    const Snapshot& snapshot = *picture.snapshot;
+    const Norm norm = has_gradients(snapshot.settings.method) ? picture.reconstruction.norm : Norm::none;
+    std::vector<ReconstructionStats> stats;
+    ExrFile exr = render_layers(picture, norm, stats);
+    add_companion_layers(exr, picture);
+    exr.attributes["tessera:version"] = TESSERA_VERSION;
+    exr.attributes["tessera:settings"] = to_text(settings_of(picture, norm));
+    exr.attributes["tessera:stats"] = to_text(stats_of(snapshot, stats));
+    exr.attributes["tessera:camera"] = camera_json(snapshot.camera);
+    write_picture(file, exr);
+}
+
+} // namespace tessera
