@@ -1,16 +1,17 @@
 #include "app/commands/gradient_input.h"
 
-#include "app/cli/terminal.h"
 #include "app/cli/picture_layers.h"
+#include "app/cli/terminal.h"
 #include "render/io/exr.h"
-#include "render/io/pfm.h"
 #include "render/io/files.h"
+#include "render/io/pfm.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>

@@ -1,13 +1,15 @@
+#include "render/run/render.h"
+
+#include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
 #include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
-#include "render/run/render.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
+#include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
 #include "render/io/json_text.h"
 #include "render/io/png.h"
 #include "render/run/first_hits.h"
@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <limits>

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -98,7 +100,7 @@ double share(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : none;
 }
 
-const Figure figures[] = {
+const ResultFigure figures[] = {
     {"spp", spp_of},
     {"seeds", count},
     {"triangles", [](const Result& r) { return static_cast<double>(r.triangles); }},
@@ -141,12 +143,12 @@ const Figure figures[] = {
 
 } // namespace
 
-std::span<const Figure> all_figures() {
+std::span<const ResultFigure> all_figures() {
     return figures;
 }
 
 double figure(std::string_view id, const Result& result) {
-    const auto has_id = [&](const Figure& f) { return f.id == id; };
+    const auto has_id = [&](const ResultFigure& f) { return f.id == id; };
     return std::find_if(std::begin(figures), std::end(figures), has_id)->value(result);
 }
 

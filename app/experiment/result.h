@@ -51,13 +51,13 @@ std::vector<double> of_runs(const Result& result, Value value) {
 }
 
 /// A figure of a result with at least one run; not a number where there is none.
-struct Figure {
+struct ResultFigure {
     std::string_view id; ///< column of a CSV file, field of a JSON file
     double (*value)(const Result&);
 };
 
 /// All figures, in the order of the columns.
-std::span<const Figure> all_figures();
+std::span<const ResultFigure> all_figures();
 /// The value of the figure of that id, which must be one of them.
 double figure(std::string_view id, const Result& result);
 

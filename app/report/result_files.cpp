@@ -5,6 +5,8 @@
 #include "render/io/json_text.h"
 
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include <fmt/core.h>
@@ -49,7 +51,7 @@ ordered_json result_json(const ExperimentOptions& options, const Result& result)
     for (std::size_t i = 0; i < options.variations.size(); ++i)
         row[options.variations[i].variable.id] = value_json(options.variations[i], result.point.values[i]);
     row["effort"] = to_string(effort_of(options, result));
-    for (const Figure& figure : all_figures())
+    for (const ResultFigure& figure : all_figures())
         row[std::string(figure.id)] = number(figure.value(result));
     row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction.alpha);
     row["runs"] = ordered_json::array();
@@ -65,7 +67,7 @@ std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& 
     for (const Variation& variation : options.variations)
         text += fmt::format(",{}", variation.variable.id);
     text += ",effort";
-    for (const Figure& figure : all_figures())
+    for (const ResultFigure& figure : all_figures())
         text += fmt::format(",{}", figure.id);
     for (const Result& result : results) {
         text += fmt::format("\n{},{},{}", csv_cell(result.scene), short_name(result.point.settings.render.method),
@@ -73,7 +75,7 @@ std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& 
         for (const std::string& value : result.point.values)
             text += "," + csv_cell(value);
         text += "," + to_string(effort_of(options, result));
-        for (const Figure& figure : all_figures()) {
+        for (const ResultFigure& figure : all_figures()) {
             const double value = figure.value(result);
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
         }

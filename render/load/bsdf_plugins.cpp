@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string>
+#include <tuple>
+#include <variant>
 
 namespace tessera {
 

@@ -1,5 +1,4 @@
 #include "render/io/files.h"
-#include "render/load/properties.h"
 #include "render/mesh/meshes.h"
 #include "render/mesh/ply_format.h"
 
@@ -9,6 +8,9 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

@@ -1,5 +1,5 @@
-#include "render/io/files.h"
 #include "render/io/byte_stream.h"
+#include "render/io/files.h"
 #include "render/mesh/meshes.h"
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

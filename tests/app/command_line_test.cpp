@@ -5,6 +5,7 @@
 #include "tests/app/program.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>

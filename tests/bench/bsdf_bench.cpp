@@ -3,6 +3,7 @@
 #include "tests/surface/bsdf_cases.h"
 
 #include <array>
+#include <string>
 
 #include <benchmark/benchmark.h>
 

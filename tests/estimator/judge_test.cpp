@@ -3,8 +3,12 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
+#include <cstdint>
+#include <cstdio>
 #include <functional>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <ostream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "render/surface/texture.h"
 
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,9 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

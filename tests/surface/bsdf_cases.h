@@ -7,7 +7,11 @@
 #include <memory>
 #include <ostream>
 #include <random>
+#include <utility>
 #include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 

@@ -4,6 +4,7 @@
 #include "tests/surface/bsdf_cases.h"
 
 #include <array>
+#include <string>
 
 #include <gtest/gtest.h>
 
