@@ -3,6 +3,7 @@
 #include "render/surface/material.h"
 
 #include <cmath>
+#include <functional>
 #include <list>
 #include <memory>
 #include <ostream>
@@ -15,10 +16,11 @@
 
 namespace tessera::test {
 
-/// A BSDF to be tested. `eta`: index below the surface over that above; 1: nothing is transmitted.
+/// A BSDF to be tested, made only when its test runs: some have tables. `eta`: index below the surface over that
+/// above; 1: nothing is transmitted.
 struct Case {
     const char* name;
-    Bsdf bsdf;
+    std::function<Bsdf()> bsdf;
     float eta = 1;
 
     /// Over that above the surface, on the side of d.
