@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""headers_alone.py BUILD: compiles each of our headers by itself, with the flags by which the build's
-compile_commands.json compiles the sources of its folder, and prints those that do not."""
+"""headers_alone.py BUILD [PATH...]: compiles each of our headers by itself, or those whose paths begin so, with the flags by
+which the build's compile_commands.json compiles the source beside it, and prints those that do not."""
 
 import json
 import os
@@ -43,7 +43,8 @@ def main():
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         if entry["file"].endswith(".cpp") and Path(entry["file"]).is_relative_to(ROOT):
             commands.setdefault(entry["file"], entry)
-    headers = sorted(h for folder in FOLDERS for h in (ROOT / folder).rglob("*.h"))
+    wanted = tuple(str(ROOT / path) for path in sys.argv[2:]) or (str(ROOT),)
+    headers = sorted(h for folder in FOLDERS for h in (ROOT / folder).rglob("*.h") if str(h).startswith(wanted))
 
     def compile_alone(header):
         entry = commands[nearest(header, commands)]
