@@ -1,6 +1,7 @@
 #include "app/cli/terminal.h"
 #include "app/options.h"
 
+#include <cstdio>
 #include <exception>
 
 #include <fmt/core.h>

@@ -9,7 +9,9 @@
 #include "ui/viewer/script.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 namespace {

@@ -5,6 +5,7 @@
 #include "ui/state/viewer_state.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
 
 #include <fmt/core.h>

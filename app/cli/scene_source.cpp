@@ -12,6 +12,8 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fmt/core.h>
 #include <fmt/format.h>

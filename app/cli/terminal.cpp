@@ -6,7 +6,9 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <initializer_list>
 #include <mutex>
+#include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>

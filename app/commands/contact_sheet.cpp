@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
+#include <glm/common.hpp>
 
 namespace tessera {
 

@@ -4,6 +4,7 @@
 #include "app/report/reports.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -5,10 +5,13 @@
 #include "render/scene/traits.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <set>
+#include <variant>
 
 #include <fmt/format.h>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

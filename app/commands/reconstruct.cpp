@@ -8,6 +8,7 @@
 #include "render/io/json_text.h"
 
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include <CLI/CLI.hpp>

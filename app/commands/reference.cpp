@@ -6,6 +6,7 @@
 #include "render/io/files.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -9,6 +9,7 @@
 #include "render/io/json_text.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

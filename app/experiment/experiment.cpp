@@ -8,6 +8,10 @@
 #include "render/io/exr.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

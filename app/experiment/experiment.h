@@ -4,8 +4,12 @@
 #include "app/experiment/measured_run.h"
 #include "app/experiment/result.h"
 
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 

@@ -4,6 +4,10 @@
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
 #include <fmt/core.h>
 
 namespace tessera {

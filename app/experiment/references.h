@@ -2,6 +2,8 @@
 
 #include "render/run/reference_render.h"
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 

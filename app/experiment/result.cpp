@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/core.h>

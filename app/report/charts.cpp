@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/core.h>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

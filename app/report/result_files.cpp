@@ -4,6 +4,8 @@
 #include "render/io/json_text.h"
 
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include <fmt/core.h>

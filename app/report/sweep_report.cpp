@@ -6,6 +6,7 @@
 #include <map>
 
 #include <fmt/core.h>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

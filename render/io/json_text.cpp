@@ -1,6 +1,7 @@
 #include "render/io/json_text.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -3,6 +3,9 @@
 
 #include <cctype>
 #include <cmath>
+#include <string>
+#include <tuple>
+#include <variant>
 
 namespace tessera {
 

@@ -1,6 +1,13 @@
 #include "render/load/plugins.h"
 
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

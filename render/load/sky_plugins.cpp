@@ -3,8 +3,12 @@
 #include "render/scene/sky.h"
 
 #include <cmath>
+#include <memory>
+#include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 

@@ -2,6 +2,10 @@
 #include "render/load/plugins.h"
 #include "render/load/properties.h"
 
+#include <memory>
+#include <tuple>
+#include <variant>
+
 #include <glm/common.hpp>
 
 namespace tessera {

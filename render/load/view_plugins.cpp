@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 

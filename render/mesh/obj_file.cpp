@@ -6,7 +6,11 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <tiny_obj_loader.h>
 
 namespace tessera {

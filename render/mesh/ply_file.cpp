@@ -8,6 +8,9 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

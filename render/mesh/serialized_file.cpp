@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 // The format as the documentation of Mitsuba's shape plugin "serialized" tells it: an uncompressed header, then

@@ -1,7 +1,9 @@
 #include "render/scene/scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

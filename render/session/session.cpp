@@ -2,6 +2,8 @@
 #include "render/session/session_pane.h"
 
 #include <chrono>
+#include <exception>
+#include <optional>
 #include <tuple>
 #include <utility>
 

@@ -1,5 +1,6 @@
 #include "render/surface/bsdf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 

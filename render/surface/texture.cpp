@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {

@@ -5,11 +5,10 @@
 #include "tests/load/temporary_folder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -94,8 +93,7 @@ TEST_F(BenchCommand, GoesOnAfterAKill) {
               "--threads", "1", "--seeds", "900", "-o", "out", static_cast<char*>(nullptr));
         _exit(101);
     }
-    for (int i = 0; i < 1200 && lines("out/journal.jsonl") < 6; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(eventually([&] { return lines("out/journal.jsonl") >= 6; }));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const std::string before = text("out/journal.jsonl");

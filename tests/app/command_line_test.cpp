@@ -11,7 +11,6 @@
 #include <fstream>
 #include <limits>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -195,7 +194,9 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
               "-o", "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
         _exit(101);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    EXPECT_TRUE(eventually([&] {
+        return fs::exists(folder_ / "log.txt") && fs::file_size(folder_ / "log.txt") > 0;
+    })) << "it says nothing of its passes";
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <thread>
 
 #include <sys/wait.h>
 
@@ -26,6 +29,17 @@ inline Outcome run(const std::filesystem::path& folder, const std::string& argum
     const int status = pclose(pipe);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
+}
+
+/// Waits until it holds, however slow the machine is: for up to two minutes.
+inline bool eventually(const std::function<bool()>& holds) {
+    using namespace std::chrono;
+    for (const auto end = steady_clock::now() + minutes(2); steady_clock::now() < end;) {
+        if (holds())
+            return true;
+        std::this_thread::sleep_for(milliseconds(5));
+    }
+    return false;
 }
 
 } // namespace tessera::test

@@ -43,8 +43,7 @@ protected:
                   static_cast<char*>(nullptr));
             _exit(101);
         }
-        for (int i = 0; i < 1200 && !fs::exists(checkpoint_); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        EXPECT_TRUE(eventually([&] { return fs::exists(checkpoint_); }));
         std::this_thread::sleep_for(std::chrono::milliseconds(200)); // for more than a pass or two
         kill(child, signal);
         int status = 0;

@@ -4,8 +4,12 @@
 #include "tests/load/temporary_folder.h"
 #include "tests/support/rooms.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

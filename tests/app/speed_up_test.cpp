@@ -2,6 +2,7 @@
 #include "app/experiment/speed_up.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>

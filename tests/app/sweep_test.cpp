@@ -6,11 +6,10 @@
 #include "tests/load/temporary_folder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <sstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -272,8 +271,7 @@ TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {
               static_cast<char*>(nullptr));
         _exit(101);
     }
-    for (int i = 0; i < 600 && !fs::exists(folder() / "out/sweep-box.svg"); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_TRUE(eventually([&] { return fs::exists(folder() / "out/sweep-box.svg"); }));
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);

@@ -3,6 +3,7 @@
 #include "tests/surface/bsdf_cases.h"
 
 #include <array>
+#include <string>
 
 #include <benchmark/benchmark.h>
 
@@ -11,7 +12,13 @@ namespace {
 using namespace tessera;
 using namespace tessera::test;
 
-std::vector<Case> one_of_each_kind() {
+struct Kind {
+    const char* name;
+    Bsdf bsdf;
+    float eta = 1; ///< index below the surface over that above; 1: nothing is transmitted
+};
+
+std::vector<Kind> one_of_each_kind() {
     using enum MicrofacetDistribution;
     const Rgb orange(0.8f, 0.5f, 0.2f);
     const auto diffuse = shared(DiffuseMaterial{{orange}}), metal = shared(copper(0.3f));
@@ -54,7 +61,7 @@ std::array<Query, 1024> queries(bool transmits) {
 }
 
 template <class Call>
-void run(benchmark::State& state, const Case& c, Call&& call) {
+void run(benchmark::State& state, const Kind& c, Call&& call) {
     const auto all = queries(c.eta != 1);
     for (auto _ : state)
         for (const Query& q : all)
@@ -63,11 +70,11 @@ void run(benchmark::State& state, const Case& c, Call&& call) {
         benchmark::Counter(static_cast<double>(all.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void evaluate(benchmark::State& state, const Case& c) {
+void evaluate(benchmark::State& state, const Kind& c) {
     run(state, c, [&c](const Query& q) { return c.bsdf.evaluate(q.to_previous, q.to_next); });
 }
 
-void sample(benchmark::State& state, const Case& c) {
+void sample(benchmark::State& state, const Kind& c) {
     run(state, c, [&c](const Query& q) { return c.bsdf.sample(q.to_previous, q.lobe, q.u); });
 }
 
@@ -77,7 +84,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv))
         return 1;
-    for (const Case& c : one_of_each_kind()) {
+    for (const Kind& c : one_of_each_kind()) {
         benchmark::RegisterBenchmark((std::string("evaluate/") + c.name).c_str(), evaluate, c);
         benchmark::RegisterBenchmark((std::string("sample/") + c.name).c_str(), sample, c);
     }

@@ -5,10 +5,14 @@
 #include "render/estimator/method_sets.h"
 #include "render/load/mitsuba_xml.h"
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <benchmark/benchmark.h>
+#include <glm/vec2.hpp>
 
 namespace {
 

@@ -5,8 +5,10 @@
 #include "recon/reconstruct.h"
 
 #include <atomic>
+#include <cstdint>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>

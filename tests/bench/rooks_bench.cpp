@@ -7,7 +7,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <memory>
+
+#include <glm/vec2.hpp>
 
 namespace {
 

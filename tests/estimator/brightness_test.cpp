@@ -4,6 +4,8 @@
 #include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

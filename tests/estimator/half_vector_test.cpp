@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

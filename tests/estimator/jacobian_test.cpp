@@ -4,10 +4,17 @@
 #include "tests/support/one_shift.h"
 #include "tests/support/rooms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,6 +3,9 @@
 #include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 
+#include <cstdint>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

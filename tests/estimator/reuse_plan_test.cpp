@@ -1,5 +1,8 @@
 #include "render/estimator/reuse_policy.h"
 
+#include <initializer_list>
+
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,7 +3,11 @@
 #include "render/estimator/reuse_policy.h"
 #include "tests/support/rooms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,11 @@
 #include "tests/support/shifted_path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,6 +3,12 @@
 #include "tests/support/one_shift.h"
 #include "tests/support/scene_builder.h"
 
+#include <cstdint>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

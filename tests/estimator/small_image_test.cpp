@@ -3,6 +3,10 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
+#include <stdexcept>
+#include <string_view>
+
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -8,6 +8,7 @@
 #include "tests/load/temporary_folder.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -3,6 +3,8 @@
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -3,6 +3,9 @@
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
 
+#include <cmath>
+#include <variant>
+
 #include <gtest/gtest.h>
 
 namespace tessera {

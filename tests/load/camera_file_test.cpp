@@ -4,10 +4,12 @@
 #include "tests/load/temporary_folder.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -1,6 +1,10 @@
 // Emitters of a scene, as the loader reads them.
 #include "render/load/mitsuba_xml.h"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gmock/gmock.h>
 
 namespace tessera {

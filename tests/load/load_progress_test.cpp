@@ -2,6 +2,7 @@
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
 
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,12 @@
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -1,6 +1,12 @@
 #include "render/mesh/meshes.h"
 
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

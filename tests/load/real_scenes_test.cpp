@@ -3,9 +3,13 @@
 #include "render/load/mitsuba_xml.h"
 
 #include <cmath>
+#include <functional>
+#include <stdexcept>
 #include <thread>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

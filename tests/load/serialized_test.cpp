@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <limits>
+#include <ostream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #include "tests/recon/test_images.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

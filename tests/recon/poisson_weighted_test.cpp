@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <stop_token>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

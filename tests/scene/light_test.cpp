@@ -1,6 +1,7 @@
 #include "render/scene/light.h"
 #include "tests/support/scene_builder.h"
 
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "tests/support/scene_builder.h"
 
 #include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 #include "render/scene/traits.h"
 #include "tests/support/scene_builder.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -5,8 +5,10 @@
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include <gmock/gmock.h>

@@ -7,7 +7,9 @@
 #include <cstring>
 #include <functional>
 #include <thread>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

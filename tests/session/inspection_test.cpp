@@ -4,6 +4,12 @@
 #include "render/run/render.h"
 #include "tests/support/rooms.h"
 
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,6 +3,14 @@
 #include "render/run/render.h"
 #include "tests/support/rooms.h"
 
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -2,8 +2,14 @@
 #include "render/run/render.h"
 #include "tests/support/rooms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <vector>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,6 +3,8 @@
 #include "render/run/render.h"
 #include "tests/support/rooms.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace tessera::test {

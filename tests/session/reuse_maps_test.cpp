@@ -3,8 +3,10 @@
 #include "tests/support/rooms.h"
 
 #include <array>
+#include <cstdint>
 #include <numeric>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

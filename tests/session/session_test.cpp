@@ -9,7 +9,9 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -42,6 +44,22 @@ bool eventually(const std::function<bool()>& holds) {
         std::this_thread::sleep_for(5ms);
     }
     return false;
+}
+
+/// What is under way ends, and nothing follows: the samples of the pane stay the same for a while.
+bool comes_to_rest(const Session& session, int pane) {
+    return eventually([&] {
+        const int spp = session.latest(pane)->spp;
+        std::this_thread::sleep_for(300ms);
+        return session.latest(pane)->spp == spp;
+    });
+}
+
+/// Seconds by which a pane may be ahead of its turn: some passes, and what was not shown yet. A machine that is
+/// slow, or busy, makes passes long.
+double seconds_of_a_turn(const Session& session, int pane) {
+    const auto s = session.latest(pane);
+    return 0.25 + 5 * s->seconds / s->spp;
 }
 
 TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
@@ -133,10 +151,8 @@ TEST(Session, PausePublishesAndStops) {
     session.submit(0, request(Method::pt));
     ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->spp > 3; }));
     session.set_paused(true);
-    std::this_thread::sleep_for(300ms);
+    EXPECT_TRUE(comes_to_rest(session, 0));
     const int spp = session.latest(0)->spp;
-    std::this_thread::sleep_for(300ms);
-    EXPECT_EQ(session.latest(0)->spp, spp);
     session.set_paused(false);
     EXPECT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
 }
@@ -199,8 +215,8 @@ TEST(Session, PanesShareTheTime) {
         return a && b && a->seconds > 0.5 && b->seconds > 0.5;
     }));
     session.set_paused(true);
-    std::this_thread::sleep_for(300ms);
-    EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, 0.25);
+    EXPECT_TRUE(comes_to_rest(session, 0) && comes_to_rest(session, 1));
+    EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, seconds_of_a_turn(session, 1));
 }
 
 TEST(Session, ALatePaneCatchesUpInTime) {
@@ -212,9 +228,9 @@ TEST(Session, ALatePaneCatchesUpInTime) {
     ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->seconds > 0.9; }));
     // Meanwhile the first stands, but for a pass under way and what was not shown yet. In turns it would have had
     // 0.9.
-    EXPECT_LT(session.latest(0)->seconds - had, 0.35);
+    EXPECT_LT(session.latest(0)->seconds - had, 0.1 + seconds_of_a_turn(session, 0));
     EXPECT_TRUE(eventually([&] { return session.latest(0)->seconds > had + 0.4; })); // and then both go on
-    EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, 0.35);
+    EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, 0.1 + seconds_of_a_turn(session, 1));
 }
 
 TEST(Session, PanesMayShareSamplesInsteadOfTime) {
@@ -224,7 +240,7 @@ TEST(Session, PanesMayShareSamplesInsteadOfTime) {
     session.submit(1, request(Method::gpr, {96, 64})); // several times as slow
     ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->spp > 20; }));
     session.set_paused(true);
-    std::this_thread::sleep_for(300ms);
+    EXPECT_TRUE(comes_to_rest(session, 0) && comes_to_rest(session, 1));
     EXPECT_NEAR(session.latest(0)->spp, session.latest(1)->spp, 1);
     EXPECT_LT(session.latest(0)->seconds, session.latest(1)->seconds);
 }
@@ -234,10 +250,9 @@ TEST(Session, RestsAtSecondsAndGoesOnWhenTheLimitIsRaised) {
     session.set_pace({Pace::Equal::time, 0, 0.2});
     const std::uint64_t generation = session.submit(0, request(Method::pt));
     ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->seconds >= 0.2; }));
+    EXPECT_TRUE(comes_to_rest(session, 0));
     const int spp = session.latest(0)->spp;
-    EXPECT_LT(session.latest(0)->seconds, 0.4);
-    std::this_thread::sleep_for(200ms);
-    EXPECT_EQ(session.latest(0)->spp, spp);
+    EXPECT_LT(session.latest(0)->seconds, 0.2 + seconds_of_a_turn(session, 0));
     session.set_pace({});
     ASSERT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
     EXPECT_EQ(session.latest(0)->generation, generation);

@@ -1,6 +1,13 @@
 // Scenes for lights of all kinds, masks and relief.
 #include "tests/support/rooms.h"
 
+#include <memory>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 namespace tessera::test {
 
 namespace {

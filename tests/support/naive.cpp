@@ -5,7 +5,9 @@
 #include <array>
 #include <random>
 
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 namespace tessera::test {
 

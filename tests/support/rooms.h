@@ -2,6 +2,8 @@
 
 #include "tests/support/scene_builder.h"
 
+#include <glm/mat3x3.hpp>
+
 namespace tessera::test {
 
 inline const Rgb white(0.75f);

@@ -2,7 +2,12 @@
 
 #include "render/sampling/sampling.h"
 
+#include <utility>
+
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 
 namespace tessera::test {
 

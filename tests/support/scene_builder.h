@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
 namespace tessera::test {
 
 /// Puts small scenes together in code.

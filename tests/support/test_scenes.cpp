@@ -1,5 +1,11 @@
 #include "tests/support/rooms.h"
 
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+
 namespace tessera::test {
 
 namespace {

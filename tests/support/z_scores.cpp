@@ -2,10 +2,13 @@
 
 #include "render/run/render.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 

@@ -3,17 +3,24 @@
 #include "render/surface/material.h"
 
 #include <cmath>
+#include <functional>
 #include <list>
 #include <memory>
 #include <ostream>
 #include <random>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 
-/// A BSDF to be tested. `eta`: index below the surface over that above; 1: nothing is transmitted.
+/// A BSDF to be tested, made only when its test runs: some have tables. `eta`: index below the surface over that
+/// above; 1: nothing is transmitted.
 struct Case {
     const char* name;
-    Bsdf bsdf;
+    std::function<Bsdf()> bsdf;
     float eta = 1;
 
     /// The index over that above the surface, on the side of d.

@@ -4,6 +4,7 @@
 #include "tests/surface/bsdf_cases.h"
 
 #include <array>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -16,38 +17,66 @@ std::vector<Case> cases() {
     const Rgb orange(0.8f, 0.5f, 0.2f);
     const auto diffuse = shared(DiffuseMaterial{{orange}}), metal = shared(copper(0.3f));
     const auto mirror = shared(copper(0)), black = shared(DiffuseMaterial{{Rgb(0)}});
-    return {{"plastic", {plastic(ggx, 0, Rgb(0.8f, 0.4f, 0.1f), false)}},
-            {"rough_plastic_010", {plastic(ggx, 0.1f, Rgb(0.8f, 0.4f, 0.1f), true)}},
-            {"rough_plastic_040", {plastic(beckmann, 0.4f, Rgb(0.9f), false)}},
-            {"diffuse", {Diffuse{orange}}},
-            {"rough_diffuse_020", {RoughDiffuse{orange, 0.2f, false}}},
-            {"rough_diffuse_090", {RoughDiffuse{Rgb(1), 0.9f, false}}},
-            {"rough_diffuse_fast", {RoughDiffuse{orange, 0.5f, true}}},
-            {"ggx_010", {rough(ggx, 0.1f)}},
-            {"ggx_050", {rough(ggx, 0.5f)}},
-            {"ggx_100", {rough(ggx, 1)}},
-            {"beckmann_010", {rough(beckmann, 0.1f)}},
-            {"beckmann_050", {rough(beckmann, 0.5f)}},
-            {"beckmann_100", {rough(beckmann, 1)}},
-            {"glass_ggx_020", {RoughDielectric{{ggx, 0.2f}, 1.5f}}, 1.5f},
-            {"glass_ggx_060", {RoughDielectric{{ggx, 0.6f}, 1.5f, Rgb(1), orange}}, 1.5f},
-            {"glass_beckmann_030", {RoughDielectric{{beckmann, 0.3f}, 1.33f}}, 1.33f},
-            {"bubble", {RoughDielectric{{ggx, 0.4f}, 1 / 1.5f}}, 1 / 1.5f},
-            {"phong_5", {Phong(5, Rgb(0.5f, 0.4f, 0.3f), Rgb(0.2f, 0.4f, 0.7f))}},
-            {"phong_80", {Phong(80, Rgb(0), Rgb(1))}},
-            {"blend", resolved(blend(diffuse, metal, 0.3f))},
-            {"blend_mirror", resolved(blend(metal, mirror, 0.6f))},
-            {"blend_black", resolved(blend(metal, black, 0.6f))},
-            {"blend_glass", resolved(blend(diffuse, shared(glass(0.4f)), 0.7f)), 1.5f},
-            {"mixture", resolved(MixtureMaterial{{diffuse, metal, mirror}, {0.2f, 0.3f, 0.4f}})},
-            {"coated_diffuse", resolved(coated(diffuse, Rgb(0.5f, 1, 2)))},
-            {"coated_metal", resolved(coated(metal, Rgb(0), Rgb(0)))},
-            {"coated_mixture", resolved(coated(shared(blend(metal, mirror, 0.5f)), Rgb(0.1f)))}};
+    return {{"plastic", [=] { return Bsdf{plastic(ggx, 0, Rgb(0.8f, 0.4f, 0.1f), false)}; }},
+            {"rough_plastic_010", [=] { return Bsdf{plastic(ggx, 0.1f, Rgb(0.8f, 0.4f, 0.1f), true)}; }},
+            {"rough_plastic_040", [=] { return Bsdf{plastic(beckmann, 0.4f, Rgb(0.9f), false)}; }},
+            {"diffuse", [=] { return Bsdf{Diffuse{orange}}; }},
+            {"rough_diffuse_020",
+             [=] {
+                 return Bsdf{RoughDiffuse{orange, 0.2f, false}};
+             }},
+            {"rough_diffuse_090",
+             [=] {
+                 return Bsdf{RoughDiffuse{Rgb(1), 0.9f, false}};
+             }},
+            {"rough_diffuse_fast",
+             [=] {
+                 return Bsdf{RoughDiffuse{orange, 0.5f, true}};
+             }},
+            {"ggx_010", [=] { return Bsdf{rough(ggx, 0.1f)}; }},
+            {"ggx_050", [=] { return Bsdf{rough(ggx, 0.5f)}; }},
+            {"ggx_100", [=] { return Bsdf{rough(ggx, 1)}; }},
+            {"beckmann_010", [=] { return Bsdf{rough(beckmann, 0.1f)}; }},
+            {"beckmann_050", [=] { return Bsdf{rough(beckmann, 0.5f)}; }},
+            {"beckmann_100", [=] { return Bsdf{rough(beckmann, 1)}; }},
+            {"glass_ggx_020",
+             [=] {
+                 return Bsdf{RoughDielectric{{ggx, 0.2f}, 1.5f}};
+             },
+             1.5f},
+            {"glass_ggx_060",
+             [=] {
+                 return Bsdf{RoughDielectric{{ggx, 0.6f}, 1.5f, Rgb(1), orange}};
+             },
+             1.5f},
+            {"glass_beckmann_030",
+             [=] {
+                 return Bsdf{RoughDielectric{{beckmann, 0.3f}, 1.33f}};
+             },
+             1.33f},
+            {"bubble",
+             [=] {
+                 return Bsdf{RoughDielectric{{ggx, 0.4f}, 1 / 1.5f}};
+             },
+             1 / 1.5f},
+            {"phong_5", [=] { return Bsdf{Phong(5, Rgb(0.5f, 0.4f, 0.3f), Rgb(0.2f, 0.4f, 0.7f))}; }},
+            {"phong_80", [=] { return Bsdf{Phong(80, Rgb(0), Rgb(1))}; }},
+            {"blend", [=] { return resolved(blend(diffuse, metal, 0.3f)); }},
+            {"blend_mirror", [=] { return resolved(blend(metal, mirror, 0.6f)); }},
+            {"blend_black", [=] { return resolved(blend(metal, black, 0.6f)); }},
+            {"blend_glass", [=] { return resolved(blend(diffuse, shared(glass(0.4f)), 0.7f)); }, 1.5f},
+            {"mixture",
+             [=] {
+                 return resolved(MixtureMaterial{{diffuse, metal, mirror}, {0.2f, 0.3f, 0.4f}});
+             }},
+            {"coated_diffuse", [=] { return resolved(coated(diffuse, Rgb(0.5f, 1, 2))); }},
+            {"coated_metal", [=] { return resolved(coated(metal, Rgb(0), Rgb(0))); }},
+            {"coated_mixture", [=] { return resolved(coated(shared(blend(metal, mirror, 0.5f)), Rgb(0.1f))); }}};
 }
 
 class EveryBsdf : public testing::TestWithParam<Case> {
 protected:
-    const Bsdf& bsdf() const { return GetParam().bsdf; }
+    const Bsdf& bsdf() const { return bsdf_; }
     bool is_opaque() const { return GetParam().eta == 1; }
 
     std::vector<glm::vec3> views() const {
@@ -59,6 +88,9 @@ protected:
                 result.push_back(direction(theta, 0.7f));
         return result;
     }
+
+private:
+    const Bsdf bsdf_ = GetParam().bsdf();
 };
 
 /// Cells in (theta, phi) over the whole sphere.

@@ -1,8 +1,13 @@
 #include "ui/state/actions.h"
 
+#include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -5,12 +5,14 @@
 #include "ui/charts/charts.h"
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <pugixml.hpp>

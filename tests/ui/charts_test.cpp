@@ -5,7 +5,9 @@
 #include "ui/state/companions.h"
 
 #include <cmath>
+#include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -6,6 +6,7 @@
 #include "ui/viewer/script.h"
 
 #include <chrono>
+#include <cstdint>
 #include <sstream>
 #include <thread>
 

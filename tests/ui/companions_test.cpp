@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 namespace tessera::test {
 namespace {
 

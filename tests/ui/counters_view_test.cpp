@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 namespace tessera::test {
 namespace {
 

@@ -3,8 +3,10 @@
 #include "tests/ui/viewer_harness.h"
 #include "ui/panes/pane_parts.h"
 
+#include <cstdint>
 #include <set>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 #include <imgui.h>
 

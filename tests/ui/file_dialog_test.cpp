@@ -6,6 +6,7 @@
 #include "ui/state/file_names.h"
 #include "ui/state/settings_file.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <thread>

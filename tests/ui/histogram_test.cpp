@@ -4,6 +4,7 @@
 #include "ui/state/companions.h"
 
 #include <cmath>
+#include <cstdint>
 
 namespace tessera::test {
 namespace {

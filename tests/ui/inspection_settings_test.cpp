@@ -6,8 +6,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

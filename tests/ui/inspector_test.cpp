@@ -4,9 +4,12 @@
 #include "ui/inside/inside.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -2,6 +2,9 @@
 
 #include "tests/ui/viewer_harness.h"
 
+#include <cstdint>
+
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -1,6 +1,8 @@
 #include "ui/panes/pane_parts.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

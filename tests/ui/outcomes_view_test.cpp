@@ -6,6 +6,11 @@
 #include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 namespace {

@@ -2,6 +2,8 @@
 
 #include "ui/panes/pane_parts.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 namespace tessera {

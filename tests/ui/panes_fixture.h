@@ -2,6 +2,12 @@
 
 #include "tests/ui/viewer_harness.h"
 
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

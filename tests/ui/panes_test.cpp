@@ -4,6 +4,11 @@
 #include "ui/gl/gui.h"
 
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 namespace {

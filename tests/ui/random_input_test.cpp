@@ -8,13 +8,19 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include <fmt/core.h>
+#include <glm/mat4x4.hpp>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -3,6 +3,7 @@
 #include "tests/ui/viewer_harness.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 

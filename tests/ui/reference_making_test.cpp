@@ -4,6 +4,7 @@
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 

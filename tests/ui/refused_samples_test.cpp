@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <limits>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 namespace tessera::test {
 namespace {
 

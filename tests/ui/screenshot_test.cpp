@@ -2,6 +2,7 @@
 #include "tests/ui/osmesa_context.h"
 #include "ui/gl/gl.h"
 
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

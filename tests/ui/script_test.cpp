@@ -4,7 +4,9 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {

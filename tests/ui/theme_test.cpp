@@ -1,5 +1,6 @@
 #include "tests/ui/viewer_harness.h"
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -3,6 +3,11 @@
 #include "render/estimator/tile_grid.h"
 #include "tests/ui/viewer_harness.h"
 
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <stdexcept>
 #include <thread>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -34,9 +36,7 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return viewer_scene();
     });
-    const auto start = std::chrono::steady_clock::now();
-    h.frames(3);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    h.frames(3); // that they end shows that they do not wait: the scene comes only afterwards
     EXPECT_TRUE(h.viewer.loading());
     EXPECT_LE(h.viewer.next_frame_in(), 0.1);
     EXPECT_EQ(h.pane(0).generation, 0u);

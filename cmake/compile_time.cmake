@@ -1,0 +1,22 @@
+# tessera_precompile(target [headers...]): the standard headers, glm and what else is given are compiled once for the
+# target. No source may count on that: with CMAKE_DISABLE_PRECOMPILE_HEADERS=ON everything builds as well, and
+# tests/house/check_house.py sees to it that each file includes what it uses.
+set(TESSERA_COMMON_HEADERS
+  <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <cstddef> <cstdint> <cstdio> <filesystem> <fstream>
+  <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <span> <sstream> <stdexcept> <stop_token> <string>
+  <string_view> <thread> <utility> <variant> <vector>
+  <glm/common.hpp> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp> <glm/matrix.hpp> <glm/trigonometric.hpp>
+  <glm/vec2.hpp> <glm/vec3.hpp>)
+
+function(tessera_precompile target)
+  target_precompile_headers(${target} PRIVATE ${TESSERA_COMMON_HEADERS} ${ARGN})
+endfunction()
+
+# tessera_optimise(target LEVEL), tessera_optimise_sources(LEVEL sources...): less than -O3, where the time that compiling
+# takes is worth more than the time that running does. Pictures come from the -O3 of recon and render.
+function(tessera_optimise target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+endfunction()
+function(tessera_optimise_sources level)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:${level}>)
+endfunction()
