@@ -116,10 +116,10 @@ TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.rest(2);
-        h.state().save_exr = true;
+        h.state().wishes.save_exr = true;
         testing::internal::CaptureStderr();
         h.frame();
-        h.state().save_exr = true;
+        h.state().wishes.save_exr = true;
         h.frame();
     }
     told = testing::internal::GetCapturedStderr();
@@ -148,7 +148,7 @@ TEST(SaveQueue, GivesWayToWhatDraws) {
             return std::string();
         },
         {});
-    while (!queue.poll())
+    while (!queue.take())
         std::this_thread::yield();
     EXPECT_GT(there, own);
 }
@@ -187,7 +187,7 @@ TEST_F(SavedView, IsOfTheActivePaneAndItsDifference) {
     frames(2);
     EXPECT_NE(picture(1).rgb, own.rgb);
     state().panes[1].settings.comparison = {Comparison::Kind::wipe, 0};
-    state().wipe = 0;
+    state().layout.wipe = 0;
     frames(2);
     EXPECT_EQ(picture(1).rgb, own.rgb); // its own, wherever the line is
 }

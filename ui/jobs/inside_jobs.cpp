@@ -3,6 +3,7 @@
 #include "render/inspect/inspection.h"
 #include "render/run/first_hits.h"
 #include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +25,7 @@ std::string outside_text(glm::ivec2 pixel, glm::ivec2 size) {
                        size.x, size.y);
 }
 
-/// Where it was not kept, that of a late pass takes a while.
+/// The plan of the pass. To learn that of a late pass again takes a while.
 ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
     return o.plan ? *o.plan : replay_plan(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
 }
@@ -32,23 +33,22 @@ ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_tok
 } // namespace
 
 void InspectionJob::take(ViewerState& state) {
-    const auto outcome = job_.poll();
+    const auto outcome = job_.take();
     if (!outcome)
         return;
+    const Request& asked = outcome->request;
     Inspector& inspector = state.inspector;
-    if (inspector.sample != asked_.sample) { // another was chosen since
-        asked_ = {};
-        return;
-    }
+    if (inspector.sample != asked.sample) // another was chosen since
+        return job_.cancel();
     const Found found = outcome->result.value_or(Found{});
-    const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked_.sample.slot &&
+    const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked.sample.slot &&
                          inspector.inspection->pixel == found.inspection->pixel;
     state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
-    inspector.slot = asked_.sample.slot;
-    inspector.generation = asked_.generation;
+    inspector.slot = asked.sample.slot;
+    inspector.generation = asked.generation;
     inspector.scene_radius = found.scene_radius;
     inspector.inspection = found.inspection;
-    state.redraw = true;
+    state.wishes.redraw = true;
     if (!outcome->result)
         state.add_message(Message::Kind::error, outcome->error);
 }
@@ -60,7 +60,7 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     if (!inspector.sample)
         return;
     if (!inspector.active && (inspector.sample->origin || job_.running()))
-        give_up();
+        job_.cancel();
     if (!inspector.active && inspector.sample->origin) {
         inspector.sample.reset();
         inspector.inspection.reset();
@@ -69,12 +69,13 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     }
 }
 
-void InspectionJob::give_up() {
-    job_.cancel();
-    asked_ = {};
+/// Whether this sample of this request was asked for last, of whatever pass.
+bool InspectionJob::has_asked(const PassOrigin& origin, const SampleChoice& sample) const {
+    return job_.asked() && job_.asked()->generation == origin.generation && job_.asked()->sample == sample;
 }
 
-/// Null: its pane shows nothing yet that could be looked at. A given pass needs no picture.
+/// What the sample is taken from again. Null: its pane shows nothing yet that could be looked at, as it must
+/// unless a pass is given.
 std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& state,
                                                            const SampleChoice& sample) const {
     if (sample.origin)
@@ -91,12 +92,12 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
         PassOrigin{state.scene, s->camera, size, s->settings, s->plan, s->generation});
 }
 
-/// The newest, where none is given; it then stays, unless the inspector follows.
+/// The pass to look at: the newest, where none is given, which then stays unless the inspector follows.
 int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const {
     if (sample.pass)
         return *sample.pass;
-    if (asked_.is_of(origin, sample) && !state.inspector.follows)
-        return asked_.pass;
+    if (has_asked(origin, sample) && !state.inspector.follows)
+        return job_.asked()->pass;
     return state.pane_in(sample.slot)->snapshot->spp - 1;
 }
 
@@ -109,25 +110,23 @@ void InspectionJob::update(ViewerState& state, const std::function<void()>& wake
     const SampleChoice sample = *inspector.sample;
     const std::shared_ptr<const PassOrigin> origin = origin_of(state, sample);
     // What is under way is given up for another sample only: else it might never come to an end.
-    if (!origin || (job_.running() && asked_.is_of(*origin, sample)))
+    if (!origin || (job_.running() && has_asked(*origin, sample)))
         return;
     if (sample.pass && !is_within(sample.pixel, origin->size)) {
-        give_up();
+        job_.cancel();
         inspector.sample.reset();
         inspector.inspection.reset(); // where the picture was larger before
         return state.add_message(Message::Kind::error, outside_text(sample.pixel, origin->size));
     }
-    const Asked wanted{origin->generation, sample, pass_of(state, *origin, sample)};
-    if (!(wanted == asked_))
-        start(origin, wanted, wake);
+    ask(origin, {origin->generation, sample, pass_of(state, *origin, sample)}, wake);
 }
 
-void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const Asked& wanted,
-                          const std::function<void()>& wake) {
-    asked_ = wanted;
-    const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), origin->size - 1);
-    job_.start(
-        [origin, pixel, pass = wanted.pass](std::stop_token stop) {
+void InspectionJob::ask(const std::shared_ptr<const PassOrigin>& origin, const Request& request,
+                        const std::function<void()>& wake) {
+    const glm::ivec2 pixel = glm::clamp(request.sample.pixel, glm::ivec2(0), origin->size - 1);
+    job_.ask(
+        request,
+        [origin, pixel, pass = request.pass](std::stop_token stop) {
             work_in_background();
             const PassOrigin& o = *origin;
             const ReusePlan plan = plan_of(o, pass, pixel, stop);
@@ -142,10 +141,10 @@ void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const
 
 void SlowMotionJob::update(ViewerState& state, float seconds, const std::function<void()>& wake) {
     SlowMotion& slow = state.slow_motion;
-    if (const auto outcome = job_.poll()) {
+    if (const auto outcome = job_.take()) {
         if (outcome->result) {
-            slow.take(*outcome->result, asked_.sample.slot, asked_.generation);
-            state.space.fits = state.redraw = true;
+            slow.take(*outcome->result, outcome->request.sample.slot, outcome->request.generation);
+            state.space.fits = state.wishes.redraw = true;
         } else {
             state.add_message(Message::Kind::error, outcome->error);
         }
@@ -153,7 +152,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     if (!slow.active) {
         if (slow.view_before) // the picture goes back to where it was
             state.view = *std::exchange(slow.view_before, std::nullopt);
-        asked_ = {};
+        job_.cancel();
         slow.tile = nullptr;
         return;
     }
@@ -166,8 +165,8 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         ask(state, wake);
 }
 
-/// A tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in the
-/// middle.
+/// Chooses a tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in
+/// the middle.
 void SlowMotionJob::choose(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (slow.sample && slow.sample->slot == state.active().slot)
@@ -179,8 +178,8 @@ void SlowMotionJob::choose(ViewerState& state) {
         pixel = slow.sample->pixel;
     else if (inspector.sample)
         pixel = inspector.sample->pixel;
-    else if (state.cursor && state.cursor->pane == state.active_pane)
-        pixel = glm::ivec2(state.cursor->place * size);
+    else if (state.layout.cursor && state.layout.cursor->pane == state.active_pane)
+        pixel = glm::ivec2(state.layout.cursor->place * size);
     slow.start({state.active().slot, pixel, {}});
 }
 
@@ -192,11 +191,8 @@ void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
         return;
     const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
     slow.sample->pixel = glm::clamp(slow.sample->pixel, glm::ivec2(0), size - 1); // the picture may have shrunk
-    const Asked wanted{snapshot->generation, *slow.sample};
-    if (wanted == asked_)
-        return;
-    asked_ = wanted;
-    job_.start(
+    job_.ask(
+        {snapshot->generation, *slow.sample},
         [scene = state.scene, snapshot, size, pixel = slow.sample->pixel](std::stop_token) {
             return std::make_shared<const TileInspection>(inspect_tile(
                 *scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, snapshot->spp - 1, pixel));
@@ -252,13 +248,13 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, co
 }
 
 void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (const auto outcome = job_.poll(); outcome && !outcome->result) {
+    if (const auto outcome = job_.take(); outcome && !outcome->result) {
         state.add_message(Message::Kind::error, "What lies around the paths: " + outcome->error);
     } else if (outcome) {
         const bool first = state.space.surroundings == nullptr;
         state.space.surroundings = *outcome->result;
         state.space.fits = state.space.fits || first;
-        state.redraw = true;
+        state.wishes.redraw = true;
     }
     if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
         return;
@@ -271,14 +267,12 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
     const View view{scene,
                     origin ? origin->camera : state.camera.camera(),
                     {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
-    if (view == asked_)
-        return;
-    if (scene != asked_.scene.lock()) {
+    if (!job_.asked() || view.scene != job_.asked()->scene) {
         state.space.surroundings = nullptr;
         state.space.fits = true;
     }
-    asked_ = view;
-    job_.start([scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
+    job_.ask(
+        view, [scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
 }
 
 } // namespace tessera

@@ -3,6 +3,7 @@
 #include "ui/jobs/background_job.h"
 #include "ui/state/viewer_state.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -13,7 +14,7 @@ namespace tessera {
 /// to those of the panes. Its end, like a cancellation, waits for the pass under way and leaves a checkpoint.
 class ReferenceJob {
 public:
-    /// To be called every frame: fulfils the wishes of state.reference_making, and tells how far it is. What is
+    /// To be called every frame: fulfils the wishes to make a reference, and tells how far it is. What is
     /// complete becomes the reference of the state if its scene, camera and size are still what the panes show.
     /// `threads` as in ThreadPool; `wake` is called from another thread when there is something new.
     void update(ViewerState& state, int threads, const std::function<void()>& wake);
@@ -30,20 +31,20 @@ private:
         int spp = 0;
         std::vector<Counted> halves;
     };
-    /// What it is made of.
-    struct Subject {
+    class Watch;
+    /// What it is made of, and where it goes.
+    struct Order {
+        std::filesystem::path file;
         std::shared_ptr<const Scene> scene;
         Camera camera;
         glm::ivec2 size{0};
-        bool operator==(const Subject&) const = default;
+        std::shared_ptr<Watch> watch;
     };
-    class Watch;
+    using Job = BackgroundJob<Order, Made>;
     void start(ViewerState& state, int threads, const std::function<void()>& wake);
-    void take(ViewerState& state, BackgroundJob<Made>::Outcome outcome);
+    static void take(ViewerState& state, const Job::Outcome& outcome);
 
-    std::shared_ptr<Watch> watch_; // of the job under way
-    Subject subject_;
-    BackgroundJob<Made> job_;
+    Job job_;
 };
 
 } // namespace tessera
