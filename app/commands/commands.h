@@ -26,6 +26,9 @@ inline constexpr int view_needs_display = -1;
 /// What it returns where a signal ended a script or a screenshot: as of Ctrl-C in a shell.
 inline constexpr int view_cut_short = 130;
 
+/// Samples a pixel of pictures for which neither samples nor time are given.
+inline constexpr int usual_spp = 16;
+
 /// `tessera view`.
 struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
@@ -36,14 +39,12 @@ struct ViewOptions {
     SizeChoice render_size;
     int threads = 0;                       ///< of the renderer; 0: one a hardware thread
     std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810
-    float ui_scale = 0;                    ///< of text and controls; 0: as the display says
-    int spp = 0;                           ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
-    std::optional<SampleChoice> sample;    ///< to begin with in the path inspector, of the last pane
-    bool show_panel = true;
-    std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
-    std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end
-    std::filesystem::path script;     ///< if not empty: steps to be played
-    bool log_actions = false;         ///< a line on stdout for every change of state, and where controls lie
+    int spp = 0; ///< samples a pixel at which the panes rest; 0: none (a screenshot: usual_spp)
+    std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the last pane
+    std::filesystem::path reference;    ///< EXR file to measure errors against; empty: none
+    std::filesystem::path screenshot;   ///< if not empty: save a picture of the window at `spp` samples, and end
+    std::filesystem::path script;       ///< if not empty: steps to be played
+    bool log_actions = false;           ///< a line on stdout for every change of state, and where controls lie
 };
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
@@ -57,17 +58,14 @@ struct RenderOptions {
     SceneSource scene;
     RenderSettings settings;
     std::optional<int> max_depth; ///< empty: the scene's own
-    std::optional<int> spp;       ///< passes; empty: by time, or 16
+    std::optional<int> spp;       ///< passes; empty: by time, or usual_spp
     std::optional<double> time;   ///< seconds of rendering, without loading
     Clock clock = Clock::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
-    std::vector<Norm> norms; ///< empty: weighted where there are gradients; the first is the file's plain RGB
-    float alpha = 0.2f;
-    bool per_channel = false; ///< l1 and mixed: each channel is on its own
-    int threads = 0;          ///< 0: one a hardware thread
+    ReconstructionLayers layers;    ///< without norms: weighted where there are gradients
+    int threads = 0;                ///< 0: one a hardware thread
     std::filesystem::path output;
     std::filesystem::path stats; ///< empty: none
-    bool buffers = false;        ///< primal, dx, dy, direct and the variances as layers, too
 };
 
 /// Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything has been written.
@@ -89,7 +87,8 @@ int run_reference(const ReferenceOptions& options);
 
 /// The words of `tessera reference`, before they are given a meaning.
 struct ReferenceWords {
-    std::string scene, camera, size, method = "gpr", norms;
+    std::string scene, camera, norms;
+    glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
     ReferenceOptions options; ///< all that is not above
 };
@@ -176,10 +175,10 @@ int run_bench(const ExperimentOptions& options);
 int run_sweep(const ExperimentOptions& options);
 
 /// `tessera stability`: renders small scenes, each made so that some method is known to fail, with all methods and
-/// reconstructions, and judges them by path tracing (app/experiment/stability.h). Writes stability.md, stability.csv and a
-/// sheet of pictures a scene, anew after each round; each scene's journal and pictures are in a folder of its own,
-/// OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the scenes' own. Returns
-/// an ExitCode. Throws BadInput or another std::exception before anything was rendered.
+/// reconstructions, and judges them by path tracing (app/experiment/stability.h). Writes stability.md,
+/// stability.csv and a sheet of pictures a scene, anew after each round; each scene's journal and pictures are in
+/// a folder of its own, OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the
+/// scenes' own. Returns an ExitCode. Throws BadInput or another std::exception before anything was rendered.
 int run_stability(ExperimentOptions options);
 
 } // namespace tessera

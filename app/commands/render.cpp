@@ -1,11 +1,12 @@
+#include "render/run/render.h"
+
+#include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
 #include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
-#include "render/run/render.h"
 
 #include <algorithm>
 
@@ -21,15 +22,15 @@ struct Plan {
     RenderSettings settings;
     glm::ivec2 size;
     int spp; ///< 0: by time
-    std::vector<Norm> norms;
+    ReconstructionLayers layers;
 };
 
 Plan make_plan(const RenderOptions& options, const Scene& scene) {
-    Plan plan{options.settings, options.size.value_or(scene.size()), 0, options.norms};
-    plan.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
-    plan.spp = options.spp.value_or(options.time ? 0 : 16);
-    if (plan.norms.empty())
-        plan.norms = {has_gradients(plan.settings.method) ? Norm::weighted : Norm::none};
+    Plan plan{options.settings, options.size.value_or(scene.size()), 0, options.layers};
+    plan.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
+    plan.spp = options.spp.value_or(options.time ? 0 : usual_spp);
+    if (plan.layers.norms.empty())
+        plan.layers.norms = {has_gradients(plan.settings.method) ? Norm::weighted : Norm::none};
     return plan;
 }
 
@@ -59,7 +60,7 @@ void render_passes(const RenderOptions& options, const Plan& plan, Render& rende
 int run_render(const RenderOptions& options) {
     check(options.settings);
     check_writable(options.output);
-    check_picture_name(options.output, {options.norms, options.alpha, options.per_channel, options.buffers});
+    check_picture_name(options.output, options.layers);
     if (!options.stats.empty())
         check_writable(options.stats);
     ThreadPool pool(options.threads);
@@ -73,11 +74,10 @@ int run_render(const RenderOptions& options) {
     warn_of_refused(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
-    const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
-    ExrFile file = picture_layers(render.take_images(), maps,
-                                  {plan.norms, options.alpha, options.per_channel, options.buffers}, pool, recon);
+    const ReuseMaps maps = options.layers.buffers ? render.reuse_maps() : ReuseMaps{};
+    ExrFile file = picture_layers(render.take_images(), maps, plan.layers, pool, recon);
     const nlohmann::json settings =
-        settings_json(options.scene, plan.settings, plan.size, render.spp(), options.alpha);
+        settings_json(options.scene, plan.settings, plan.size, render.spp(), options.layers.settings.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);

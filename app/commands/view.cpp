@@ -1,7 +1,7 @@
+#include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/cli/picture_layers.h"
 #include "render/io/json_text.h"
 #include "render/io/png.h"
 #include "render/run/first_hits.h"
@@ -27,7 +27,6 @@ namespace tessera {
 
 namespace {
 
-constexpr int screenshot_spp = 16;
 constexpr int bad_input = 2;
 
 using WallClock = std::chrono::steady_clock;
@@ -131,7 +130,7 @@ WindowPlace window_place(const ViewOptions& options) {
 }
 
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
-    const SurfaceOptions wanted{title(options.scene.name), window_place(options), options.ui_scale,
+    const SurfaceOptions wanted{title(options.scene.name), window_place(options),
                                 !options.screenshot.empty() || !options.script.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
@@ -146,9 +145,8 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.max_depth = options.max_depth;
     result.size = options.render_size;
     result.threads = options.threads;
-    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
+    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : usual_spp;
     result.sample = options.sample;
-    result.show_panel = options.show_panel;
     result.panes_as_remembered = options.panes_as_remembered;
     if (options.log_actions)
         result.log = print_line;
@@ -253,7 +251,7 @@ const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
 ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
     const Snapshot& snapshot = *picture.snapshot;
     const Reconstruction* finished = finished_reconstruction(picture);
-    ReconstructionLayers wanted{{}, picture.reconstruction.alpha, !picture.reconstruction.joint_colour, true};
+    ReconstructionLayers wanted{{}, picture.reconstruction, true};
     if (!finished)
         wanted.norms = {norm};
     ThreadPool pool(1); // no thread but this one

@@ -53,7 +53,6 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
-    state_.show_panel = options_.show_panel;
     state_.reference_file = options_.reference.string();
     take_preferences();
     if (options_.sample) {
