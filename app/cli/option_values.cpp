@@ -103,12 +103,12 @@ struct OptionAdder {
     const Setting& setting;
     std::string name = option_name(setting), help{setting.help};
 
-    /// Of whole numbers, numbers and seconds.
+    /// Whole numbers, numbers and seconds have limits.
     CLI::Option* operator()(const auto& number) const {
         return command.add_option(name, *number.value, help)->check(CLI::Range(number.least, number.most));
     }
     CLI::Option* operator()(const Setting::Natural& natural) const {
-        return command.add_option(name, *natural.value, help);
+        return command.add_option(name, *natural.value, help)->check(CLI::NonNegativeNumber); // -1 would wrap
     }
     CLI::Option* operator()(const Setting::Switch& on) const {
         return command.add_flag(name + ",!--no-" + name.substr(2), *on.value, help);

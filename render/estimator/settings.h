@@ -36,11 +36,11 @@ struct ShiftSettings {
 enum class Method : std::uint8_t { pt, pr, gpt, gpr };
 inline constexpr Method all_methods[] = {Method::pt, Method::pr, Method::gpt, Method::gpr};
 
-/// "pt", "pr", "gpt", "gpr": the names of the command line.
+/// The method's name on the command line: "pt", "pr", "gpt" or "gpr".
 std::string_view short_name(Method method);
-/// "Path tracing", ...: the names of the panel.
+/// The method's name in the panel, such as "Path tracing".
 std::string_view long_name(Method method);
-/// Empty: no such method.
+/// The method of that short name. Empty: there is none.
 std::optional<Method> method_from_name(std::string_view short_name);
 
 /// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
@@ -51,7 +51,7 @@ enum class Pattern : std::uint8_t {
 
 /// What decides on the probability with which a base path is reused.
 enum class RouletteKind : std::uint8_t {
-    relative, ///< its luminance against the noise of its sampling set (reuse_roulette.h)
+    relative, ///< its luminance against the noise of its sampling set (reuse_policy.h)
     absolute, ///< its luminance against rr_delta [Bauszat 2017, 3.3]
     none      ///< every path is reused
 };
@@ -67,7 +67,7 @@ enum class PrimalSource : std::uint8_t {
 struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
     int tile = 6;           ///< pixels along a tile's edge
-    bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_plan.h)
+    bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_policy.h)
     bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;

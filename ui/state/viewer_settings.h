@@ -21,12 +21,12 @@ std::vector<Setting> settings_of(Tone& tone);
 /// How the pane shows another one's picture.
 Setting comparison_setting(Comparison::Kind& kind);
 
-/// How many pixels are rendered: in relation to what, ...
+/// What the number of rendered pixels follows: the pane, the scene, or a size of its own.
 Setting size_base_setting(SizeChoice::Base& base);
-/// ... or by number. The panes hold no more pixels than these limits allow.
+/// The size where it is one of its own; the panes hold no more pixels than its limits allow.
 Setting custom_size_setting(glm::ivec2& size);
 
-/// Norm, alpha, joint colour, and all of the render but the method: what linked panes have in common.
+/// What linked panes have in common: all of the render but its method, and the reconstruction.
 std::vector<Setting> shared_settings_of(PaneSettings& pane);
 
 } // namespace tessera

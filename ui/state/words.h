@@ -127,7 +127,7 @@ class JsonFields {
 public:
     using Json = nlohmann::ordered_json;
 
-    /// `path`: of all its fields, before their names.
+    /// `path` stands before the names of all its fields.
     JsonFields(JsonReading& reading, const Json& json, std::string path)
         : reading_(reading), json_(json), path_(std::move(path)) {
         if (!json.is_object())
@@ -144,7 +144,7 @@ public:
         reading_.asks(path_, key);
         return json_.contains(key);
     }
-    /// Without fields where there is none of that name.
+    /// The object of that name, or one without fields where there is none.
     JsonFields object(const std::string& key) const {
         static const Json none = Json::object();
         return {reading_, has(key) ? json_.at(key) : none, path_ + key + "/"};
@@ -153,7 +153,7 @@ public:
         return {reading_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
     }
 
-    /// A bool, a number, a whole one from 0 on where T is unsigned, or a string.
+    /// The field as a T: a bool, a number, a whole one from 0 on where T is unsigned, or a string.
     template <class T>
     T get(const std::string& key) const {
         const Json& value = json_.at(key);
@@ -168,7 +168,7 @@ public:
             fail(key, key + " is of the wrong kind: " + value.type_name());
         return value.get<T>();
     }
-    /// `take` gets the value, and throws std::invalid_argument where it is no good.
+    /// Hands the value to `take`, which throws std::invalid_argument where it is no good.
     template <class T, class Take>
     void read(const std::string& key, Take take) const {
         if (!has(key))
@@ -190,7 +190,7 @@ public:
     void read(const std::string& key, bool& value) const {
         read<bool>(key, [&](bool on) { value = on; });
     }
-    /// As numbers, true or false, and words, under the setting's id or another name.
+    /// A setting stands there as a number, true or false, or a word, under its id or another name.
     void read(const Setting& setting) const { read(std::string(setting.id), setting); }
     void read(const std::string& key, const Setting& setting) const {
         using S = Setting;
