@@ -5,7 +5,6 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/experiment/experiment.h"
-#include "ui/state/words.h"
 #include "ui/viewer/script.h"
 
 #include <algorithm>
@@ -23,15 +22,16 @@ namespace {
 
 /// The words of the command line, before they are given a meaning.
 struct Words {
-    std::string scene, camera, size, window, method = "gpr", norms, clock = "wall", sample;
+    std::string scene, camera, methods, norms, clock = "wall", sample;
     std::vector<std::string> definitions;
+    glm::ivec2 size{0}, window{0}; ///< 0: not given
     int spp = 0;
     double time = 0;
-    double seconds = 5;
-    float alpha = 0.2f;
+    double seconds = ContactSheetOptions().seconds;
     int threads = 0;
     int panes = 2;
     RenderSettings settings;
+    ReconstructionSettings reconstruction;
 
     SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
 };
@@ -43,25 +43,24 @@ void add_scene(CLI::App& command, Words& words, bool required) {
 }
 
 void add_settings(CLI::App& command, Words& words) {
-    add_picture_options(command, {words.size, words.settings, words.alpha, words.threads});
+    add_picture_options(command, {words.size, words.settings, words.reconstruction, words.threads});
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
     options.scene = words.source();
     options.settings = words.settings;
-    options.settings.method = *method_from_name(words.method);
     if (command.count("--max-depth"))
         options.max_depth = words.settings.max_depth;
     if (command.count("--spp"))
         options.spp = words.spp;
     if (command.count("--time"))
         options.time = words.time;
-    options.clock = words.clock == "cpu" ? ClockChoice::cpu : ClockChoice::wall;
-    if (!words.size.empty())
-        options.size = parse_size("--size", words.size);
+    options.clock = words.clock == "cpu" ? Clock::cpu : Clock::wall;
+    if (command.count("--size"))
+        options.size = words.size;
     if (command.count("--recon"))
-        options.norms = parse_norms(words.norms);
-    options.alpha = words.alpha;
+        options.layers.norms = parse_norms(words.norms);
+    options.layers.settings = words.reconstruction;
     options.threads = words.threads;
     return run_render(options);
 }
@@ -70,24 +69,17 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     CLI::App& command = *app.add_subcommand("render", "render a scene to an EXR file");
     add_scene(command, words, true);
     add_settings(command, words);
-    command.add_option("-m,--method", words.method, "pt, pr, gpt or gpr")
-        ->check(CLI::IsMember({"pt", "pr", "gpt", "gpr"}))
-        ->capture_default_str();
-    command.add_option("--spp", words.spp, "samples a pixel (default 16)")->check(CLI::Range(1, 100000000));
+    add_method(command, words.settings.method);
+    add_setting(command, spp_setting(words.spp))->default_str(std::to_string(usual_spp));
     command.add_option("--time", words.time, "seconds of rendering, without loading")->check(CLI::PositiveNumber);
-    command.add_option("--clock", words.clock, "what --time counts: wall or cpu")
-        ->check(CLI::IsMember({"wall", "cpu"}))
-        ->capture_default_str();
-    command.add_option(
-        "--recon", words.norms,
-        "none, l2, l1, mixed, uniform, weighted, or several: one layer each (default weighted with gradients)");
+    add_clock(command, words.clock);
+    add_norms(command, words.norms, "or several: one layer each (default weighted with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
-    command.add_flag("--per-channel", options.per_channel,
-                     "l1 and mixed: absolute values of each channel, not lengths of colours");
+    add_per_channel(command, words.reconstruction);
     command.add_flag(
-        "--buffers", options.buffers,
+        "--buffers", options.layers.buffers,
         "primal, dx, dy, direct, the variances, and shares of what was reused, of each outcome of the "
         "shifts and of survival in the roulette as layers of the EXR file, too");
 }
@@ -111,14 +103,13 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     CLI::App& command = *app.add_subcommand("view", "explore a scene in a window");
     add_scene(command, words, false);
     add_settings(command, words);
-    command.add_option("--spp", words.spp, "samples a pixel after which to rest")
-        ->check(CLI::Range(1, ranges::most_spp));
+    add_setting(command, spp_setting(words.spp))
+        ->description("samples a pixel after which to rest")
+        ->default_str("");
     CLI::Option* panes = command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
                              ->check(CLI::IsMember({1, 2, 4}))
                              ->capture_default_str();
-    command
-        .add_option("-m,--method,--methods", words.method,
-                    "pt, pr, gpt, gpr or up to four: gpr,pr; one pane each, instead of --panes")
+    add_methods(command, words.methods, "or up to four: gpr,pr; one pane each, instead of --panes")
         ->excludes(panes);
     command.add_option(
         "--inspect", words.sample,
@@ -130,7 +121,9 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
                        "save the window as PNG when all panes have --spp, and quit");
     command.add_option("--script", options.script, "file with steps to play, a line each");
     command.footer("Steps of a script:\n" + script_help());
-    command.add_option("--window", words.window, "WIDTHxHEIGHT of the window, pixels");
+    Setting window = size_setting(words.window);
+    window.id = "window";
+    add_setting(command, window)->description("WIDTHxHEIGHT of the window, pixels")->default_str("");
     command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -141,9 +134,9 @@ std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) 
     const bool as_render = command.count("--inspect") > 0 && command.count("--panes") == 0;
     std::vector<PaneSettings> panes = default_panes(as_render ? 1 : words.panes);
     if (command.count("--method")) {
-        const std::vector<Method> methods = parse_methods(words.method);
+        const std::vector<Method> methods = parse_methods(words.methods);
         if (methods.size() > most_panes)
-            throw BadInput(fmt::format("-m {}: there are up to {} panes", words.method, most_panes));
+            throw BadInput(fmt::format("-m {}: there are up to {} panes", words.methods, most_panes));
         panes.resize(methods.size());
         for (std::size_t i = 0; i < methods.size(); ++i)
             panes[i].render.method = methods[i];
@@ -152,7 +145,7 @@ std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) 
         const Method method = pane.render.method;
         pane.render = words.settings;
         pane.render.method = method;
-        pane.reconstruction.alpha = words.alpha;
+        pane.reconstruction = words.reconstruction;
     }
     return panes;
 }
@@ -160,12 +153,11 @@ std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) 
 /// A sample is one of a picture of a certain size, whatever the window's.
 SizeChoice size_of(const Words& words) {
     const bool has_sample = !words.sample.empty();
-    if (words.size.empty())
+    if (words.size == glm::ivec2(0))
         return {has_sample ? SizeChoice::Base::scene : SizeChoice::Base::pane};
-    const glm::ivec2 size = parse_size("--size", words.size);
-    if (std::max(size.x, size.y) > most_render_pixels_an_edge)
-        throw BadInput(fmt::format("--size {}: in the viewer, width and height must be from 1 to {}", words.size,
-                                   most_render_pixels_an_edge));
+    glm::ivec2 size = words.size;
+    if (const Setting shown = size_setting(size, most_render_pixels_an_edge); !shown.is_allowed())
+        throw BadInput(fmt::format("--size {}: in the viewer, it must be {}", shown.text(), shown.allowed()));
     return {SizeChoice::Base::custom, 1, size};
 }
 
@@ -188,8 +180,8 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     options.render_size = size_of(words);
     if (!words.sample.empty())
         options.sample = parse_sample("--inspect", words.sample);
-    if (!words.window.empty())
-        options.window_size = parse_size("--window", words.window);
+    if (command.count("--window"))
+        options.window_size = words.window;
     options.threads = threads;
     options.spp = words.spp;
     const int result = run_view(options);
@@ -201,8 +193,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     sheet.scene = source;
     sheet.threads = threads;
     sheet.seconds = words.seconds;
-    if (!words.size.empty())
-        sheet.size = parse_size("--size", words.size);
+    sheet.size = words.size;
     if (!options.screenshot.empty())
         sheet.output = options.screenshot;
     fmt::print(stderr, "There is no display: rendering the viewer's comparison to {} instead.\n",

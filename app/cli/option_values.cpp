@@ -1,16 +1,14 @@
 #include "app/cli/option_values.h"
 
 #include "app/cli/terminal.h"
-#include "render/estimator/settings_table.h"
 #include "ui/state/inspected.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
-#include <optional>
-#include <string>
-#include <system_error>
-#include <vector>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <variant>
 
 #include <CLI/CLI.hpp>
 #include <CLI/StringTools.hpp>
@@ -19,12 +17,14 @@
 namespace tessera {
 
 glm::ivec2 parse_size(const std::string& option, const std::string& text) {
-    int w = 0, h = 0, used = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
-        throw BadInput(fmt::format("{} {}: must be WIDTHxHEIGHT, such as 640x360", option, text));
-    if (w < 1 || h < 1 || w > 32768 || h > 32768)
-        throw BadInput(fmt::format("{} {}: width and height must be from 1 to 32768", option, text));
-    return {w, h};
+    glm::ivec2 size(0);
+    const Setting setting = size_setting(size);
+    try {
+        setting.set_text(text);
+    } catch (const std::invalid_argument&) {
+        throw BadInput(fmt::format("{} {}: must be {}", option, text, setting.allowed()));
+    }
+    return size;
 }
 
 SceneVariables parse_variables(const std::vector<std::string>& definitions) {
@@ -40,15 +40,16 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
 
 namespace {
 
-/// Values with commas between them, each by `from_name`, which returns an optional.
-template <class FromName>
-auto parse_list(const std::string& option, const std::string& text, const char* known, FromName from_name) {
-    std::vector<typename decltype(from_name({}))::value_type> values;
+/// Values with commas between them, of an enum with these choices.
+template <class Enum>
+std::vector<Enum> parse_list(const std::string& option, const std::string& text,
+                             std::span<const SettingChoice> choices) {
+    std::vector<Enum> values;
     for (const std::string& name : CLI::detail::split(text, ',')) {
-        const auto value = from_name(name);
-        if (!value)
-            throw BadInput(fmt::format("{} {}: must be of {}", option, name, known));
-        values.push_back(*value);
+        const auto found = std::ranges::find(choices, name, &SettingChoice::id);
+        if (found == choices.end())
+            throw BadInput(fmt::format("{} {}: must be of {}", option, name, ids_of(choices)));
+        values.push_back(static_cast<Enum>(found - choices.begin()));
     }
     return values;
 }
@@ -56,11 +57,11 @@ auto parse_list(const std::string& option, const std::string& text, const char* 
 } // namespace
 
 std::vector<Norm> parse_norms(const std::string& text) {
-    return parse_list("--recon", text, "none, l2, l1, mixed, uniform, weighted", norm_from_name);
+    return parse_list<Norm>("--recon", text, norm_choices());
 }
 
 std::vector<Method> parse_methods(const std::string& text) {
-    return parse_list("-m", text, "pt, pr, gpt, gpr", method_from_name);
+    return parse_list<Method>("-m", text, method_choices());
 }
 
 SampleChoice parse_sample(const std::string& option, const std::string& text) {
@@ -81,51 +82,88 @@ namespace {
 /// --rr-delta for "rr_delta".
 std::string option_name(const Setting& setting) {
     std::string name = "--" + std::string(setting.id);
-    std::replace(name.begin(), name.end(), '_', '-');
+    std::ranges::replace(name, '_', '-');
     return name;
 }
 
-void add_choice(CLI::App& command, const Setting& setting, const Setting::OneOf& one, RenderSettings& s) {
+/// An option that takes one of the choices by its id, and is named `name`.
+CLI::Option* add_choice(CLI::App& command, const std::string& name, const Setting& setting) {
     std::vector<std::string> words;
-    for (const SettingChoice& choice : one.choices)
+    for (const SettingChoice& choice : std::get<Setting::OneOf>(setting.kind).choices)
         words.emplace_back(choice.id);
-    command
+    return command
         .add_option_function<std::string>(
-            option_name(setting), [&setting, &s](const std::string& word) { setting.set_text(s, word); },
-            std::string(setting.help))
-        ->check(CLI::IsMember(words))
-        ->default_str(setting.text(s));
+            name, [setting](const std::string& word) { setting.set_text(word); }, std::string(setting.help))
+        ->check(CLI::IsMember(words));
 }
 
-/// The setting as an option. `s` must outlive the command.
-void add_setting(CLI::App& command, const Setting& setting, RenderSettings& s) {
-    const std::string name = option_name(setting), help(setting.help);
-    CLI::Option* option = nullptr;
-    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
-        option = command.add_option(name, s.*whole->member, help)->check(CLI::Range(whole->least, whole->most));
-    else if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
-        option = command.add_option(name, s.*real->member, help)->check(CLI::Range(real->least, real->most));
-    else if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
-        option = command.add_flag(name + ",!--no-" + name.substr(2), s.*on->member, help);
-    else
-        return add_choice(command, setting, std::get<Setting::OneOf>(setting.kind), s);
-    option->default_str(setting.id == "max_depth" ? "the scene's" : setting.text(s));
-}
+/// Adds the option that fits the kind of a setting.
+struct OptionAdder {
+    CLI::App& command;
+    const Setting& setting;
+    std::string name = option_name(setting), help{setting.help};
+
+    /// Whole numbers, numbers and seconds have limits.
+    CLI::Option* operator()(const auto& number) const {
+        return command.add_option(name, *number.value, help)->check(CLI::Range(number.least, number.most));
+    }
+    CLI::Option* operator()(const Setting::Natural& natural) const {
+        return command.add_option(name, *natural.value, help)->check(CLI::NonNegativeNumber); // -1 would wrap
+    }
+    CLI::Option* operator()(const Setting::Switch& on) const {
+        return command.add_flag(name + ",!--no-" + name.substr(2), *on.value, help);
+    }
+    CLI::Option* operator()(const Setting::OneOf&) const { return add_choice(command, name, setting); }
+    CLI::Option* operator()(const Setting::Size& size) const {
+        return command.add_option_function<std::string>(
+            name, [name = name, size](const std::string& text) { *size.value = parse_size(name, text); }, help);
+    }
+};
 
 } // namespace
 
-void add_setting_options(CLI::App& command, RenderSettings& settings) {
-    for (const Setting& setting : all_settings())
-        add_setting(command, setting, settings);
+CLI::Option* add_setting(CLI::App& command, const Setting& setting) {
+    return std::visit(OptionAdder{command, setting}, setting.kind)->default_str(setting.text());
 }
 
-std::string option_words(const RenderSettings& from, const RenderSettings& to) {
+CLI::Option* add_method(CLI::App& command, Method& method) {
+    const Setting setting = method_setting(method);
+    return add_choice(command, "-m,--method", setting)->default_str(setting.text());
+}
+
+CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::string& rest) {
+    return command.add_option("-m,--method,--methods", methods,
+                              fmt::format("{} {}", ids_of(method_choices()), rest));
+}
+
+CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest) {
+    return command.add_option("--recon", norms, fmt::format("{} {}", ids_of(norm_choices()), rest));
+}
+
+CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings) {
+    return add_setting(command, setting_named(settings_of(settings), "alpha"));
+}
+
+CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings) {
+    return command.add_flag_callback(
+        "--per-channel", [&settings] { settings.joint_colour = false; },
+        "l1 and mixed: absolute values of each channel, not lengths of colours");
+}
+
+CLI::Option* add_clock(CLI::App& command, std::string& clock) {
+    return command.add_option("--clock", clock, "what --time counts: cpu or wall")
+        ->check(CLI::IsMember({"wall", "cpu"}))
+        ->capture_default_str();
+}
+
+std::string option_words(RenderSettings from, RenderSettings to) {
     std::string words;
-    for (const Setting& setting : all_settings()) {
-        const std::string name = option_name(setting), value = setting.text(to);
-        if (value == setting.text(from))
+    const std::vector<Setting> before = settings_of(from), after = settings_of(to);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const std::string name = option_name(after[i]), value = after[i].text();
+        if (value == before[i].text())
             continue;
-        if (std::holds_alternative<Setting::Switch>(setting.kind))
+        if (std::holds_alternative<Setting::Switch>(after[i].kind))
             words += (value == "on" ? " " : " --no-") + name.substr(value == "on" ? 0 : 2);
         else
             words += " " + name + " " + value;
@@ -134,13 +172,13 @@ std::string option_words(const RenderSettings& from, const RenderSettings& to) {
 }
 
 void add_picture_options(CLI::App& command, PictureWords words) {
-    command.add_option("--size", words.size, "WIDTHxHEIGHT of the image, pixels (default: the scene's)");
-    add_setting_options(command, words.settings);
-    command.add_option("--alpha", words.alpha, "weight of the primal against the gradients")
-        ->check(CLI::Range(1e-4, 1e3))
-        ->capture_default_str();
-    command.add_option("--seed", words.settings.seed, "of the random numbers")->capture_default_str();
-    command.add_option("--threads", words.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+    add_setting(command, size_setting(words.size))->default_str("the scene's");
+    for (const Setting& setting : settings_of(words.settings))
+        add_setting(command, setting);
+    command.get_option("--max-depth")->default_str("the scene's");
+    add_alpha(command, words.reconstruction);
+    add_setting(command, seed_setting(words.settings.seed));
+    add_setting(command, threads_setting(words.threads));
 }
 
 } // namespace tessera

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/estimator/settings.h"
+#include "render/estimator/settings_table.h"
 #include "render/load/mitsuba_xml.h"
 
 #include <string>
 #include <vector>
 
 #include <CLI/App.hpp>
+#include <CLI/Option.hpp>
 #include <glm/vec2.hpp>
 
 namespace tessera {
@@ -29,22 +30,38 @@ std::vector<Method> parse_methods(const std::string& text);
 /// "X,Y,PASS", as given to `option`: a sample of whatever pane.
 SampleChoice parse_sample(const std::string& option, const std::string& text);
 
-/// Gives the command an option for every setting of the table. They write to `settings`, which must outlive it.
-void add_setting_options(CLI::App& command, RenderSettings& settings);
+// Options made from the table of settings. What they write to must outlive the command. Each returns the option,
+// for a command that describes it otherwise.
+
+/// The setting's own option, with its help, limits and, where the value is one by itself, default.
+CLI::Option* add_setting(CLI::App& command, const Setting& setting);
+
+/// -m of one method.
+CLI::Option* add_method(CLI::App& command, Method& method);
+/// -m of several, whose text is for parse_methods. `rest` follows their names in the help.
+CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::string& rest);
+/// --recon, whose text is for parse_norms. `rest` follows their names in the help.
+CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest);
+/// --alpha.
+CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings);
+/// --per-channel, which turns the joint colour off.
+CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings);
+/// --clock, "cpu" or "wall": what --time counts.
+CLI::Option* add_clock(CLI::App& command, std::string& clock);
 
 /// The options that lead from some settings to others, as words of a command line: " --tile 4 --no-jitter".
-/// Without method and seed, which are in no table.
-std::string option_words(const RenderSettings& from, const RenderSettings& to);
+/// Without method and seed.
+std::string option_words(RenderSettings from, RenderSettings to);
 
-/// Where options of a picture are written to; all must outlive the command.
+/// Where options of a picture are written to.
 struct PictureWords {
-    std::string& size; ///< "640x360"
+    glm::ivec2& size; ///< 0: not given
     RenderSettings& settings;
-    float& alpha;
+    ReconstructionSettings& reconstruction;
     int& threads;
 };
 
-/// The same, and --size, --alpha, --seed and --threads.
+/// An option for every render setting but the method, and --size, --alpha, --seed and --threads.
 void add_picture_options(CLI::App& command, PictureWords words);
 
 } // namespace tessera

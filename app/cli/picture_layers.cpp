@@ -2,8 +2,8 @@
 
 #include "app/cli/machine.h"
 #include "app/cli/terminal.h"
-#include "render/io/png.h"
 #include "render/io/files.h"
+#include "render/io/png.h"
 
 #include <string>
 #include <utility>
@@ -36,9 +36,11 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
                            std::vector<ReconstructionStats>& stats) {
     ExrFile file;
     const ParallelFor parallel_for = pool.loops();
+    ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
+        settings.norm = norm;
         const double cpu = process_cpu_seconds();
-        Reconstruction r = reconstruct(images, {norm, wanted.alpha, !wanted.per_channel}, parallel_for);
+        Reconstruction r = reconstruct(images, settings, parallel_for);
         stats.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }

@@ -15,10 +15,9 @@ inline constexpr const char* patch_attribute = "tessera:patch";
 
 /// The layers of a picture file that are made from gradients.
 struct ReconstructionLayers {
-    std::vector<Norm> norms; ///< the first is the file's plain RGB; empty: none is made
-    float alpha = 0.2f;
-    bool per_channel = false; ///< l1 and mixed: each channel is on its own
-    bool buffers = false;     ///< primal, dx, dy, direct and variances, too
+    std::vector<Norm> norms;           ///< the first is the file's plain RGB; empty: none is made
+    ReconstructionSettings settings{}; ///< of each, but for its norm
+    bool buffers = false;              ///< primal, dx, dy, direct and variances, too
 };
 
 /// What one reconstruction cost: wall and CPU seconds, not a number where they are not known.

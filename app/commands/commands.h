@@ -28,7 +28,10 @@ inline constexpr int view_needs_display = -1;
 /// What run_view returns where a signal ended a script or a screenshot: what a shell says of Ctrl-C.
 inline constexpr int view_cut_short = 130;
 
-/// What `tessera view` is asked for.
+/// Samples a pixel of pictures for which neither samples nor time are given.
+inline constexpr int usual_spp = 16;
+
+/// `tessera view`.
 struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
     SceneOpener open;  ///< for scenes dropped on the window
@@ -38,14 +41,12 @@ struct ViewOptions {
     SizeChoice render_size;
     int threads = 0;                       ///< of the renderer; 0: one a hardware thread
     std::optional<glm::ivec2> window_size; ///< otherwise that of the last window, or 1440x810
-    float ui_scale = 0;                    ///< of text and controls; 0: as the display says
-    int spp = 0;                           ///< samples a pixel at which the panes rest; 0: none (a screenshot: 16)
-    std::optional<SampleChoice> sample;    ///< to begin with in the path inspector, of the last pane
-    bool show_panel = true;
-    std::filesystem::path reference;  ///< EXR file to measure errors against; empty: none
-    std::filesystem::path screenshot; ///< if not empty: save a picture of the window at `spp` samples, and end
-    std::filesystem::path script;     ///< if not empty: steps to be played
-    bool log_actions = false;         ///< a line on stdout for every change of state, and where controls lie
+    int spp = 0; ///< samples a pixel at which the panes rest; 0: none (a screenshot: usual_spp)
+    std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the last pane
+    std::filesystem::path reference;    ///< EXR file to measure errors against; empty: none
+    std::filesystem::path screenshot;   ///< if not empty: save a picture of the window at `spp` samples, and end
+    std::filesystem::path script;       ///< if not empty: steps to be played
+    bool log_actions = false;           ///< a line on stdout for every change of state, and where controls lie
 };
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
@@ -59,17 +60,14 @@ struct RenderOptions {
     SceneSource scene;
     RenderSettings settings;
     std::optional<int> max_depth; ///< empty: the scene's own
-    std::optional<int> spp;       ///< passes; empty: by time, or 16
+    std::optional<int> spp;       ///< passes; empty: by time, or usual_spp
     std::optional<double> time;   ///< seconds of rendering, without loading
     ClockChoice clock = ClockChoice::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
-    std::vector<Norm> norms; ///< empty: weighted where there are gradients; the first is the file's plain RGB
-    float alpha = 0.2f;
-    bool per_channel = false; ///< l1 and mixed: each channel is on its own
-    int threads = 0;          ///< 0: one a hardware thread
+    ReconstructionLayers layers;    ///< without norms: weighted where there are gradients
+    int threads = 0;                ///< 0: one a hardware thread
     std::filesystem::path output;
     std::filesystem::path stats; ///< empty: none
-    bool buffers = false;        ///< primal, dx, dy, direct and the variances as layers, too
 };
 
 /// Renders a picture. Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything
@@ -92,7 +90,8 @@ int run_reference(const ReferenceOptions& options);
 
 /// The words of `tessera reference`, before they are given a meaning.
 struct ReferenceWords {
-    std::string scene, camera, size, method = "gpr", norms;
+    std::string scene, camera, norms;
+    glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
     ReferenceOptions options; ///< all that is not above
 };

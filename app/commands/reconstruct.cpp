@@ -45,14 +45,10 @@ void add_reconstruct(CLI::App& app, ReconstructWords& words) {
                    "Of an EXR file with several layers, the plain RGB is a reconstruction, and is not used.");
     ReconstructOptions& options = words.options;
     add_inputs(command, words);
-    command.add_option("--recon", words.norms, "norms as for render; of several, each has a layer")
-        ->capture_default_str();
-    command.add_option("--alpha", options.layers.alpha, "weight of the primal against the gradients")
-        ->check(CLI::Range(1e-4, 1e3))
-        ->capture_default_str();
-    command.add_flag("--per-channel", options.layers.per_channel,
-                     "l1 and mixed: absolute values of each channel, not lengths of colours");
-    command.add_option("--threads", options.threads, "0: one a hardware thread")->check(CLI::Range(0, 1024));
+    add_norms(command, words.norms, "or several: one layer each")->capture_default_str();
+    add_alpha(command, options.layers.settings);
+    add_per_channel(command, options.layers.settings);
+    add_setting(command, threads_setting(options.threads));
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times and residuals");
@@ -88,8 +84,8 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"width", input.images.primal.width()},
             {"height", input.images.primal.height()},
             {"norms", norms},
-            {"alpha", options.layers.alpha},
-            {"per_channel", options.layers.per_channel},
+            {"alpha", options.layers.settings.alpha},
+            {"per_channel", !options.layers.settings.joint_colour},
             {"repaired_pixels", input.repaired}};
 }
 

@@ -27,16 +27,13 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     command.add_option("scene", words.scene, "Mitsuba scene, XML")->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
-    add_picture_options(command,
-                        {words.size, recipe.settings, recipe.reconstruction.alpha, words.options.threads});
+    add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
     command.get_option("--seed")->description("of the first half; the second has the next");
-    command.add_option("-m,--method", words.method, "pt, pr, gpt or gpr")
-        ->check(CLI::IsMember({"pt", "pr", "gpt", "gpr"}))
-        ->capture_default_str();
-    command.add_option("--spp", recipe.spp, "samples a pixel, of both halves together; one more if odd")
-        ->check(CLI::Range(2, 100000000))
-        ->capture_default_str();
-    command.add_option("--recon", words.norms, "norm as for render, where there are gradients (default l2)");
+    add_method(command, recipe.settings.method);
+    add_setting(command, spp_setting(recipe.spp, 2))
+        ->description("samples a pixel, of both halves together; one more if odd");
+    add_norms(command, words.norms, "where there are gradients")
+        ->default_str(std::string(to_string(recipe.reconstruction.norm)));
     command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
@@ -46,11 +43,10 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words) {
     ReferenceOptions options = words.options;
     options.scene = {words.scene, parse_variables(words.definitions), words.camera};
-    options.recipe.settings.method = *method_from_name(words.method);
     if (command.count("--max-depth"))
         options.max_depth = options.recipe.settings.max_depth;
-    if (!words.size.empty())
-        options.size = parse_size("--size", words.size);
+    if (command.count("--size"))
+        options.size = words.size;
     if (!words.norms.empty()) {
         const std::vector<Norm> norms = parse_norms(words.norms);
         if (norms.size() != 1)

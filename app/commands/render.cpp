@@ -23,15 +23,15 @@ struct ResolvedRender {
     RenderSettings settings;
     glm::ivec2 size;
     int spp; ///< 0: by time
-    std::vector<Norm> norms;
+    ReconstructionLayers layers;
 };
 
 ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
-    ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.norms};
-    wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), 64));
-    wanted.spp = options.spp.value_or(options.time ? 0 : 16);
-    if (wanted.norms.empty())
-        wanted.norms = {has_gradients(wanted.settings.method) ? Norm::weighted : Norm::none};
+    ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.layers};
+    wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
+    wanted.spp = options.spp.value_or(options.time ? 0 : usual_spp);
+    if (wanted.layers.norms.empty())
+        wanted.layers.norms = {has_gradients(wanted.settings.method) ? Norm::weighted : Norm::none};
     return wanted;
 }
 
@@ -61,7 +61,7 @@ void render_passes(const RenderOptions& options, const ResolvedRender& wanted, R
 int run_render(const RenderOptions& options) {
     check(options.settings);
     check_writable(options.output);
-    check_picture_name(options.output, {options.norms, options.alpha, options.per_channel, options.buffers});
+    check_picture_name(options.output, options.layers);
     if (!options.stats.empty())
         check_writable(options.stats);
     ThreadPool pool(options.threads);
@@ -75,12 +75,10 @@ int run_render(const RenderOptions& options) {
     warn_of_refused(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
-    const ReuseMaps maps = options.buffers ? render.reuse_maps() : ReuseMaps{};
-    ExrFile file =
-        picture_layers(render.take_images(), maps,
-                       {wanted.norms, options.alpha, options.per_channel, options.buffers}, pool, recon);
+    const ReuseMaps maps = options.layers.buffers ? render.reuse_maps() : ReuseMaps{};
+    ExrFile file = picture_layers(render.take_images(), maps, wanted.layers, pool, recon);
     const nlohmann::json settings =
-        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.alpha);
+        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);

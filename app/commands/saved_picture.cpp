@@ -48,7 +48,7 @@ const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
 ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
     const Snapshot& snapshot = *picture.snapshot;
     const Reconstruction* finished = finished_reconstruction(picture);
-    ReconstructionLayers wanted{{}, picture.reconstruction.alpha, !picture.reconstruction.joint_colour, true};
+    ReconstructionLayers wanted{{}, picture.reconstruction, true};
     if (!finished)
         wanted.norms = {norm};
     ThreadPool pool(1); // no thread but this one

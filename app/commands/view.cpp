@@ -19,7 +19,6 @@ namespace tessera {
 
 namespace {
 
-constexpr int screenshot_spp = 16;
 
 using WallClock = std::chrono::steady_clock;
 
@@ -123,7 +122,7 @@ WindowPlace window_place(const ViewOptions& options) {
 }
 
 std::unique_ptr<Surface> open_surface(const ViewOptions& options) {
-    const SurfaceOptions wanted{title(options.scene.name), window_place(options), options.ui_scale,
+    const SurfaceOptions wanted{title(options.scene.name), window_place(options),
                                 !options.screenshot.empty() || !options.script.empty()};
     std::string error;
     std::unique_ptr<Surface> surface = open_window(wanted, error);
@@ -138,9 +137,8 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.max_depth = options.max_depth;
     result.size = options.render_size;
     result.threads = options.threads;
-    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : screenshot_spp;
+    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : usual_spp;
     result.sample = options.sample;
-    result.show_panel = options.show_panel;
     result.panes_as_remembered = options.panes_as_remembered;
     if (options.log_actions)
         result.log = print_line;

@@ -87,7 +87,7 @@ private:
 /// The words of `tessera sweep`, `bench` and `stability`, before they are given a meaning.
 struct ExperimentWords {
     std::vector<std::string> scenes, variations;
-    std::string size, methods, norms, clock = "cpu";
+    std::string methods, norms, clock = "cpu";
     int spp = 0;
     double time = 0;
     ExperimentOptions options; ///< all that is not above

@@ -9,27 +9,30 @@ namespace tessera {
 
 namespace {
 
-void add_effort(CLI::App& command, ExperimentWords& words, const char* of_time) {
-    CLI::Option* spp = command.add_option("--spp", words.spp, "samples a pixel")->check(CLI::Range(1, 100000000));
-    command.add_option("--time", words.time, of_time)->check(CLI::PositiveNumber)->excludes(spp);
-    command.add_option("--clock", words.clock, "what --time counts: cpu or wall")
-        ->check(CLI::IsMember({"wall", "cpu"}))
-        ->capture_default_str();
+void add_effort(CLI::App& command, ExperimentWords& words) {
+    CLI::Option* spp = add_setting(command, spp_setting(words.spp))->default_str("");
+    command
+        .add_option("--time", words.time,
+                    fmt::format("seconds of rendering each, instead of --spp (default {})",
+                                to_string(words.options.effort)))
+        ->check(CLI::PositiveNumber)
+        ->excludes(spp);
+    add_clock(command, words.clock);
 }
 
 void add_references(CLI::App& command, ExperimentOptions& options) {
     command.add_option("--reference", options.references, "folder of the references")->required();
-    command.add_option("--reference-spp", options.recipe.spp, "samples a pixel of references that are missing")
-        ->check(CLI::Range(2, 100000000))
-        ->capture_default_str();
+    Setting spp = spp_setting(options.recipe.spp, 2);
+    spp.id = "reference_spp";
+    add_setting(command, spp)->description("samples a pixel of references that are missing");
 }
 
-void add_experiment(CLI::App& command, ExperimentWords& words, const char* of_time) {
+void add_experiment(CLI::App& command, ExperimentWords& words) {
     ExperimentOptions& options = words.options;
     command.add_option("scenes", words.scenes, "Mitsuba scenes, XML")->required()->take_all();
-    add_picture_options(command, {words.size, options.settings.render, options.settings.reconstruction.alpha,
+    add_picture_options(command, {options.settings.size, options.settings.render, options.settings.reconstruction,
                                   options.settings.threads});
-    command.get_option("--size")->description("WIDTHxHEIGHT of the images, pixels")->default_str("640x360");
+    command.get_option("--size")->default_str(size_setting(options.settings.size).text());
     command.get_option("--max-depth")->default_str(std::to_string(options.settings.render.max_depth));
     command.get_option("--seed")->description("of the first render of each setup");
     command
@@ -39,16 +42,12 @@ void add_experiment(CLI::App& command, ExperimentWords& words, const char* of_ti
                     "combinations")
         ->take_all()
         ->allow_extra_args(false);
-    command.add_option("-m,--method,--methods", words.methods, "pt, pr, gpt, gpr or several: gpr,pr")
-        ->capture_default_str();
-    add_effort(command, words, of_time);
+    add_methods(command, words.methods, "or several: gpr,pr")->capture_default_str();
+    add_effort(command, words);
     command.add_option("--seeds", options.seeds, "renders of each setup, each with another seed")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command
-        .add_option("--recon", words.norms,
-                    "none, l2, l1, mixed, uniform, weighted or several, where there are gradients")
-        ->capture_default_str();
+    add_norms(command, words.norms, "or several, where there are gradients")->capture_default_str();
     add_references(command, options);
     command.add_flag("--any-build", options.takes_any_build,
                      "take from the journal what other builds of the program have recorded, too");
@@ -73,7 +72,7 @@ void add_sweep(CLI::App& app, ExperimentWords& words) {
     command.footer(std::string("Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, "
                                "anew after each round of renders.\n") +
                    common_footer);
-    add_experiment(command, words, "CPU seconds of rendering, instead of --spp (default 64 spp)");
+    add_experiment(command, words);
 }
 
 void add_bench(CLI::App& app, ExperimentWords& words) {
@@ -88,7 +87,7 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
                                "bench-SCENE.svg to the output folder, anew after each round of renders, and the "
                                "pictures of the first seed to OUTPUT/images.\n") +
                    common_footer);
-    add_experiment(command, words, "seconds of rendering each (default 60 CPU seconds)");
+    add_experiment(command, words);
     command
         .add_option("--halvings", words.options.halvings,
                     "errors are also taken after a half, a quarter, ... of the time, this often")
@@ -113,11 +112,10 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
             "Writes stability.md, stability.csv and SCENE.png to the output folder, anew after each round of "
             "renders. References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
         common_footer);
-    add_experiment(command, words, "CPU seconds of rendering each (default 1)");
+    add_experiment(command, words);
     command.get_option("scenes")->required(false)->description(
         "Mitsuba scenes, XML (default: assets/stability), with <!-- fails: what and why --> and <!-- vary: NAME = "
         "VALUE, VALUE -->");
-    command.get_option("--size")->default_str("96x72");
     command.get_option("--reference")->required(false)->default_str("references");
     command.get_option("--output")->required(false)->default_str("report");
     for (const char* other : {"--max-depth", "--vary"})
@@ -140,8 +138,6 @@ ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWord
     if (command.count("--time"))
         options.effort = {words.time,
                           words.clock == "cpu" ? Effort::Unit::cpu_seconds : Effort::Unit::wall_seconds};
-    if (!words.size.empty())
-        options.settings.size = parse_size("--size", words.size);
     return options;
 }
 

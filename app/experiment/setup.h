@@ -2,9 +2,9 @@
 #pragma once
 
 #include "recon/reconstruct.h"
+#include "render/estimator/setting.h"
 #include "render/estimator/settings.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,18 +24,22 @@ struct PictureSettings {
     bool operator==(const PictureSettings&) const = default;
 };
 
-/// One of these settings, by name, for whatever takes several values of it in turn: a setting of the table
-/// (render/estimator/settings_table.h), or recon, alpha, size or threads.
+/// The settings of the table that an experiment may vary (render/estimator/settings_table.h): those of the render,
+/// recon (as the command line calls the norm), alpha, size and threads. `settings` must outlive them.
+std::vector<Setting> settings_of(PictureSettings& settings);
+
+/// One of these settings, whichever picture it is of.
 struct Variable {
     std::string id;    ///< "rr_delta"
     std::string label; ///< of an axis
-    std::function<std::string(const PictureSettings&)> text;
-    /// Sets the value from a text. Throws std::invalid_argument that says what it may be.
-    std::function<void(PictureSettings&, std::string_view)> set_text;
+
+    std::string text(PictureSettings settings) const;
+    /// Throws std::invalid_argument that says what it may be.
+    void set_text(PictureSettings& settings, std::string_view text) const;
     /// Whether it makes a difference while the others are as they are.
-    std::function<bool(const PictureSettings&)> matters;
-    /// The value's place on an axis; empty: it is no number.
-    std::function<std::optional<double>(const PictureSettings&)> number;
+    bool matters(PictureSettings settings) const;
+    /// Its place on an axis; empty: it is no number.
+    std::optional<double> number(PictureSettings settings) const;
 };
 
 /// The variable of that id, or of the option's name with hyphens. Throws std::invalid_argument that names all.

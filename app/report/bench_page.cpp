@@ -131,7 +131,7 @@ std::string row(std::string_view name, const std::string& value) {
 
 std::string settings_section(const Experiment& experiment) {
     const ExperimentOptions& options = experiment.options();
-    const PictureSettings& s = options.settings;
+    PictureSettings s = options.settings;
     std::string html = "<h2>Settings and machine</h2>\n<table>\n";
     html += row("program", fmt::format("tessera {}{}", program_identity(),
                                        options.takes_any_build ? ", some runs maybe by another build" : ""));
@@ -144,8 +144,8 @@ std::string settings_section(const Experiment& experiment) {
                                      s.render.seed + static_cast<std::uint64_t>(options.seeds) - 1));
     html += row("size", fmt::format("{}x{}", s.size.x, s.size.y));
     html += row("alpha", number(s.reconstruction.alpha));
-    for (const Setting& setting : all_settings())
-        html += row(setting.id, setting.text(s.render));
+    for (const Setting& setting : settings_of(s.render))
+        html += row(setting.id, setting.text());
     for (const Variation& variation : options.variations) {
         std::string values;
         for (const std::string& value : variation.values)

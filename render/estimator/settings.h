@@ -10,9 +10,9 @@ inline constexpr int most_edges = 64; ///< of a light path
 
 /// What decides how far base paths go and what they look for.
 struct PathSettings {
-    int max_depth = 8;      ///< edges of a light path; 1: emission only [1, 64]
-    int light_samples = 1;  ///< points on lights drawn at every vertex [1, 16]
-    int roulette_depth = 0; ///< edges beyond which a path goes on by Russian roulette; 0: never by it [0, 64]
+    int max_depth = 8;      ///< edges of a light path; 1: emission only
+    int light_samples = 1;  ///< points on lights drawn at every vertex
+    int roulette_depth = 0; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
 
     bool operator==(const PathSettings&) const = default;
 };
@@ -27,8 +27,8 @@ enum class ShiftKind : std::uint8_t {
 
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
-    float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015] [0, 1]
-    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at x_1 [0, 1000]
+    float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]
+    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at x_1
 
     bool operator==(const ShiftSettings&) const = default;
 };
@@ -36,11 +36,11 @@ struct ShiftSettings {
 enum class Method : std::uint8_t { pt, pr, gpt, gpr };
 inline constexpr Method all_methods[] = {Method::pt, Method::pr, Method::gpt, Method::gpr};
 
-/// "pt", "pr", "gpt", "gpr": the names of the command line.
+/// The method's name on the command line: "pt", "pr", "gpt" or "gpr".
 std::string_view short_name(Method method);
-/// "Path tracing", "Gradient-domain path reusing": the names of the panel.
+/// The method's name in the panel, such as "Path tracing".
 std::string_view long_name(Method method);
-/// Empty: no such method.
+/// The method of that short name. Empty: there is none.
 std::optional<Method> method_from_name(std::string_view short_name);
 
 /// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
@@ -66,16 +66,16 @@ enum class PrimalSource : std::uint8_t {
 /// called, and its limits: settings_table.h.
 struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
-    int tile = 6;           ///< pixels along a tile's edge [1, 16]
+    int tile = 6;           ///< pixels along a tile's edge
     bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_policy.h)
     bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
     float rr_scale = 1;         ///< relative roulette's threshold, in standard deviations of the sampling set
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
-    float q_min = 0.1f;         ///< least probability that a path is reused (0, 1]
-    float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none [0, 1]
-    int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge [1, 8]
+    float q_min = 0.1f;         ///< least probability that a path is reused
+    float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
+    int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge
     PrimalSource primal = PrimalSource::reuse;
     std::uint64_t seed = 0;
 

@@ -1,65 +1,42 @@
 #pragma once
 
+#include "recon/reconstruct.h"
+#include "render/estimator/setting.h"
 #include "render/estimator/settings.h"
 
+#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
-/// One value of a setting that has a few named ones.
-struct SettingChoice {
-    std::string_view id; ///< unique in the setting: "half-vector"
-    std::string_view label;
-    std::string_view help;
-};
+// The one table of settings: every row's name, limits, choices and help stand here and nowhere else. A row is
+// bound to a value that must outlive it.
 
-/// One of RenderSettings' members as command line, panel, log and files know it: they all are made from this
-/// table.
-struct Setting {
-    struct Whole {
-        int RenderSettings::*member;
-        int least, most;
-    };
-    /// Shown on a logarithmic scale.
-    struct Real {
-        float RenderSettings::*member;
-        float least, most; ///< limits
-        float low, high;   ///< ends of a slider
-    };
-    struct Switch {
-        bool RenderSettings::*member;
-    };
-    struct OneOf {
-        std::span<const SettingChoice> choices; ///< in the order of the values
-        int (*get)(const RenderSettings&);
-        void (*set)(RenderSettings&, int);
-    };
+inline constexpr int most_spp = 100'000'000;     ///< samples a pixel of one picture
+inline constexpr double most_seconds = 1e7;      ///< of rendering, a third of a year
+inline constexpr int most_threads = 1024;        ///< of a renderer
+inline constexpr int most_picture_edge = 32'768; ///< pixels of a picture's width or height
 
-    std::string_view id; ///< "rr_delta", with underscores; the option is --rr-delta
-    std::string_view label;
-    std::string_view help; ///< a sentence or two, with units
-    std::variant<Whole, Real, Switch, OneOf> kind;
-    /// Whether it makes a difference while the other settings are as they are.
-    bool (*matters)(const RenderSettings&);
-    bool is_rare = false; ///< seldom changed: the panel folds it away
+/// All members of RenderSettings but method and seed, in the order of the panel.
+std::vector<Setting> settings_of(RenderSettings& settings);
 
-    /// The value as a word or number: "6", "0.1", "on", "half-vector". Numbers with all digits that they need.
-    std::string text(const RenderSettings& settings) const;
-    /// Sets it from such a word or number. Throws std::invalid_argument that says what it may be.
-    void set_text(RenderSettings& settings, std::string_view text) const;
-    /// What it may be: "a whole number from 1 to 16", "on or off", "one of tile, rooks".
-    std::string allowed() const;
-};
+/// Norm, alpha and joint colour, in this order. What matters is so for methods that have gradients.
+std::vector<Setting> settings_of(ReconstructionSettings& settings);
 
-/// All but method and seed, in the order of the panel.
-std::span<const Setting> all_settings();
+Setting method_setting(Method& method);
+Setting seed_setting(std::uint64_t& seed);
+/// `least` is above 0 where a picture needs samples, or two for its two halves; `help` says of what they are.
+Setting spp_setting(int& spp, int least = 1);
+/// `least` is 0 where that may stand for one a hardware thread.
+Setting threads_setting(int& threads, int least = 0);
+Setting size_setting(glm::ivec2& size, int most = most_picture_edge);
 
-/// The setting of that id, with underscores or with the option's hyphens. Throws std::invalid_argument that names
-/// all.
-const Setting& setting_named(std::string_view id);
+/// The methods and norms by name, in the order of their enums.
+std::span<const SettingChoice> method_choices();
+std::span<const SettingChoice> norm_choices();
 
 /// Throws std::invalid_argument, naming the setting, where one is outside its limits.
 void check(const RenderSettings& settings);

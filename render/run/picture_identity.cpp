@@ -8,25 +8,31 @@
 
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace tessera {
 
-using nlohmann::json;
+nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::ivec2 size, int spp, float alpha) {
+    nlohmann::json json{{"version", TESSERA_VERSION},
+                        {"scene", to_string(scene)},
+                        {"variables", scene.variables},
+                        {"camera", scene.camera.string()},
+                        {"width", size.x},
+                        {"height", size.y},
+                        {"spp", spp},
+                        {"alpha", alpha}};
+    std::vector<Setting> settings = settings_of(s);
+    settings.push_back(method_setting(s.method));
+    settings.push_back(seed_setting(s.seed));
+    for (const Setting& setting : settings)
+        json[std::string(setting.id)] = setting.json_value();
+    return json;
+}
 
 namespace {
-
-json value_json(const Setting& setting, const RenderSettings& s) {
-    if (const auto* whole = std::get_if<Setting::Whole>(&setting.kind))
-        return s.*whole->member;
-    if (const auto* real = std::get_if<Setting::Real>(&setting.kind))
-        return s.*real->member;
-    if (const auto* on = std::get_if<Setting::Switch>(&setting.kind))
-        return s.*on->member;
-    return setting.text(s);
-}
 
 std::uint32_t checksum_of(const RgbImage& image, std::uint32_t before) {
     return checksum(std::as_bytes(std::span(image.data(), image.size())), before);

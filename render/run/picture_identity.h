@@ -13,8 +13,8 @@
 
 namespace tessera {
 
-/// Everything that decides the picture: goes into the header of every image and into the stats.
-nlohmann::json settings_json(const SceneSource& scene, const RenderSettings& settings, glm::ivec2 size, int spp,
+/// Everything that decides the picture, as JSON: it goes into the header of every image and into the stats.
+nlohmann::json settings_json(const SceneSource& scene, RenderSettings settings, glm::ivec2 size, int spp,
                              float alpha);
 
 /// What a picture shows.

@@ -27,8 +27,9 @@ FilmBuffers buffers_of(const RenderSettings& s) {
 
 /// Throws where one edge of an image is outside its limits.
 int checked(const char* name, int pixels) {
-    if (pixels < 1 || pixels > 32768)
-        throw std::invalid_argument(fmt::format("{} is {}: must be from 1 to 32768", name, pixels));
+    if (pixels < 1 || pixels > most_picture_edge)
+        throw std::invalid_argument(
+            fmt::format("{} is {}: must be from 1 to {}", name, pixels, most_picture_edge));
     return pixels;
 }
 

@@ -59,6 +59,7 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--spp 0", "--spp"},
         {render + "--time -1", "--time"},
         {"view box.xml --window 0x5", "--window 0x5"},
+        {"render box.xml --spp 1 --size 16x16 --seed -1 -o out.exr", "--seed"},
         {render + "-m bdpt", "bdpt"},
         {render + "--tile 0", "--tile"},
         {render + "--tile 17", "--tile"},

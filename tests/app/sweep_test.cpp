@@ -181,7 +181,7 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "--vary tile=2 --vary q_min=1 --vary primal=base", "two settings at the most"},
         {sweep + "-m gpr,bdpt", "-m bdpt"},
         {sweep + "-m ''", "-m"},
-        {sweep + "--vary threads=0", "threads is \"0\": must be a number from 1 to 1024"},
+        {sweep + "--vary threads=0", "threads is \"0\": must be a whole number from 1 to 1024"},
         {sweep + "--vary size=32", "must be WIDTHxHEIGHT"},
         {sweep + "--vary seed=1,2", "there is no setting \"seed\""},
         {sweep + "--recon l3", "l3"},

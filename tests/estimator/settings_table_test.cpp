@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace tessera {
 
@@ -15,15 +16,20 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusal(std::string_view id, std::string_view text) {
-    RenderSettings settings;
+std::string refusal(const Setting& setting, std::string_view text) {
+    const std::string before = setting.text();
     try {
-        setting_named(id).set_text(settings, text);
+        setting.set_text(text);
     } catch (const std::invalid_argument& error) {
-        EXPECT_EQ(settings, RenderSettings()) << id << ' ' << text;
+        EXPECT_EQ(setting.text(), before) << setting.id << ' ' << text;
         return error.what();
     }
     return "";
+}
+
+std::string refusal(std::string_view id, std::string_view text) {
+    RenderSettings settings;
+    return refusal(setting_named(settings_of(settings), id), text);
 }
 
 TEST(SettingsTable, SetTextUndoesText) {
@@ -44,16 +50,93 @@ TEST(SettingsTable, SetTextUndoesText) {
     for (const auto& [id, values] : cases) {
         RenderSettings settings;
         for (const std::string& value : values) {
-            setting_named(id).set_text(settings, value);
-            EXPECT_EQ(setting_named(id).text(settings), value) << id;
+            setting_named(settings_of(settings), id).set_text(value);
+            EXPECT_EQ(setting_named(settings_of(settings), id).text(), value) << id;
         }
     }
 }
 
+TEST(SettingsTable, HasWhatIsNoRenderSetting) {
+    ReconstructionSettings reconstruction;
+    Method method{};
+    std::uint64_t seed = 0;
+    int spp = 1, threads = 1;
+    glm::ivec2 size(1);
+    std::vector<Setting> settings = settings_of(reconstruction);
+    for (const Setting& setting : {method_setting(method), seed_setting(seed), spp_setting(spp, 2),
+                                   threads_setting(threads), size_setting(size, 8192)})
+        settings.push_back(setting);
+    const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+        {"norm", {"none", "l2", "l1", "mixed", "uniform", "weighted"}},
+        {"alpha", {"0.0001", "1000"}},
+        {"joint_colour", {"off", "on"}},
+        {"method", {"pt", "pr", "gpt", "gpr"}},
+        {"seed", {"0", "18446744073709551615"}},
+        {"spp", {"2", "100000000"}},
+        {"threads", {"0", "1024"}},
+        {"size", {"1x8192", "64x32"}},
+    };
+    for (const auto& [id, values] : cases)
+        for (const std::string& value : values) {
+            setting_named(settings, id).set_text(value);
+            EXPECT_EQ(setting_named(settings, id).text(), value) << id;
+        }
+    EXPECT_EQ(method, Method::gpr);
+    EXPECT_EQ(reconstruction, (ReconstructionSettings{Norm::weighted, 1000, true}));
+    EXPECT_EQ(size, glm::ivec2(64, 32));
+    EXPECT_EQ(refusal(setting_named(settings, "spp"), "1"),
+              "spp is \"1\": must be a whole number from 2 to 100000000");
+    for (const char* text : {"-1", "18446744073709551616", "1.5", ""})
+        EXPECT_THAT(refusal(setting_named(settings, "seed"), text), HasSubstr("must be a whole number from 0"));
+    for (const char* text : {"64", "64x", "x32", "0x32", "64x8193", "64x32x", "-1x5", "64 x32"})
+        EXPECT_THAT(refusal(setting_named(settings, "size"), text),
+                    HasSubstr("must be WIDTHxHEIGHT, such as 640x360, each from 1 to 8192 pixels"))
+            << text;
+}
+
+TEST(SettingsTable, ChoicesStandInTheOrderOfTheirEnums) {
+    ReconstructionSettings reconstruction;
+    for (Norm norm : all_norms) {
+        reconstruction.norm = norm;
+        EXPECT_EQ(setting_named(settings_of(reconstruction), "norm").text(), to_string(norm));
+    }
+    for (Method method : all_methods)
+        EXPECT_EQ(method_from_name(method_setting(method).text()), method);
+}
+
+TEST(SettingsTable, SaysWhatMatters) {
+    ReconstructionSettings reconstruction;
+    for (Norm norm : all_norms) {
+        reconstruction.norm = norm;
+        EXPECT_EQ(setting_named(settings_of(reconstruction), "alpha").matters,
+                  norm != Norm::none && norm != Norm::uniform)
+            << to_string(norm);
+        EXPECT_EQ(setting_named(settings_of(reconstruction), "joint_colour").matters,
+                  norm == Norm::l1 || norm == Norm::mixed)
+            << to_string(norm);
+    }
+    RenderSettings render;
+    render.method = Method::pt;
+    EXPECT_FALSE(setting_named(settings_of(render), "tile").matters);
+    EXPECT_TRUE(setting_named(settings_of(render), "max_depth").matters);
+    render.method = Method::gpr;
+    EXPECT_TRUE(setting_named(settings_of(render), "tile").matters);
+    EXPECT_FALSE(setting_named(settings_of(render), "pattern").matters);
+}
+
+TEST(SettingsTable, ValuesAreJson) {
+    RenderSettings settings;
+    const auto json = [&](std::string_view id) { return setting_named(settings_of(settings), id).json_value(); };
+    EXPECT_EQ(json("tile"), nlohmann::json(6));
+    EXPECT_EQ(json("q_min"), nlohmann::json(0.1f));
+    EXPECT_EQ(json("jitter"), nlohmann::json(true));
+    EXPECT_EQ(json("shift"), nlohmann::json("half-vector"));
+}
+
 TEST(SettingsTable, SetTextOfItsOwnTextChangesNothing) {
-    for (const Setting& setting : all_settings()) {
-        RenderSettings settings;
-        setting.set_text(settings, setting.text(settings));
+    RenderSettings settings;
+    for (const Setting& setting : settings_of(settings)) {
+        setting.set_text(setting.text());
         EXPECT_EQ(settings, RenderSettings()) << setting.id;
     }
 }
@@ -70,10 +153,11 @@ TEST(SettingsTable, RefusesWhatItMayNotBe) {
 }
 
 TEST(SettingsTable, SettingsHaveTheNamesOfTheirOptions) {
-    EXPECT_EQ(&setting_named("rr-delta"), &setting_named("rr_delta"));
-    EXPECT_EQ(setting_named("rr_delta").id, "rr_delta");
+    RenderSettings settings;
+    EXPECT_EQ(setting_named(settings_of(settings), "rr-delta").id, "rr_delta");
+    EXPECT_EQ(setting_named(settings_of(settings), "rr_delta").id, "rr_delta");
     try {
-        setting_named("tiles");
+        setting_named(settings_of(settings), "tiles");
         FAIL();
     } catch (const std::invalid_argument& error) {
         EXPECT_THAT(error.what(), HasSubstr("there is no setting \"tiles\", only: tile, adapt_tile"));

@@ -143,7 +143,7 @@ TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
     const std::pair<const char*, const char*> cases[] = {
         {"\"inspector\": true", "this must be an object"},
         {"\"inspector\": {\"on\": 1}", "on is of the wrong kind: number"},
-        {"\"inspector\": {\"shows\": \"both\"}", "shows is \"both\", which there is not"},
+        {"\"inspector\": {\"shows\": \"both\"}", "shows is \"both\": must be one of to_pixel, from_pixel"},
         {"\"inspector\": {\"sample\": {\"pane\": 2}}", "pane is out of range"},
         {"\"inspector\": {\"sample\": {\"pane\": 1, \"x\": -1}}", "x is out of range"},
         {"\"inspector\": {\"sample\": {\"pane\": 1, \"pass\": -1}}", "pass is out of range"},

@@ -81,8 +81,16 @@ TEST(NamedSettings, SetPanesAndViewer) {
     EXPECT_EQ(state.size.custom, glm::ivec2(64, 32));
     set_by_name(state, "norm", "l1");
     EXPECT_EQ(state.panes[0].settings.reconstruction.norm, Norm::l1);
-    for (const auto& [name, value] : {std::pair("tile", "99"), std::pair("nothing", "1"), std::pair("size", "3"),
-                                      std::pair("theme", "red"), std::pair("exposure", "nan")})
+    set_by_name(state, "joint_colour", "off");
+    EXPECT_FALSE(state.panes[0].settings.reconstruction.joint_colour);
+    set_by_name(state, "compare_with", "reference");
+    EXPECT_EQ(state.panes[2].settings.comparison.with, the_reference);
+    set_by_name(state, "compare_with", "2");
+    EXPECT_EQ(state.panes[2].settings.comparison.with, 1);
+    for (const auto& [name, value] :
+         {std::pair("tile", "99"), std::pair("nothing", "1"), std::pair("size", "3"), std::pair("theme", "red"),
+          std::pair("exposure", "nan"), std::pair("alpha", "0"), std::pair("compare_with", "5"),
+          std::pair("size", "9000x1")})
         EXPECT_THROW(set_by_name(state, name, value), std::invalid_argument) << name;
 }
 

@@ -1,4 +1,5 @@
 #include "ui/charts/charts.h"
+#include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"
 #include "ui/state/words.h"
 
@@ -17,12 +18,7 @@ namespace {
 // Heights, in sizes of the font.
 constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
 
-const std::array<ChoiceItem, 3> kinds = {{
-    {words::charts[0], "Error", "relMSE of each pane's picture to the reference."},
-    {words::charts[1], "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
-    {words::charts[2], "Shifts",
-     "How the shifts of each pane ended: which share came through, and why others did not."},
-}};
+const std::vector<ChoiceItem> kinds = choice_items(words::charts);
 
 constexpr const char* help_of(ChartKind kind) {
     switch (kind) {
@@ -193,10 +189,7 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
 
 /// Draws the choices of a chart, and of what it is against.
 void draw_choices(Controls& controls, ViewerState& state) {
-    static const std::array<ChoiceItem, 2> axes = {{
-        {words::chart_axes[0], "against seconds", "Wall time of a pane's own passes."},
-        {words::chart_axes[1], "against samples", "Samples a pixel."},
-    }};
+    static const std::vector<ChoiceItem> axes = choice_items(words::chart_axes);
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);
     int kind = static_cast<int>(state.layout.chart_kind), axis = state.layout.charts_by_spp;

@@ -1,6 +1,7 @@
-#include "render/inspect/inspection.h"
+#include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"
+#include "ui/state/words.h"
 
 #include <algorithm>
 #include <string>
@@ -40,10 +41,7 @@ const char* waiting_text(const Inspector& inspector) {
 
 /// `is_elsewhere`: the inspection is of a request that no pane shows, or none any more.
 void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
-    static const std::vector<ChoiceItem> directions = {
-        {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
-        {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
-    };
+    static const std::vector<ChoiceItem> directions = choice_items(words::directions);
     int direction = static_cast<int>(inspector.direction);
     const std::string& shown = directions[static_cast<std::size_t>(direction)].label;
     if (controls.bare_choice("inspector.direction", shown.c_str(), directions, direction,

@@ -1,14 +1,16 @@
+#include "render/estimator/settings_table.h"
 #include "render/run/reference_render.h"
 #include "ui/gl/controls.h"
+#include "ui/gl/setting_controls.h"
 #include "ui/panels/panels.h"
 #include "ui/state/buffer.h"
-#include "ui/state/words.h"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -17,16 +19,21 @@ namespace tessera {
 namespace {
 
 void draw_method(Controls& controls, ReferenceMaking& making) {
-    static const std::array<ChoiceItem, 4> methods = {{
-        {"pt", "PT", "Path tracing: slow, and free of what tiles have in common."},
-        {"pr", "PR", "Path reusing in tiles of 8 pixels."},
-        {"gpt", "G-PT", "Gradients of neighbours, reconstructed by L2."},
-        {"gpr", "G-PR", "Gradients of tiles of 8 pixels, reconstructed by L2: the quickest on most scenes."},
-    }};
-    const auto is_chosen = [&](const ChoiceItem& item) { return item.id == short_name(making.method); };
-    int index = static_cast<int>(std::find_if(methods.begin(), methods.end(), is_chosen) - methods.begin());
-    controls.choice("reference.method", "Method", methods, index, "What renders the reference.");
-    making.method = *method_from_name(methods[static_cast<std::size_t>(index)].id);
+    static const std::vector<ChoiceItem> methods = [] {
+        constexpr const char* helps[] = {
+            "Path tracing: slow, and free of what tiles have in common.", "Path reusing in tiles of 8 pixels.",
+            "Gradients of neighbours, reconstructed by L2.",
+            "Gradients of tiles of 8 pixels, reconstructed by L2: the quickest on most "
+            "scenes."};
+        std::vector<ChoiceItem> list;
+        for (Method method : all_methods)
+            list.push_back({std::string(short_name(method)), std::string(paper_name(method)),
+                            helps[static_cast<std::size_t>(method)]});
+        return list;
+    }();
+    int index = static_cast<int>(making.method);
+    if (controls.choice("reference.method", "Method", methods, index, "What renders the reference."))
+        making.method = all_methods[index];
 }
 
 void draw_file(Controls& controls, ViewerState& state) {
@@ -60,9 +67,11 @@ void draw_notes(Controls& controls, ViewerState& state) {
 void draw_form(Controls& controls, ViewerState& state) {
     ReferenceMaking& making = state.reference_making;
     draw_method(controls, making);
-    controls.number("reference.spp", "Samples a pixel", making.spp, 2, ranges::most_spp,
-                    "Of two independent halves together: their difference tells how far the reference is from the "
-                    "truth.");
+    Setting spp = spp_setting(making.spp, 2);
+    spp.id = "reference.spp";
+    spp.help =
+        "Of two independent halves together: their difference tells how far the reference is from the truth.";
+    draw_setting(controls, spp);
     draw_file(controls, state);
     draw_notes(controls, state);
 }
@@ -123,9 +132,12 @@ void draw_fields(Controls& controls, SampleForm& form, glm::ivec2 size) {
     controls.number("sample.pass", "Pass", form.pass, 0, most_int,
                     "From 0, whether the pane has got there or not. How tiles were cut in a late one is learnt "
                     "again from all before, which may take seconds.");
-    controls.number("sample.seed", "Seed", form.seed,
-                    "Of the random numbers. With another one than it has, the active pane starts anew; "
-                    "so do the others, if all have the same settings.");
+    Setting seed = seed_setting(form.seed);
+    seed.id = "sample.seed";
+    seed.help =
+        "Of the random numbers. With another one than it has, the active pane starts anew; so do the others, "
+        "if all have the same settings.";
+    draw_setting(controls, seed);
 }
 
 void draw_sample_buttons(Controls& controls, ViewerState& state) {

@@ -1,3 +1,5 @@
+#include "render/estimator/settings_table.h"
+#include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panes/pane_parts.h"
@@ -14,31 +16,11 @@ namespace tessera {
 
 namespace {
 
-const char* help(Method method) {
-    switch (method) {
-    case Method::pt:
-        return "Every pixel for itself: light and BSDF sampling, combined by multiple importance sampling [Veach "
-               "1997].";
-    case Method::pr:
-        return "Each base path brings light to all pixels of its tile: less noise, alike within a tile [Bekaert "
-               "2002, "
-               "Bauszat 2017].";
-    case Method::gpt:
-        return "Each path is shifted to its pixel's neighbours, which measures gradients with little noise; the "
-               "picture is reconstructed from these and the primal [Kettunen 2015].";
-    case Method::gpr:
-        return "Gradients as G-PT has, from the paths that a tile shares as PR does [Bauszat 2017].";
-    }
-    return "";
-}
-
 const std::vector<ChoiceItem>& method_items() {
     static const std::vector<ChoiceItem> items = [] {
-        std::vector<ChoiceItem> list;
-        for (Method method : all_methods)
-            list.push_back({std::string(short_name(method)),
-                            std::string(paper_name(method)) + "   " + std::string(long_name(method)),
-                            help(method)});
+        std::vector<ChoiceItem> list = choice_items(method_choices());
+        for (std::size_t i = 0; i < list.size(); ++i)
+            list[i].label = std::string(paper_name(all_methods[i])) + "   " + list[i].label;
         return list;
     }();
     return items;

@@ -1,7 +1,6 @@
 #include "ui/state/change_log.h"
 
-#include "render/estimator/settings_table.h"
-#include "render/inspect/inspection.h"
+#include "ui/state/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cstdio>
@@ -24,14 +23,11 @@ std::string text(bool on) {
 }
 
 void describe(const std::string& prefix, const PaneState& pane, Values& values) {
-    const RenderSettings& render = pane.settings.render;
-    values[prefix + "method"] = short_name(render.method);
+    PaneSettings settings = pane.settings;
+    values[prefix + "method"] = short_name(settings.render.method);
     values[prefix + "buffer"] = short_name(pane.settings.buffer);
-    for (const Setting& setting : all_settings())
-        values[prefix + std::string(setting.id)] = setting.text(render);
-    values[prefix + "joint_colour"] = text(pane.settings.reconstruction.joint_colour);
-    values[prefix + "norm"] = to_string(pane.settings.reconstruction.norm);
-    values[prefix + "alpha"] = text(static_cast<double>(pane.settings.reconstruction.alpha));
+    for (const Setting& setting : shared_settings_of(settings))
+        values[prefix + std::string(setting.id)] = setting.text();
     values[prefix + "comparison"] = word(words::comparisons, pane.settings.comparison.kind);
     values[prefix + "generation"] = std::to_string(pane.generation);
     values[prefix + "spp"] = std::to_string(pane.snapshot ? pane.snapshot->spp : 0);

@@ -1,15 +1,13 @@
 #include "render/estimator/settings_table.h"
 #include "ui/state/settings_file.h"
+#include "ui/state/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <iterator>
-#include <span>
+#include <functional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -17,157 +15,104 @@ namespace tessera {
 
 namespace {
 
-double number(const std::string& name, const std::string& value, Range range) {
-    const auto [least, most] = range;
-    char* end = nullptr;
-    const double result = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != 0 || !(result >= least && result <= most))
-        throw std::invalid_argument(name + " is a number from " + std::to_string(least) + " to " +
-                                    std::to_string(most) + ", not " + value);
-    return result;
-}
-
-/// The index of the word.
-int one_of(const std::string& name, const std::string& value, std::span<const char* const> words) {
-    const auto found = std::find(words.begin(), words.end(), value);
-    if (found != words.end())
-        return static_cast<int>(found - words.begin());
-    std::string list;
-    for (const char* word : words)
-        list += std::string(list.empty() ? "" : ", ") + word;
-    throw std::invalid_argument(name + " is one of " + list + ", not " + value);
-}
-
-Method method_named(const std::string& value) {
-    if (const auto method = method_from_name(value))
-        return *method;
-    throw std::invalid_argument("method is one of pt, pr, gpt, gpr, not " + value);
-}
-
-Norm norm_named(const std::string& value) {
-    if (const auto norm = norm_from_name(value))
-        return *norm;
-    std::string list;
-    for (Norm norm : all_norms)
-        list += fmt::format("{}{}", list.empty() ? "" : ", ", to_string(norm));
-    throw std::invalid_argument("norm is one of " + list + ", not " + value);
-}
-
-glm::ivec2 size_of(const std::string& value) {
-    glm::ivec2 size(0);
-    char rest = 0;
-    if (std::sscanf(value.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
-        std::max(size.x, size.y) > most_render_pixels_an_edge)
-        throw std::invalid_argument("size is WIDTHxHEIGHT in pixels, not " + value);
-    return size;
-}
-
-std::uint64_t seed_of(const std::string& name, const std::string& value) {
-    std::uint64_t seed = 0;
-    const char* const end = value.data() + value.size();
-    if (const auto [rest, error] = std::from_chars(value.data(), end, seed); error != std::errc() || rest != end)
-        throw std::invalid_argument(name + " is a whole number from 0, not " + value);
-    return seed;
-}
-
+/// A setting, and what must be done once it has got its value.
 struct Named {
-    const char* name;
-    void (*set)(ViewerState&, const std::string& name, const std::string& value);
+    Setting setting;
+    std::function<void()> follow = [] {};
 };
 
-using S = ViewerState;
-using Text = const std::string&;
+/// Where values are put that the state takes in another way than by a member.
+struct Taken {
+    int pane, panes, axis;
+    bool inspector, slow_motion;
+    float ui_scale;
+    glm::ivec2 size{0};
+};
 
-/// Sets the bool that `of` picks.
-template <auto of>
-void flag(S& s, Text name, Text value) {
-    of(s) = one_of(name, value, words::off_on) == 1;
+Setting flag(std::string_view id, bool& value) {
+    return {id, "", "", Setting::Switch{&value}};
 }
 
-constexpr Named table[] = {
-    {"method", [](S& s, Text, Text v) { s.active().settings.render.method = method_named(v); }},
-    {"seed",
-     [](S& s, Text n, Text v) {
-         s.active().settings.render.seed = seed_of(n, v);
-         s.share_settings();
-     }},
-    {"buffer", [](S& s, Text, Text v) { s.active().settings.buffer = buffer_named(v); }},
-    {"comparison",
-     [](S& s, Text n, Text v) {
-         s.active().settings.comparison.kind = static_cast<Comparison::Kind>(one_of(n, v, words::comparisons));
-     }},
-    {"compare_with",
-     [](S& s, Text n, Text v) {
-         s.active().settings.comparison.with =
-             v == "reference" ? the_reference : static_cast<int>(number(n, v, {1, most_panes})) - 1;
-     }},
-    {"active",
-     [](S& s, Text n, Text v) {
-         s.active_pane = static_cast<int>(number(n, v, {1, static_cast<double>(s.panes.size())})) - 1;
-     }},
-    {"panes",
-     [](S& s, Text n, Text v) {
-         s.set_pane_count(static_cast<int>(number(n, v, {1, most_panes})));
-     }},
-    {"alone", flag<[](S& s) -> bool& { return s.layout.alone; }>},
-    {"wipe",
-     [](S& s, Text n, Text v) {
-         s.layout.wipe = static_cast<float>(number(n, v, {0, 1}));
-     }},
-    {"linked", flag<[](S& s) -> bool& { return s.linked; }>},
-    {"paused", flag<[](S& s) -> bool& { return s.paused; }>},
-    {"spp_limit",
-     [](S& s, Text n, Text v) { s.pace.spp_limit = static_cast<int>(number(n, v, ranges::spp_limit)); }},
-    {"seconds_limit", [](S& s, Text n, Text v) { s.pace.seconds_limit = number(n, v, ranges::seconds_limit); }},
-    {"equal", [](S& s, Text n, Text v) { s.pace.equal = static_cast<Pace::Equal>(one_of(n, v, words::shares)); }},
-    {"size",
-     [](S& s, Text, Text v) {
-         s.size = {SizeChoice::Base::custom, 1, size_of(v)};
-     }},
-    {"exposure",
-     [](S& s, Text n, Text v) { s.tone.exposure = static_cast<float>(number(n, v, ranges::exposure)); }},
-    {"gamma", [](S& s, Text n, Text v) { s.tone.gamma = static_cast<float>(number(n, v, ranges::gamma)); }},
-    {"tone", [](S& s, Text n, Text v) { s.tone.curve = static_cast<Tone::Curve>(one_of(n, v, words::tones)); }},
-    {"magnifier", flag<[](S& s) -> bool& { return s.magnifier; }>},
-    {"tiles", flag<[](S& s) -> bool& { return s.show_tiles; }>},
-    {"inspector", [](S& s, Text n, Text v) { s.set_inspector(one_of(n, v, words::off_on) == 1); }},
-    {"slow_motion", [](S& s, Text n, Text v) { s.set_slow_motion(one_of(n, v, words::off_on) == 1); }},
-    {"slow_motion_held", flag<[](S& s) -> bool& { return s.slow_motion.held; }>},
-    {"slow_motion_speed",
-     [](S& s, Text n, Text v) {
-         s.slow_motion.speed =
-             static_cast<float>(number(n, v, {double{SlowMotion::least_speed}, double{SlowMotion::most_speed}}));
-     }},
-    {"inspector_shows",
-     [](S& s, Text n, Text v) {
-         s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, words::directions));
-     }},
-    {"mark_negative", flag<[](S& s) -> bool& { return s.mark_negative; }>},
-    {"theme", [](S& s, Text n, Text v) { s.layout.theme = static_cast<Theme>(one_of(n, v, words::themes)); }},
-    {"ui_scale",
-     [](S& s, Text n, Text v) {
-         s.layout.set_ui_scale(static_cast<float>(number(n, v, {1, 3})));
-     }},
-    {"panel", flag<[](S& s) -> bool& { return s.layout.show_panel; }>},
-    {"statistics", flag<[](S& s) -> bool& { return s.layout.show_statistics; }>},
-    {"charts", flag<[](S& s) -> bool& { return s.layout.show_charts; }>},
-    {"chart", [](S& s, Text n, Text v) { s.layout.chart_kind = static_cast<ChartKind>(one_of(n, v, words::charts)); }},
-    {"large_charts", flag<[](S& s) -> bool& { return s.layout.large_charts; }>},
-    {"reference_spp",
-     [](S& s, Text n, Text v) { s.reference_making.spp = static_cast<int>(number(n, v, ranges::reference_spp)); }},
-    {"reference_method", [](S& s, Text, Text v) { s.reference_making.method = method_named(v); }},
-    {"charts_axis", [](S& s, Text n, Text v) { s.layout.charts_by_spp = one_of(n, v, words::chart_axes) == 1; }},
-    {"alpha",
-     [](S& s, Text n, Text v) {
-         s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, ranges::alpha));
-         s.share_settings();
-     }},
-    {"norm",
-     [](S& s, Text, Text v) {
-         s.active().settings.reconstruction.norm = norm_named(v);
-         s.share_settings();
-     }},
-};
+template <class Enum>
+Setting choice(std::string_view id, std::span<const SettingChoice> choices, Enum& value) {
+    return {id, "", "", one_of(choices, value)};
+}
+
+Setting real(std::string_view id, float& value, float least, float most) {
+    return {id, "", "", Setting::Real{&value, least, most, least, most}};
+}
+
+void add_pane_settings(std::vector<Named>& all, ViewerState& s) {
+    PaneSettings& pane = s.active().settings;
+    all.push_back({method_setting(pane.render.method)});
+    for (const Setting& setting : shared_settings_of(pane))
+        all.push_back({setting, [&s] { s.share_settings(); }});
+    all.push_back({comparison_setting(pane.comparison.kind)});
+}
+
+void add_layout(std::vector<Named>& all, ViewerState& s, Taken& taken) {
+    all.push_back({{"active", "", "", Setting::Whole{&taken.pane, 1, static_cast<int>(s.panes.size())}},
+                   [&] { s.active_pane = taken.pane - 1; }});
+    all.push_back(
+        {{"panes", "", "", Setting::Whole{&taken.panes, 1, most_panes}}, [&] { s.set_pane_count(taken.panes); }});
+    all.push_back({flag("alone", s.layout.alone)});
+    all.push_back({real("wipe", s.layout.wipe, ranges::share.low(), ranges::share.high())});
+    all.push_back({flag("linked", s.linked)});
+    all.push_back({flag("panel", s.layout.show_panel)});
+    all.push_back({flag("statistics", s.layout.show_statistics)});
+    all.push_back({choice("theme", words::themes, s.layout.theme)});
+    all.push_back({real("ui_scale", taken.ui_scale, Layout::least_ui_scale, Layout::most_ui_scale),
+                   [&] { s.layout.set_ui_scale(taken.ui_scale); }});
+    all.push_back({flag("charts", s.layout.show_charts)});
+    all.push_back({choice("chart", words::charts, s.layout.chart_kind)});
+    all.push_back({flag("large_charts", s.layout.large_charts)});
+    all.push_back(
+        {choice("charts_axis", words::chart_axes, taken.axis), [&] { s.layout.charts_by_spp = taken.axis == 1; }});
+}
+
+void add_pictures(std::vector<Named>& all, ViewerState& s, Taken& taken) {
+    all.push_back({flag("paused", s.paused)});
+    for (const Setting& setting : settings_of(s.pace))
+        all.push_back({setting});
+    all.push_back({custom_size_setting(taken.size), [&] { s.size = {SizeChoice::Base::custom, 1, taken.size}; }});
+    for (const Setting& setting : settings_of(s.tone))
+        all.push_back({setting});
+    all.push_back({flag("magnifier", s.magnifier)});
+    all.push_back({flag("tiles", s.show_tiles)});
+    all.push_back({flag("mark_negative", s.mark_negative)});
+    Setting spp = spp_setting(s.reference_making.spp, 2), method = method_setting(s.reference_making.method);
+    spp.id = "reference_spp";
+    method.id = "reference_method";
+    all.push_back({spp});
+    all.push_back({method});
+}
+
+void add_insides(std::vector<Named>& all, ViewerState& s, Taken& taken) {
+    all.push_back({flag("inspector", taken.inspector), [&] { s.set_inspector(taken.inspector); }});
+    all.push_back({choice("inspector_shows", words::directions, s.inspector.direction)});
+    all.push_back({flag("slow_motion", taken.slow_motion), [&] { s.set_slow_motion(taken.slow_motion); }});
+    all.push_back({flag("slow_motion_held", s.slow_motion.held)});
+    all.push_back(
+        {real("slow_motion_speed", s.slow_motion.speed, SlowMotion::least_speed, SlowMotion::most_speed)});
+}
+
+std::vector<Named> all_named(ViewerState& state, Taken& taken) {
+    std::vector<Named> all;
+    add_pane_settings(all, state);
+    add_layout(all, state, taken);
+    add_pictures(all, state, taken);
+    add_insides(all, state, taken);
+    return all;
+}
+
+/// "reference", or the number of a pane.
+int compared_with(const std::string& value) {
+    int pane = 0;
+    if (value == "reference")
+        return the_reference;
+    Setting{"compare_with", "", "", Setting::Whole{&pane, 1, most_panes}}.set_text(value);
+    return pane - 1;
+}
 
 } // namespace
 
@@ -182,22 +127,25 @@ Buffer buffer_named(const std::string& value) {
 }
 
 void set_by_name(ViewerState& state, const std::string& name, const std::string& value) {
-    const auto named =
-        std::find_if(std::begin(table), std::end(table), [&](const Named& n) { return name == n.name; });
-    if (named != std::end(table))
-        return named->set(state, name, value);
-    for (const Setting& setting : all_settings()) {
-        if (setting.id != name)
-            continue;
-        setting.set_text(state.active().settings.render, value);
-        return state.share_settings();
+    PaneSettings& pane = state.active().settings;
+    if (name == "buffer") {
+        pane.buffer = buffer_named(value);
+        return;
     }
-    std::string list;
-    for (const Named& n : table)
-        list += std::string(n.name) + ", ";
-    for (const Setting& setting : all_settings())
-        list += std::string(setting.id) + (&setting == &all_settings().back() ? "" : ", ");
-    throw std::invalid_argument("nothing is called " + name + "; there are " + list);
+    if (name == "compare_with") {
+        pane.comparison.with = compared_with(value);
+        return;
+    }
+    Taken taken{};
+    std::string list = "buffer, compare_with";
+    for (const Named& named : all_named(state, taken)) {
+        if (named.setting.id == name) {
+            named.setting.set_text(value);
+            return named.follow();
+        }
+        list += fmt::format(", {}", named.setting.id);
+    }
+    throw std::invalid_argument(fmt::format("nothing is called {}; there are {}", name, list));
 }
 
 } // namespace tessera

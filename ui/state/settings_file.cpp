@@ -4,6 +4,7 @@
 #include "render/io/json_text.h"
 #include "render/io/text.h"
 #include "render/scene/camera.h"
+#include "ui/state/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace tessera {
 
@@ -18,45 +20,51 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json pane_json(const PaneSettings& pane) {
-    ordered_json json{{"method", short_name(pane.render.method)},
-                      {"buffer", short_name(pane.buffer)},
-                      {"norm", to_string(pane.reconstruction.norm)},
-                      {"alpha", pane.reconstruction.alpha},
-                      {"joint_colour", pane.reconstruction.joint_colour},
-                      {"comparison", word(words::comparisons, pane.comparison.kind)},
-                      {"compare_with", pane.comparison.with + 1},
-                      {"seed", pane.render.seed}};
-    for (const Setting& setting : all_settings())
-        json["settings"][std::string(setting.id)] = setting.text(pane.render);
+/// The tone curve is "tone" elsewhere, and "curve" among the fields of "tone".
+std::string key_of(const Setting& setting) {
+    return setting.id == "tone" ? "curve" : std::string(setting.id);
+}
+
+void add(ordered_json& json, const Setting& setting) {
+    json[key_of(setting)] = setting.json_value();
+}
+
+ordered_json json_of(const std::vector<Setting>& settings) {
+    ordered_json json;
+    for (const Setting& setting : settings)
+        add(json, setting);
+    return json;
+}
+
+ordered_json pane_json(PaneSettings pane) {
+    ordered_json json;
+    add(json, method_setting(pane.render.method));
+    json["buffer"] = short_name(pane.buffer);
+    for (const Setting& setting : settings_of(pane.reconstruction))
+        add(json, setting);
+    add(json, comparison_setting(pane.comparison.kind));
+    json["compare_with"] = pane.comparison.with + 1;
+    add(json, seed_setting(pane.render.seed));
+    for (const Setting& setting : settings_of(pane.render))
+        json["settings"][std::string(setting.id)] = setting.text();
     return json;
 }
 
 PaneSettings read_pane(const JsonFields& fields, PaneSettings pane) {
-    fields.read<std::string>("method", [&](const std::string& name) {
-        const auto method = method_from_name(name);
-        if (!method)
-            throw std::invalid_argument("method is none of pt, pr, gpt, gpr");
-        pane.render.method = *method;
-    });
+    fields.read(method_setting(pane.render.method));
     fields.read<std::string>("buffer", [&](const std::string& name) { pane.buffer = buffer_named(name); });
-    fields.read<std::string>("norm", [&](const std::string& name) {
-        const auto norm = norm_from_name(name);
-        if (!norm)
-            throw std::invalid_argument("there is no such norm");
-        pane.reconstruction.norm = *norm;
-    });
-    fields.read("alpha", ranges::alpha, pane.reconstruction.alpha);
-    fields.read("joint_colour", pane.reconstruction.joint_colour);
-    fields.read("comparison", words::comparisons, pane.comparison.kind);
+    for (const Setting& setting : settings_of(pane.reconstruction))
+        fields.read(setting);
+    fields.read(comparison_setting(pane.comparison.kind));
     fields.read("compare_with", {0, the_reference + 1}, pane.comparison.with);
     if (fields.has("compare_with"))
         --pane.comparison.with;
-    fields.read<std::uint64_t>("seed", [&](std::uint64_t seed) { pane.render.seed = seed; });
+    fields.read(seed_setting(pane.render.seed));
     const JsonFields settings = fields.object("settings");
+    const std::vector<Setting> known = settings_of(pane.render);
     for (const auto& [id, value] : settings.json().items())
         settings.read<std::string>(
-            id, [&, id = id](const std::string& text) { setting_named(id).set_text(pane.render, text); });
+            id, [&, id = id](const std::string& text) { setting_named(known, id).set_text(text); });
     return pane;
 }
 
@@ -91,16 +99,14 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
 /// Reads what is common to all panes, but for the camera.
 void read_display(const JsonFields& fields, ViewerState& state) {
     const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
-    size.read("base", words::sizes, state.size.base);
-    size.read("scale", {0.05, 2}, state.size.scale);
+    size.read("base", size_base_setting(state.size.base));
+    size.read("scale", ranges::scale, state.size.scale);
     size.read("width", {1, most_render_pixels_an_edge}, state.size.custom.x);
     size.read("height", {1, most_render_pixels_an_edge}, state.size.custom.y);
-    tone.read("curve", words::tones, state.tone.curve);
-    tone.read("exposure", ranges::exposure, state.tone.exposure);
-    tone.read("gamma", ranges::gamma, state.tone.gamma);
-    pace.read("equal", words::shares, state.pace.equal);
-    pace.read("spp_limit", ranges::spp_limit, state.pace.spp_limit);
-    pace.read("seconds_limit", ranges::seconds_limit, state.pace.seconds_limit);
+    for (const Setting& setting : settings_of(state.tone))
+        tone.read(key_of(setting), setting);
+    for (const Setting& setting : settings_of(state.pace))
+        pace.read(setting);
     fields.read("mark_negative", state.mark_negative);
     if (fields.has("ranges"))
         state.ranges = read_ranges(fields.object("ranges"));
@@ -112,11 +118,11 @@ void read_view(const JsonFields& fields, ViewerState& state) {
     float zoom = state.view.zoom();
     glm::vec2 center = state.view.center();
     picture.read("zoom", {double{ImageView::least_zoom}, double{ImageView::most_zoom}}, zoom);
-    picture.read("x", {0, 1}, center.x);
-    picture.read("y", {0, 1}, center.y);
+    picture.read("x", ranges::share, center.x);
+    picture.read("y", ranges::share, center.y);
     if (fields.has("picture"))
         state.set_view(ImageView(zoom, center));
-    fields.read("wipe", {0, 1}, state.layout.wipe);
+    fields.read("wipe", ranges::share, state.layout.wipe);
     fields.read("alone", state.layout.alone);
     fields.read("tiles", state.show_tiles);
     fields.read("magnifier", state.magnifier);
@@ -173,7 +179,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         if (!state.companions.reference || state.companions.reference->name != reference)
             state.wishes.open_reference = reference;
     });
-    fields.has("scene"); // for who reads it
+    fields.has("scene"); // It is there for people, and known.
     for (std::string& line : reading.unknown())
         state.add_message(Message::Kind::note, std::move(line));
 }
@@ -185,6 +191,8 @@ std::string settings_json(const ViewerState& state) {
     ordered_json panes = ordered_json::array();
     for (const PaneState& pane : state.panes)
         panes.push_back(pane_json(pane.settings));
+    Tone tone = state.tone;
+    Pace pace = state.pace;
     ordered_json json{
         {"panes", panes},
         {"active", state.active_pane + 1},
@@ -195,24 +203,18 @@ std::string settings_json(const ViewerState& state) {
           {"scale", state.size.scale},
           {"width", state.size.custom.x},
           {"height", state.size.custom.y}}},
-        {"tone",
-         {{"curve", word(words::tones, state.tone.curve)},
-          {"exposure", state.tone.exposure},
-          {"gamma", state.tone.gamma}}},
+        {"tone", json_of(settings_of(tone))},
         {"ranges", ranges_json(state.ranges)},
         {"mark_negative", state.mark_negative},
-        {"pace",
-         {{"equal", word(words::shares, state.pace.equal)},
-          {"spp_limit", state.pace.spp_limit},
-          {"seconds_limit", state.pace.seconds_limit}}},
+        {"pace", json_of(settings_of(pace))},
         {"picture", {{"zoom", view.zoom()}, {"x", view.center().x}, {"y", view.center().y}}},
         {"wipe", state.layout.wipe},
         {"tiles", state.show_tiles},
         {"magnifier", state.magnifier},
         {"charts",
          {{"show", word(words::charts, state.layout.chart_kind)},
-          {"against", words::chart_axes[state.layout.charts_by_spp ? 1 : 0]}}},
-        {"scene", state.scene_name}, // for who reads it: settings are for any scene
+          {"against", word(words::chart_axes, state.layout.charts_by_spp ? 1 : 0)}}},
+        {"scene", state.scene_name}, // for people: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},
     };
@@ -242,7 +244,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// "sample", if it is a pixel of what a pane shows.
+/// Adds the field "sample" if it is a pixel of what a pane shows.
 void add_sample(ordered_json& json, const std::optional<SampleChoice>& sample, const ViewerState& state) {
     const PaneState* pane = sample ? state.pane_in(sample->slot) : nullptr;
     if (!pane || (sample->origin && !state.shows_request(sample->origin->generation)))

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "render/estimator/setting.h"
 #include "render/io/json_text.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -13,28 +13,61 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace tessera {
 
-/// What settings files, scripts and the log call the values of enums, in their order.
+/// What settings files, scripts, the log and lists call the values of enums, in their order.
 namespace words {
-inline constexpr const char* off_on[] = {"off", "on"};
-inline constexpr const char* sizes[] = {"pane", "scene", "custom"};         // SizeChoice::Base
-inline constexpr const char* tones[] = {"srgb", "gamma", "filmic"};         // Tone::Curve
-inline constexpr const char* comparisons[] = {"off", "wipe", "difference"}; // Comparison::Kind
-inline constexpr const char* shares[] = {"time", "spp"};                    // Pace::Equal
-inline constexpr const char* charts[] = {"error", "efficiency", "shifts"};  // ChartKind
-inline constexpr const char* chart_axes[] = {"seconds", "spp"};             // ViewerState::charts_by_spp
-inline constexpr const char* themes[] = {"dark", "light"};                  // Theme
-inline constexpr const char* directions[] = {"to_pixel", "from_pixel"};     // Inspector::Direction
+/// SizeChoice::Base.
+inline constexpr SettingChoice sizes[] = {
+    {"pane", "fit the pane", "As many pixels as the pane has, in the film's proportions."},
+    {"scene", "of the scene", "The film size of the scene file."},
+    {"custom", "custom", "The width and height given below."},
+};
+/// Tone::Curve.
+inline constexpr SettingChoice tones[] = {
+    {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},
+    {"gamma", "gamma", "Radiance to the power of 1/gamma."},
+    {"filmic", "filmic", "Highlights are compressed instead of cut [Narkowicz 2015], then sRGB."},
+};
+/// Comparison::Kind.
+inline constexpr SettingChoice comparisons[] = {
+    {"off", "off", "The pane shows its own picture."},
+    {"wipe", "wipe", "Its own picture to the left of a line, another pane's to the right. Drag the line (V)."},
+    {"difference", "difference", "Its own picture minus another pane's: orange above zero, blue below (N)."},
+};
+/// Pace::Equal.
+inline constexpr SettingChoice shares[] = {
+    {"time", "same time", "Passes go to the pane that has rendered for the shortest time."},
+    {"spp", "same spp", "Passes go to the pane with the fewest samples a pixel."},
+};
+/// ChartKind.
+inline constexpr SettingChoice charts[] = {
+    {"error", "Error", "relMSE of each pane's picture to the reference."},
+    {"efficiency", "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
+    {"shifts", "Shifts", "How the shifts of each pane ended: which share came through, and why others did not."},
+};
+/// ViewerState::charts_by_spp.
+inline constexpr SettingChoice chart_axes[] = {
+    {"seconds", "against seconds", "Wall time of a pane's own passes."},
+    {"spp", "against samples", "Samples a pixel."},
+};
+/// Inspector::Direction.
+inline constexpr SettingChoice directions[] = {
+    {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
+    {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
+};
+/// Theme, which has no list.
+inline constexpr SettingChoice themes[] = {{"dark", "", ""}, {"light", "", ""}};
 } // namespace words
 
 template <class Enum, std::size_t count>
-const char* word(const char* const (&words)[count], Enum value) {
-    return words[static_cast<std::size_t>(value)];
+std::string_view word(const SettingChoice (&words)[count], Enum value) {
+    return words[static_cast<std::size_t>(value)].id;
 }
 
 /// "kind_mismatch" as it is written in prose.
@@ -44,7 +77,7 @@ inline std::string in_words(std::string_view name) {
     return text;
 }
 
-/// Where a setting may lie, whoever sets it.
+/// Where a number may lie, whoever sets it.
 struct Range {
     double least, most;
 
@@ -53,10 +86,9 @@ struct Range {
 };
 
 namespace ranges {
-inline constexpr int most_spp = 1 << 24;
-inline constexpr double most_seconds = 1e7;
-inline constexpr Range alpha{1e-4, 1e3}, alpha_slider{0.001, 10}, exposure{-10, 10}, gamma{1, 4},
-    spp_limit{0, most_spp}, reference_spp{2, most_spp}, seconds_limit{0, most_seconds};
+inline constexpr Range exposure{-10, 10}; ///< stops
+inline constexpr Range scale{0.05, 2};    ///< of the width and height of what is rendered
+inline constexpr Range share{0, 1};
 } // namespace ranges
 
 /// What a reader has asked of a file's objects: the rest is misspelt, or of another version.
@@ -95,7 +127,7 @@ class JsonFields {
 public:
     using Json = nlohmann::ordered_json;
 
-    /// `path`: of all its fields, before their names.
+    /// `path` stands before the names of all its fields.
     JsonFields(JsonReading& reading, const Json& json, std::string path)
         : reading_(reading), json_(json), path_(std::move(path)) {
         if (!json.is_object())
@@ -112,7 +144,7 @@ public:
         reading_.asks(path_, key);
         return json_.contains(key);
     }
-    /// Without fields where there is none of that name.
+    /// The object of that name, or one without fields where there is none.
     JsonFields object(const std::string& key) const {
         static const Json none = Json::object();
         return {reading_, has(key) ? json_.at(key) : none, path_ + key + "/"};
@@ -121,7 +153,7 @@ public:
         return {reading_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
     }
 
-    /// A bool, a number, a whole one from 0 on where T is unsigned, or a string.
+    /// The field as a T: a bool, a number, a whole one from 0 on where T is unsigned, or a string.
     template <class T>
     T get(const std::string& key) const {
         const Json& value = json_.at(key);
@@ -136,7 +168,7 @@ public:
             fail(key, key + " is of the wrong kind: " + value.type_name());
         return value.get<T>();
     }
-    /// `take` gets the value, and throws std::invalid_argument where it is no good.
+    /// Hands the value to `take`, which throws std::invalid_argument where it is no good.
     template <class T, class Take>
     void read(const std::string& key, Take take) const {
         if (!has(key))
@@ -146,15 +178,6 @@ public:
         } catch (const std::invalid_argument& error) {
             fail(key, error.what());
         }
-    }
-    template <class Enum, std::size_t count>
-    void read(const std::string& key, const char* const (&words)[count], Enum& value) const {
-        read<std::string>(key, [&](const std::string& text) {
-            const auto found = std::find(std::begin(words), std::end(words), text);
-            if (found == std::end(words))
-                throw std::invalid_argument(key + " is \"" + text + "\", which there is not");
-            value = static_cast<Enum>(found - std::begin(words));
-        });
     }
     template <class Number>
     void read(const std::string& key, Range range, Number& value) const {
@@ -166,6 +189,27 @@ public:
     }
     void read(const std::string& key, bool& value) const {
         read<bool>(key, [&](bool on) { value = on; });
+    }
+    /// A setting stands there as a number, true or false, or a word, under its id or another name.
+    void read(const Setting& setting) const { read(std::string(setting.id), setting); }
+    void read(const std::string& key, const Setting& setting) const {
+        using S = Setting;
+        if (const auto* on = std::get_if<S::Switch>(&setting.kind))
+            read(key, *on->value);
+        else if (const auto* natural = std::get_if<S::Natural>(&setting.kind))
+            read<std::uint64_t>(key, [&](std::uint64_t value) { *natural->value = value; });
+        else if (const auto* whole = std::get_if<S::Whole>(&setting.kind))
+            read(key, Range{double(whole->least), double(whole->most)}, *whole->value);
+        else if (const auto* real = std::get_if<S::Real>(&setting.kind))
+            read(key, Range{real->least, real->most}, *real->value);
+        else if (const auto* seconds = std::get_if<S::Seconds>(&setting.kind))
+            read(key, Range{seconds->least, seconds->most}, *seconds->value);
+        else
+            read<std::string>(key, [&](const std::string& text) { setting.set_text(text); });
+    }
+    template <class Enum, std::size_t count>
+    void read(const std::string& key, const SettingChoice (&choices)[count], Enum& value) const {
+        read(key, Setting{key, "", "", one_of(choices, value)});
     }
 
 private:

@@ -54,7 +54,6 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
-    state_.layout.show_panel = options_.show_panel;
     state_.wishes.open_reference = options_.reference.string();
     take_preferences();
     if (options_.sample) {

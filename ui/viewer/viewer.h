@@ -43,7 +43,6 @@ struct ViewerOptions {
     int spp_limit = 0;
     int threads = 0;                    ///< of references that are made; as in ThreadPool
     std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the active pane
-    bool show_panel = true;
     bool panes_as_remembered = false;            ///< as many as the last time, if that is known
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
     bool log_controls = false;                   ///< also where each control lies

@@ -67,8 +67,7 @@ public:
         std::string error = context_.open();
         if (!error.empty())
             return error;
-        scale_ = options.ui_scale;
-        gui_ = std::make_unique<Gui>(scale_);
+        gui_ = std::make_unique<Gui>(Layout::least_ui_scale);
         target_.resize(size_);
         return {};
     }
@@ -81,7 +80,7 @@ public:
             const auto now = std::chrono::steady_clock::now();
             if (hooks.before)
                 hooks.before(took);
-            viewer.state().layout.display_scale = std::max(scale_, Layout::least_ui_scale);
+            viewer.state().layout.display_scale = Layout::least_ui_scale;
             gui_->set_look(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
             last = now;
@@ -117,7 +116,6 @@ private:
 
     EglContext context_; // first: the others' objects live in it
     glm::ivec2 size_{1};
-    float scale_ = 1;
     std::unique_ptr<Gui> gui_;
     Framebuffer target_;
     int frames_ = 0;

@@ -31,7 +31,6 @@ inline constexpr int display_lost = 3;
 struct SurfaceOptions {
     std::string title = "Tessera";
     WindowPlace place{{1440, 810}, {}, false};
-    float ui_scale = 0;      ///< of text and controls; 0: as the display says
     bool exact_size = false; ///< keep its size even if the screen is smaller
 };
 

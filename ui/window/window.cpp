@@ -52,7 +52,6 @@ private:
     GLFWwindow* window_ = nullptr;
     std::unique_ptr<Gui> gui_;
     bool backend_ready_ = false;
-    float fixed_scale_ = 0;
     float wanted_scale_ = 1;
     Viewer* viewer_ = nullptr; // while it runs
     glm::vec2 cursor_{0};
@@ -96,10 +95,8 @@ std::string Window::open(const SurfaceOptions& options) {
         return "OpenGL cannot be loaded";
     glfwSwapInterval(1);
 
-    float display_scale = 1, unused = 1;
-    glfwGetWindowContentScale(window_, &display_scale, &unused);
-    fixed_scale_ = options.ui_scale;
-    wanted_scale_ = fixed_scale_ > 0 ? fixed_scale_ : display_scale;
+    float unused = 1;
+    glfwGetWindowContentScale(window_, &wanted_scale_, &unused);
     gui_ = std::make_unique<Gui>(wanted_scale_);
     glfwSetWindowUserPointer(window_, this);
     install_callbacks(); // before Dear ImGui's, which call these
@@ -123,8 +120,7 @@ void Window::install_callbacks() {
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_came(); });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).input_came(); });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float scale, float) {
-        if (of(w).fixed_scale_ <= 0)
-            of(w).wanted_scale_ = scale;
+        of(w).wanted_scale_ = scale;
         of(w).input_came();
     });
 }
