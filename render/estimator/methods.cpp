@@ -1,6 +1,8 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 /// Path tracing: T = {k}. The weights 1/R are then those of emitter against BSDF sampling, which every base path

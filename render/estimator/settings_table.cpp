@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <system_error>
+#include <type_traits>
 
 #include <fmt/core.h>
 

@@ -1,6 +1,9 @@
 #include "render/estimator/shift.h"
 
+#include <cstdint>
+
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

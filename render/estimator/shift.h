@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 /// A vertex as one looks at it.

@@ -1,8 +1,10 @@
 #include "render/estimator/shift.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

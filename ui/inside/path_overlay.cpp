@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 namespace {

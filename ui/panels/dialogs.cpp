@@ -9,6 +9,7 @@
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/core.h>
 

@@ -1,13 +1,14 @@
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
-#include "ui/state/shift_outcomes.h"
 #include "ui/panes/pane_parts.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {

@@ -10,8 +10,10 @@
 #include <iterator>
 #include <span>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/core.h>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

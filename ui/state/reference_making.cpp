@@ -8,6 +8,7 @@
 #include "ui/state/viewer_state.h"
 
 #include <cmath>
+#include <system_error>
 
 #include <fmt/core.h>
 

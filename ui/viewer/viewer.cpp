@@ -1,9 +1,9 @@
 #include "ui/viewer/viewer.h"
 
 #include "render/io/png.h"
+#include "ui/charts/charts.h"
 #include "ui/gl/gl.h"
 #include "ui/inside/inside.h"
-#include "ui/charts/charts.h"
 #include "ui/panels/panels.h"
 #include "ui/state/actions.h"
 #include "ui/state/file_names.h"
@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <imgui.h>
 
 namespace tessera {
