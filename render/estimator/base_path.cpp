@@ -1,8 +1,11 @@
 #include "render/estimator/base_path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

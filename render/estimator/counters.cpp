@@ -1,6 +1,7 @@
 #include "render/estimator/counters.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/core.h>
 

@@ -1,5 +1,10 @@
 #include "render/estimator/half_vector.h"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 namespace {

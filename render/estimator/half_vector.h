@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 /// A scattering of a base path as it is done again at an offset vertex.

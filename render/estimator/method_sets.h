@@ -2,6 +2,8 @@
 
 #include "render/estimator/pass.h"
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 // The sampling sets T of each method: what makes it that method. Each function puts the pixels of one set after

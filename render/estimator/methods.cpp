@@ -1,6 +1,8 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 
+#include <glm/vec2.hpp>
+
 // The four methods side by side. Each traces the base paths of a block, lets every sampling set share its light
 // (share_light), and adds what the pixels got; what T is, and so what makes it this method, is in method_sets.h.
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 namespace {

@@ -9,6 +9,8 @@
 
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 /// One sample a pixel of a whole image: what all its blocks have in common.

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <stdexcept>
+#include <system_error>
+#include <type_traits>
 
 #include <fmt/core.h>
 

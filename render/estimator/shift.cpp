@@ -1,5 +1,8 @@
 #include "render/estimator/shift.h"
 
+#include <cstdint>
+
+#include <glm/vec3.hpp>
 namespace tessera {
 
 void Shift::run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,

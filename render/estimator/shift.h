@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 /// What the pixels of a sampling set see, x_1 of each.

@@ -1,5 +1,9 @@
 #include "render/inspect/onlooker.h"
 
+#include <utility>
+
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 namespace {

@@ -111,7 +111,9 @@ protected:
 };
 
 TEST_P(Judge, AllMethods) {
-    judge_all(small);
+    // In the room with the glass ball, rare bright paths lie in one small picture's one tile, which all pixels
+    // share.
+    judge_all(GetParam().name == "glass" ? large : small);
 }
 
 TEST_P(Judge, SlowAllMethodsAtFullSize) {

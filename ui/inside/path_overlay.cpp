@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 namespace {

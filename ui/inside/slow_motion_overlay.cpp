@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 namespace {

@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace tessera {

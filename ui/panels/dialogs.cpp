@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 #include <vector>
+#include <system_error>
 
 #include <fmt/core.h>
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include <glm/common.hpp>

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <imgui.h>
 
 namespace tessera {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {

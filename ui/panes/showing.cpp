@@ -1,6 +1,7 @@
 #include "ui/panes/showing.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera {
 

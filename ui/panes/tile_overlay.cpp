@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {

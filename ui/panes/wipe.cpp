@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 namespace {

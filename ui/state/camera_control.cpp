@@ -11,7 +11,9 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 
 namespace tessera {
 

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <glm/vec3.hpp>
+
 namespace tessera {
 
 namespace {

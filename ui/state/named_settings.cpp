@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include <system_error>
 
 #include <fmt/core.h>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

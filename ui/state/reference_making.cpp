@@ -9,6 +9,7 @@
 #include "ui/state/file_names.h"
 
 #include <cmath>
+#include <system_error>
 
 #include <fmt/core.h>
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iomanip>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 #include <fmt/core.h>
 

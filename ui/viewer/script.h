@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 /// One line of a script: a word that says what to do, and what it needs.

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +12,8 @@
 #include <map>
 #include <memory>
 #include <utility>
+
+#include <glm/common.hpp>
 
 namespace tessera {
 

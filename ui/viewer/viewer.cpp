@@ -16,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <imgui.h>
 
 namespace tessera {

@@ -8,9 +8,11 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <glm/common.hpp>
 
 namespace tessera {
 

@@ -7,9 +7,11 @@
 #include <array>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <glad/gl.h>
+#include <glm/common.hpp>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 
