@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <initializer_list>
 #include <mutex>
 
 #include <fmt/core.h>
