@@ -1,6 +1,7 @@
 #include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
+#include "recon/enumeration.h"
 #include "render/estimator/settings_table.h"
 #include "render/io/png.h"
 
@@ -189,7 +190,7 @@ std::string cell(double value) {
 
 std::string_view kind_name(SpeedUp::Kind kind) {
     constexpr std::string_view names[] = {"out of range", "measured", "at least", "at most"};
-    return names[static_cast<int>(kind)];
+    return entry_of(names, kind);
 }
 
 } // namespace

@@ -98,7 +98,7 @@ bool joins_long_edges(const RenderSettings& s) {
 const Setting table[] = {
     {"tile", "Tile",
      "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. Used by PR and G-PR.",
-     Setting::Whole{&RenderSettings::tile, 1, 16}, shares},
+     Setting::Whole{&RenderSettings::tile, 1, most_tile}, shares},
     {"adapt_tile", "Adapt",
      "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain.",
      Setting::Switch{&RenderSettings::adapt_tile}, has_tiles_to_cut},

@@ -1,12 +1,13 @@
+#include "recon/enumeration.h"
 #include "ui/charts/charts.h"
 #include "ui/gl/theme.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include <glm/common.hpp>
 
@@ -17,12 +18,13 @@ namespace {
 // Heights, in sizes of the font.
 constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
 
-const std::array<ChoiceItem, 3> kinds = {{
+const ChoiceItem kinds[] = {
     {words::charts[0], "Error", "relMSE of each pane's picture to the reference."},
     {words::charts[1], "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
     {words::charts[2], "Shifts",
      "How the shifts of each pane ended: which share came through, and why others did not."},
-}};
+};
+static_assert(std::size(kinds) == enumerator_count<ChartKind>);
 
 constexpr const char* help_of(ChartKind kind) {
     switch (kind) {
@@ -136,8 +138,7 @@ void draw_chart(Controls& controls, const ViewerState& state, float height) {
     for (std::size_t i = 0; i < chart.plots.size(); ++i) {
         draw_plot(take_room(each), chart.plots[i], colours);
         controls.note(
-            ("charts." + kinds[static_cast<std::size_t>(state.chart_kind)].id + (i > 0 ? std::to_string(i) : ""))
-                .c_str(),
+            ("charts." + entry_of(kinds, state.chart_kind).id + (i > 0 ? std::to_string(i) : "")).c_str(),
             help_of(state.chart_kind));
     }
     if (state.chart_kind == ChartKind::shifts)
@@ -192,14 +193,15 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
 
 /// Which chart, and against what.
 void draw_choices(Controls& controls, ViewerState& state) {
-    static const std::array<ChoiceItem, 2> axes = {{
+    static const ChoiceItem axes[] = {
         {words::chart_axes[0], "against seconds", "Wall time of a pane's own passes."},
         {words::chart_axes[1], "against samples", "Samples a pixel."},
-    }};
+    };
+    static_assert(std::size(axes) == std::size(words::chart_axes));
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);
     int kind = static_cast<int>(state.chart_kind), axis = state.charts_by_spp;
-    controls.bare_choice("charts.kind", kinds[static_cast<std::size_t>(kind)].label.c_str(), kinds, kind, width,
+    controls.bare_choice("charts.kind", entry_of(kinds, state.chart_kind).label.c_str(), kinds, kind, width,
                          "Which chart is shown.");
     ImGui::SameLine();
     controls.bare_choice("charts.axis", axes[static_cast<std::size_t>(axis)].label.c_str(), axes, axis, -FLT_MIN,

@@ -1,3 +1,4 @@
+#include "recon/enumeration.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"
 
@@ -39,12 +40,13 @@ const char* waiting_text(const Inspector& inspector) {
 
 /// `is_elsewhere`: the inspection is of a request that no pane shows, or none any more.
 void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
-    static const std::vector<ChoiceItem> directions = {
+    static const ChoiceItem directions[] = {
         {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
         {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
     };
+    static_assert(std::size(directions) == enumerator_count<Inspector::Direction>);
     int direction = static_cast<int>(inspector.direction);
-    const std::string& shown = directions[static_cast<std::size_t>(direction)].label;
+    const std::string& shown = entry_of(directions, inspector.direction).label;
     if (controls.bare_choice("inspector.direction", shown.c_str(), directions, direction,
                              ImGui::GetFontSize() * 13, "Which shifts are drawn and listed.")) {
         inspector.direction = static_cast<Inspector::Direction>(direction);

@@ -1,3 +1,4 @@
+#include "recon/enumeration.h"
 #include "render/run/reference_render.h"
 #include "ui/gl/controls.h"
 #include "ui/panels/panels.h"
@@ -5,9 +6,9 @@
 #include "ui/state/words.h"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/core.h>
@@ -17,14 +18,15 @@ namespace tessera {
 namespace {
 
 void draw_method(Controls& controls, ReferenceMaking& making) {
-    static const std::array<ChoiceItem, 4> methods = {{
+    static const ChoiceItem methods[] = {
         {"pt", "PT", "Path tracing: slow, and free of what tiles have in common."},
         {"pr", "PR", "Path reusing in tiles of 8 pixels."},
         {"gpt", "G-PT", "Gradients of neighbours, reconstructed by L2."},
         {"gpr", "G-PR", "Gradients of tiles of 8 pixels, reconstructed by L2: the quickest on most scenes."},
-    }};
+    };
+    static_assert(std::size(methods) == enumerator_count<Method>);
     const auto is_chosen = [&](const ChoiceItem& item) { return item.id == short_name(making.method); };
-    int index = static_cast<int>(std::find_if(methods.begin(), methods.end(), is_chosen) - methods.begin());
+    int index = static_cast<int>(std::find_if(std::begin(methods), std::end(methods), is_chosen) - methods);
     controls.choice("reference.method", "Method", methods, index, "What renders the reference.");
     making.method = *method_from_name(methods[static_cast<std::size_t>(index)].id);
 }
@@ -87,8 +89,7 @@ void draw_buttons(Controls& controls, ViewerState& state) {
     ReferenceMaking& making = state.reference_making;
     const float width = ImGui::GetFontSize() * 7;
     if (making.is_making()) {
-        if (controls.button("reference.cancel", "Cancel",
-                            "Ends it after the pass under way; made again, it goes on from there.", width))
+        if (controls.button("reference.cancel", "Cancel", "Ends it; made again, it goes on from there.", width))
             making.cancel = true;
     } else if (controls.button("reference.make", "Make", "Renders it in the background; the panes go first.",
                                width)) {

@@ -1,10 +1,11 @@
+#include "recon/enumeration.h"
 #include "render/estimator/settings_table.h"
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,7 @@ bool draw_method_settings(Controls& controls, const ViewerState& state, bool rar
 }
 
 bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& settings) {
-    static const std::array<ChoiceItem, 6> norms = {{
+    static const ChoiceItem norms[] = {
         {"none", "none", "The primal picture as it is."},
         {"l2", "L2", "Least squares: quick and unbiased; outliers leave blobs."},
         {"l1", "L1",
@@ -71,7 +72,8 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
         {"weighted", "weighted",
          "Least squares, where gradients count the less the noisier they are (control variates weighted by "
          "variances): few outliers, and as bright as the primal."},
-    }};
+    };
+    static_assert(std::size(norms) == enumerator_count<Norm>);
     int index = static_cast<int>(settings.norm);
     bool changed = controls.choice("norm", "Norm", norms, index,
                                    "How the picture is made from primal and gradients (screened Poisson).");
@@ -90,11 +92,12 @@ bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& se
 }
 
 void draw_size_settings(Controls& controls, ViewerState& state) {
-    static const std::array<ChoiceItem, 3> bases = {{
+    static const ChoiceItem bases[] = {
         {"pane", "fit the pane", "As many pixels as the pane has, in the film's proportions."},
         {"scene", "of the scene", "The film size of the scene file."},
         {"custom", "custom", "The width and height given below."},
-    }};
+    };
+    static_assert(std::size(bases) == enumerator_count<SizeChoice::Base>);
     int base = static_cast<int>(state.size.base);
     if (controls.choice("size", "Size", bases, base, "How many pixels are rendered."))
         state.size.base = static_cast<SizeChoice::Base>(base);
@@ -136,10 +139,11 @@ void draw_run_buttons(Controls& controls, ViewerState& state) {
 }
 
 void draw_pace(Controls& controls, Pace& pace) {
-    static const std::array<ChoiceItem, 2> shares = {{
+    static const ChoiceItem shares[] = {
         {"time", "same time", "Passes go to the pane that has rendered for the shortest time."},
         {"spp", "same spp", "Passes go to the pane with the fewest samples a pixel."},
-    }};
+    };
+    static_assert(std::size(shares) == enumerator_count<Pace::Equal>);
     int share = static_cast<int>(pace.equal);
     if (controls.choice("equal", "Panes have", shares, share, "How the panes share the cores."))
         pace.equal = static_cast<Pace::Equal>(share);
@@ -150,11 +154,12 @@ void draw_pace(Controls& controls, Pace& pace) {
 }
 
 void draw_comparison_settings(Controls& controls, ViewerState& state) {
-    static const std::array<ChoiceItem, 3> kinds = {{
+    static const ChoiceItem kinds[] = {
         {"off", "off", "The pane shows its own picture."},
         {"wipe", "wipe", "Its own picture to the left of a line, another pane's to the right. Drag the line (V)."},
         {"difference", "difference", "Its own picture minus another pane's: orange above zero, blue below (N)."},
-    }};
+    };
+    static_assert(std::size(kinds) == enumerator_count<Comparison::Kind>);
     Comparison& comparison = state.active().settings.comparison;
     int kind = static_cast<int>(comparison.kind);
     if (controls.choice("compare", "Active pane", kinds, kind, "How the active pane shows another one's picture."))
@@ -209,11 +214,12 @@ void draw_display_settings(Controls& controls, ViewerState& state) {
     controls.slider("exposure", "Exposure", state.tone.exposure, ranges::exposure.low(), ranges::exposure.high(),
                     "%+.1f stops",
                     "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.");
-    static const std::array<ChoiceItem, 3> curves = {{
+    static const ChoiceItem curves[] = {
         {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},
         {"gamma", "gamma", "Radiance to the power of 1/gamma."},
         {"filmic", "filmic", "Highlights are compressed instead of cut [Narkowicz 2015], then sRGB."},
-    }};
+    };
+    static_assert(std::size(curves) == enumerator_count<Tone::Curve>);
     int curve = static_cast<int>(state.tone.curve);
     if (controls.choice("tone", "Tone curve", curves, curve, "How radiance becomes brightness on the screen (Y)."))
         state.tone.curve = static_cast<Tone::Curve>(curve);

@@ -1,8 +1,8 @@
-#include "ui/state/shift_outcomes.h"
 #include "ui/state/buffer.h"
 
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -287,7 +287,7 @@ constexpr BufferInfo table[] = {
 } // namespace
 
 const BufferInfo& info(Buffer buffer) {
-    return table[static_cast<std::size_t>(buffer)]; // in the order of the enumeration
+    return entry_of(table, buffer);
 }
 
 std::string_view paper_name(Method method) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/enumeration.h"
 #include "render/io/json_text.h"
 
 #include <algorithm>
@@ -32,9 +33,12 @@ inline constexpr const char* themes[] = {"dark", "light"};                  // T
 inline constexpr const char* directions[] = {"to_pixel", "from_pixel"};     // Inspector::Direction
 } // namespace words
 
+static_assert(std::size(words::off_on) == 2 && std::size(words::chart_axes) == 2); // of a bool
+
+/// Not of a bool: of an enum whose words these are.
 template <class Enum, std::size_t count>
 const char* word(const char* const (&words)[count], Enum value) {
-    return words[static_cast<std::size_t>(value)];
+    return entry_of(words, value);
 }
 
 /// "kind_mismatch" as it is written in prose.
