@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "render/estimator/settings_table.h"
+#include "render/io/files.h"
 #include "ui/state/inspected.h"
 
 #include <algorithm>
@@ -21,8 +22,11 @@ glm::ivec2 parse_size(const std::string& option, const std::string& text) {
     int w = 0, h = 0, used = 0;
     if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 || used != static_cast<int>(text.size()))
         throw BadInput(fmt::format("{} {}: must be WIDTHxHEIGHT, such as 640x360", option, text));
-    if (w < 1 || h < 1 || w > 32768 || h > 32768)
-        throw BadInput(fmt::format("{} {}: width and height must be from 1 to 32768", option, text));
+    try {
+        check_image_size(w, h);
+    } catch (const std::runtime_error& error) {
+        throw BadInput(fmt::format("{} {}: {}", option, text, error.what()));
+    }
     return {w, h};
 }
 
