@@ -21,7 +21,8 @@ namespace tessera {
 class BuildMonitor {
 public:
     /// Gets the share of a BVH that is done, [0, 1], from any of the threads that build it, several at once.
-    /// False: it is wanted no more, and its constructor throws std::runtime_error.
+    /// False: it is wanted no more, and its constructor throws std::runtime_error; as it does with what the
+    /// watcher throws.
     using Watcher = std::function<bool(double share)>;
 
     explicit BuildMonitor(Watcher watcher);
@@ -64,7 +65,8 @@ public:
     /// @param opacities  one a shape: the share of light (luminance) that meets it; null: all does. May be
     ///                   empty: all shapes are opaque.
     ///
-    /// Meshes and textures must stay where they are for as long as this lives.
+    /// Meshes and textures must stay where they are for as long as this lives. Throws std::runtime_error with
+    /// what Embree says where it fails.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;
