@@ -1,9 +1,8 @@
 #include "app/cli/picture_layers.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/terminal.h"
-#include "render/io/png.h"
 #include "render/io/files.h"
+#include "render/io/png.h"
 
 #include <string>
 #include <utility>
@@ -37,9 +36,9 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
     ExrFile file;
     const ParallelFor parallel_for = pool.loops();
     for (Norm norm : wanted.norms) {
-        const double cpu = process_cpu_seconds();
+        const double cpu = pool.cpu_seconds();
         Reconstruction r = reconstruct(images, {norm, wanted.alpha, !wanted.per_channel}, parallel_for);
-        stats.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
+        stats.push_back({norm, r.seconds, pool.cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
     if (wanted.buffers) {

@@ -53,15 +53,14 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
         resume();
 }
 
-bool ReferenceRender::run(const Watch& go_on) {
+bool ReferenceRender::run(const Watch& go_on, const std::stop_token& stop) {
     auto last = Clock::now();
     while (!is_complete()) {
-        if (!go_on(*this)) {
+        Render& behind = halves_[halves_[1].spp() < halves_[0].spp()];
+        if (!go_on(*this) || !behind.pass(pool_, stop)) {
             write();
             return false;
         }
-        Render& behind = halves_[halves_[1].spp() < halves_[0].spp()];
-        behind.pass(pool_);
         if (std::chrono::duration<double>(Clock::now() - last).count() >= recipe_.checkpoint_seconds) {
             write();
             last = Clock::now();

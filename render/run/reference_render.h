@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -48,8 +49,9 @@ public:
     /// Is asked before each pass whether to go on.
     using Watch = std::function<bool(const ReferenceRender&)>;
 
-    /// Until it is complete, or `go_on` says no; then after a last checkpoint. True: it is complete.
-    bool run(const Watch& go_on);
+    /// Until it is complete, or `go_on` says no, or `stop` is asked for, which is looked at within a pass; then
+    /// after a last checkpoint. True: it is complete.
+    bool run(const Watch& go_on, const std::stop_token& stop = {});
 
     int spp() const { return halves_[0].spp() + halves_[1].spp(); } ///< of both halves
     int spp_wanted() const { return recipe_.spp; }

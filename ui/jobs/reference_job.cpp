@@ -5,10 +5,10 @@
 #include "render/run/thread_pool.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <mutex>
+#include <stop_token>
 #include <utility>
 
 #include <fmt/core.h>
@@ -31,18 +31,19 @@ public:
     Watch(ReferenceProgress start, std::function<void()> wake)
         : progress_(std::move(start)), wake_(std::move(wake)) {}
 
-    void cancel() { cancelled_ = true; }
+    void cancel() { cancelled_.request_stop(); }
+    std::stop_token cancelled() const { return cancelled_.get_token(); }
 
     ReferenceProgress progress() const {
         const std::lock_guard lock(mutex_);
         ReferenceProgress progress = progress_;
-        progress.is_ending = cancelled_;
+        progress.is_ending = cancelled_.stop_requested();
         return progress;
     }
 
     /// Whether to go on.
-    bool look(const ReferenceRender& render, const std::stop_token& stop) {
-        const bool goes_on = !cancelled_ && !stop.stop_requested();
+    bool look(const ReferenceRender& render) {
+        const bool goes_on = !cancelled_.stop_requested();
         std::optional<FloorFreeError> error;
         if (goes_on && is_time_to_measure(render))
             error = measure(render);
@@ -76,7 +77,7 @@ private:
 
     mutable std::mutex mutex_;
     ReferenceProgress progress_; // guarded by it
-    std::atomic<bool> cancelled_ = false;
+    std::stop_source cancelled_;
     std::function<void()> wake_;
     // Used by the render's thread alone.
     Clock::time_point woken_, measured_;
@@ -118,7 +119,9 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
                 std::filesystem::remove(reference_checkpoint(file));
             ThreadPool pool(threads);
             ReferenceRender render(file, subject, recipe, pool);
-            const bool is_complete = render.run([&](const ReferenceRender& r) { return watch->look(r, stop); });
+            const std::stop_callback viewer_ends(stop, [&] { watch->cancel(); });
+            const bool is_complete =
+                render.run([&](const ReferenceRender& r) { return watch->look(r); }, watch->cancelled());
             Made made{{}, render.spp(), {}};
             for (const Render& half : render.halves())
                 made.halves.push_back({half.settings(), half.counters()});
