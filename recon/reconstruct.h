@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/enumeration.h"
 #include "recon/image.h"
 #include "recon/parallel.h"
 #include "recon/poisson_problem.h"
@@ -32,6 +33,7 @@ enum class Norm { none, l2, l1, mixed, uniform, weighted };
 /// All of them, in the order above.
 inline constexpr std::array all_norms = {Norm::none,  Norm::l2,      Norm::l1,
                                          Norm::mixed, Norm::uniform, Norm::weighted};
+static_assert(all_norms.size() == enumerator_count<Norm>);
 
 /// "none", "l2", "l1", "mixed", "uniform", "weighted".
 std::string_view to_string(Norm norm);

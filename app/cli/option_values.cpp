@@ -1,6 +1,7 @@
 #include "app/cli/option_values.h"
 
 #include "app/cli/terminal.h"
+#include "render/io/files.h"
 #include "ui/state/inspected.h"
 
 #include <algorithm>
@@ -23,6 +24,11 @@ glm::ivec2 parse_size(const std::string& option, const std::string& text) {
         setting.set_text(text);
     } catch (const std::invalid_argument&) {
         throw BadInput(fmt::format("{} {}: must be {}", option, text, setting.allowed()));
+    }
+    try {
+        check_image_size(size.x, size.y);
+    } catch (const std::runtime_error& error) {
+        throw BadInput(fmt::format("{} {}: {}", option, text, error.what()));
     }
     return size;
 }

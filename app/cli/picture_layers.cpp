@@ -1,6 +1,5 @@
 #include "app/cli/picture_layers.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "render/io/files.h"
 #include "render/io/png.h"
@@ -39,9 +38,9 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
     ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
         settings.norm = norm;
-        const double cpu = process_cpu_seconds();
+        const double cpu = pool.cpu_seconds();
         Reconstruction r = reconstruct(images, settings, parallel_for);
-        stats.push_back({norm, r.seconds, process_cpu_seconds() - cpu, r.iterations, r.residual});
+        stats.push_back({norm, r.seconds, pool.cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
     if (wanted.buffers) {

@@ -20,7 +20,8 @@ struct ReconstructionLayers {
     bool buffers = false;              ///< primal, dx, dy, direct and variances, too
 };
 
-/// What one reconstruction cost: wall and CPU seconds, not a number where they are not known.
+/// What one reconstruction cost: wall seconds, and the CPU seconds of the threads that worked for it; not a number
+/// where they are not known.
 struct ReconstructionStats {
     Norm norm;
     double seconds, cpu_seconds;
@@ -32,7 +33,7 @@ struct ReconstructionStats {
 void check_picture_name(const std::filesystem::path& output, const ReconstructionLayers& wanted);
 
 /// The layers wanted, named as their norms; of the buffers those that are not empty. What each reconstruction cost
-/// is appended to `stats`.
+/// is appended to `stats`. Nobody else may use the pool meanwhile.
 ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats);
 

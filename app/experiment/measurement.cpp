@@ -1,5 +1,7 @@
 #include "app/experiment/measurement.h"
 
+#include "recon/enumeration.h"
+
 #include <limits>
 
 #include <fmt/core.h>
@@ -8,8 +10,8 @@
 namespace tessera {
 
 std::string to_string(const Effort& effort) {
-    const char* const units[] = {"spp", "CPU s", "s"};
-    return fmt::format("{:g} {}", effort.amount, units[static_cast<int>(effort.unit)]);
+    constexpr const char* units[] = {"spp", "CPU s", "s"};
+    return fmt::format("{:g} {}", effort.amount, entry_of(units, effort.unit));
 }
 
 namespace {

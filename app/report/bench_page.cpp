@@ -1,6 +1,7 @@
 #include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
+#include "recon/enumeration.h"
 #include "render/estimator/settings_table.h"
 #include "render/io/png.h"
 

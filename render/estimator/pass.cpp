@@ -46,10 +46,24 @@ void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
             trace_pixel(pass, tracer, x, y, paths_[index(x, y)]);
 }
 
-std::vector<PixelRect> blocks_of(const Pass& pass) {
+namespace {
+
+int block_edge(int tile) {
     constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
-    const int tile = pass.settings.tile;
-    const int edge = tile * std::max(1, usual_edge / tile);
+    return tile * std::max(1, usual_edge / tile);
+}
+
+} // namespace
+
+std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
+    const int edge = block_edge(settings.tile);
+    const glm::ivec2 most =
+        (size + settings.tile + edge - 1) / edge; // the first begin up to a tile before the image
+    return static_cast<std::size_t>(most.x) * static_cast<std::size_t>(most.y);
+}
+
+std::vector<PixelRect> blocks_of(const Pass& pass) {
+    const int edge = block_edge(pass.settings.tile);
     const glm::ivec2 origin = pass.grid.origin;
     std::vector<PixelRect> blocks;
     for (int y = origin.y; y < pass.size.y; y += edge)

@@ -83,6 +83,9 @@ struct Worker {
 /// image.
 std::vector<PixelRect> blocks_of(const Pass& pass);
 
+/// How many there are at most in a pass over an image of that size, wherever its tiles begin.
+std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings);
+
 /// Renders the pixels of one block of blocks_of() into the film with the pass's method (methods.cpp). Tiles are
 /// cut off at the image's border, nowhere else.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);

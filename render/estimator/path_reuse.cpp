@@ -1,10 +1,20 @@
 #include "render/estimator/path_reuse.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include <fmt/core.h>
 
 namespace tessera {
 
+// The largest tile, with the column and row that G-PR adds to it.
+static_assert((most_tile + 1) * (most_tile + 1) <= most_lanes);
+
 void PathReuse::begin(std::span<const BasePath* const> set) {
+    // Lanes are looked up without a check. Settings are checked long before; this is for who assembles sets anew.
+    if (set.size() > most_lanes)
+        throw std::logic_error(
+            fmt::format("a sampling set of {} pixels, where there are lanes for {}", set.size(), most_lanes));
     set_ = set;
     primary_.reset(0);
 }

@@ -22,7 +22,8 @@ public:
         : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold), shift_(tracer, settings) {}
 
     /// Begins with another sampling set.
-    /// @param set  the base paths of T, one a pixel, at most most_lanes; they must stay until the next begin()
+    /// Throws std::logic_error for more than most_lanes pixels.
+    /// @param set  the base paths of T, one a pixel; they must stay until the next begin()
     void begin(std::span<const BasePath* const> set);
 
     /// @param base      the path whose light is shared out, an index into the set

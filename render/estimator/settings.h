@@ -1,12 +1,16 @@
 #pragma once
 
+#include "recon/enumeration.h"
+
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
 namespace tessera {
 
 inline constexpr int most_edges = 64; ///< of a light path
+inline constexpr int most_tile = 16;  ///< pixels along a tile's edge
 
 /// What decides how far base paths go and what they look for.
 struct PathSettings {
@@ -35,6 +39,7 @@ struct ShiftSettings {
 
 enum class Method : std::uint8_t { pt, pr, gpt, gpr };
 inline constexpr Method all_methods[] = {Method::pt, Method::pr, Method::gpt, Method::gpr};
+static_assert(std::size(all_methods) == enumerator_count<Method>);
 
 /// The method's name on the command line: "pt", "pr", "gpt" or "gpr".
 std::string_view short_name(Method method);
@@ -66,7 +71,7 @@ enum class PrimalSource : std::uint8_t {
 /// called, and its limits: settings_table.h.
 struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
-    int tile = 6;           ///< pixels along a tile's edge
+    int tile = 6;           ///< pixels along a tile's edge [1, most_tile]
     bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_policy.h)
     bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;

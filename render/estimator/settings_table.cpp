@@ -120,7 +120,7 @@ std::vector<Setting> settings_of(RenderSettings& s) {
     return {
         {"tile", "Tile",
          "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. Used by PR and G-PR.",
-         Setting::Whole{&s.tile, 1, 16}, shares},
+         Setting::Whole{&s.tile, 1, most_tile}, shares},
         {"adapt_tile", "Adapt",
          "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},

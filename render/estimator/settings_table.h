@@ -2,6 +2,7 @@
 
 #include "recon/reconstruct.h"
 #include "render/estimator/setting.h"
+#include "render/io/files.h"
 #include "render/estimator/settings.h"
 
 #include <cstdint>
@@ -18,7 +19,6 @@ namespace tessera {
 inline constexpr int most_spp = 100'000'000;     ///< samples a pixel of one picture
 inline constexpr double most_seconds = 1e7;      ///< of rendering, a third of a year
 inline constexpr int most_threads = 1024;        ///< of a renderer
-inline constexpr int most_picture_edge = 32'768; ///< pixels of a picture's width or height
 
 /// All members of RenderSettings but method and seed, in the order of the panel.
 std::vector<Setting> settings_of(RenderSettings& settings);
@@ -32,7 +32,7 @@ Setting seed_setting(std::uint64_t& seed);
 Setting spp_setting(int& spp, int least = 1);
 /// `least` is 0 where that may stand for one a hardware thread.
 Setting threads_setting(int& threads, int least = 0);
-Setting size_setting(glm::ivec2& size, int most = most_picture_edge);
+Setting size_setting(glm::ivec2& size, int most = most_image_edge);
 
 /// The methods and norms by name, in the order of their enums.
 std::span<const SettingChoice> method_choices();

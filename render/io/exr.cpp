@@ -1,7 +1,6 @@
 #include "render/io/exr.h"
 
 #include "render/io/files.h"
-#include "render/io/files.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -43,6 +42,7 @@ void check_layers(const ExrFile& file) {
     if (file.layers.empty() || file.layers.front().image.empty())
         throw std::runtime_error("there is no image to write");
     const RgbImage& first = file.layers.front().image;
+    check_image_size(first.width(), first.height()); // what could not be read again
     for (const ExrLayer& layer : file.layers)
         if (layer.image.width() != first.width() || layer.image.height() != first.height())
             throw std::runtime_error("layer \"" + layer.name + "\" differs in size from the first");
@@ -106,6 +106,14 @@ void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch
     }
 }
 
+std::map<std::string, std::string> attributes_of(const Imf::Header& header) {
+    std::map<std::string, std::string> attributes;
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+            attributes[a.name()] = text->value();
+    return attributes;
+}
+
 ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
     Imf::MultiPartInputFile input(path.c_str());
     Imf::InputPart part(input, 0);
@@ -130,9 +138,7 @@ ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
         if (layer.name.empty() && !header.channels().findChannel("R"))
             for (Rgb& pixel : layer.image)
                 pixel = Rgb(pixel.r);
-    for (auto a = header.begin(); a != header.end(); ++a)
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-            file.attributes[a.name()] = text->value();
+    file.attributes = attributes_of(header);
     return file;
 }
 
@@ -166,6 +172,14 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file) {
 ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch) {
     try {
         return read_layers(path, watch);
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+    }
+}
+
+std::map<std::string, std::string> read_exr_attributes(const std::filesystem::path& path) {
+    try {
+        return attributes_of(Imf::MultiPartInputFile(path.c_str()).header(0));
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
     }

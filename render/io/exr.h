@@ -41,4 +41,7 @@ using ReadWatch = std::function<bool(float share)>;
 /// may be empty, wants it no more.
 ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {});
 
+/// The string attributes alone, without reading a pixel. Throws std::runtime_error that names the file.
+std::map<std::string, std::string> read_exr_attributes(const std::filesystem::path& path);
+
 } // namespace tessera

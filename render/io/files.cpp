@@ -1,5 +1,7 @@
 #include "render/io/files.h"
 
+#include "render/io/memory.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cctype>
@@ -8,6 +10,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -20,7 +24,6 @@ namespace tessera {
 
 namespace {
 
-constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 // No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
 constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
 
@@ -33,14 +36,25 @@ std::string extension_of(const std::filesystem::path& file) {
     return extension;
 }
 
-void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
-    const std::string size = std::to_string(width) + " by " + std::to_string(height) + " pixels";
+namespace {
+std::string size_text(std::int64_t width, std::int64_t height) {
+    return std::to_string(width) + " by " + std::to_string(height) + " pixels";
+}
+} // namespace
+
+void check_image_size(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
-        throw std::runtime_error("an image of " + size + " has none");
-    if (width > most_pixels / height)
-        throw std::runtime_error("an image of " + size + " is too large");
+        throw std::runtime_error("an image of " + size_text(width, height) + " has none");
+    if (width > most_image_edge || height > most_image_edge || width * height > most_image_pixels)
+        throw std::runtime_error("an image of " + size_text(width, height) + " is too large: at most " +
+                                 std::to_string(most_image_edge) + " pixels along an edge, and " +
+                                 std::to_string(most_image_pixels) + " in all");
+}
+
+void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
+    check_image_size(width, height);
     if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
-        throw std::runtime_error("the file is too short for " + size);
+        throw std::runtime_error("the file is too short for " + size_text(width, height));
 }
 
 std::ifstream open_file(const std::filesystem::path& file) {
@@ -68,13 +82,36 @@ std::string read_bytes(const std::filesystem::path& file) {
 
 namespace {
 
-/// The process that made "NAME.PID-COUNT.tmp" for this NAME; 0: it is no such file.
+/// Where the numbers of processes mean what they mean to this one: eight digits for the machine, since it has
+/// started, and the container (a namespace of process numbers). Several machines and containers may write to one
+/// folder, and a process that is alive in one of them is nowhere to be seen in another. An advisory lock on the
+/// file would tell as well, but not on every network file system: some grant each machine locks of its own, and
+/// then a file that is being written looks forgotten. So what has another place's name is left alone, at the cost
+/// that somebody has to remove by hand what a power cut has left.
+const std::string& this_place() {
+    static const std::string place = [] {
+        std::string machine;
+        std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), machine);
+        std::error_code unknown;
+        const std::string container = std::filesystem::read_symlink("/proc/self/ns/pid", unknown).string();
+        std::uint32_t sum = std::random_device()(); // is nobody's again: nothing will be removed
+        if (!machine.empty() && !unknown)
+            sum = checksum(std::as_bytes(std::span(container)), checksum(std::as_bytes(std::span(machine))));
+        char digits[9];
+        std::snprintf(digits, sizeof digits, "%08x", sum);
+        return std::string(digits);
+    }();
+    return place;
+}
+
+/// The process of this place that made "NAME.PLACE-PID-COUNT.tmp" for this NAME; 0: it is no such file.
 int maker_of(const std::string& file, const std::string& name) {
+    const std::string begin = name + "." + this_place();
     int process = 0, count = 0, used = 0;
-    if (file.rfind(name + ".", 0) != 0 ||
-        std::sscanf(file.c_str() + name.size(), ".%d-%d.tmp%n", &process, &count, &used) != 2)
+    if (!file.starts_with(begin) ||
+        std::sscanf(file.c_str() + begin.size(), "-%d-%d.tmp%n", &process, &count, &used) != 2)
         return 0;
-    return name.size() + static_cast<std::size_t>(used) == file.size() ? process : 0;
+    return begin.size() + static_cast<std::size_t>(used) == file.size() ? process : 0;
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
@@ -107,7 +144,7 @@ TemporaryFile::TemporaryFile(std::filesystem::path final_path) : final_(std::mov
     remove_leftovers(final_);
     static std::atomic<int> count = 0;
     temporary_ = final_;
-    temporary_ += "." + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
+    temporary_ += "." + this_place() + "-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
 }
 
 TemporaryFile::~TemporaryFile() {

@@ -17,15 +17,23 @@ std::string read_bytes(const std::filesystem::path& file);
 /// ".exr": the end of the file's name, in lower case.
 std::string extension_of(const std::filesystem::path& file);
 
-/// Throws std::runtime_error unless a file of that many bytes can hold an image of that size, and this program
-/// too.
+/// The largest image that is rendered, written or read, whatever its format. At the most pixels, byte counts of
+/// 8-bit RGB still fit the int that the PNG encoder has for them.
+inline constexpr int most_image_edge = 32768;
+inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 28;
+
+/// Throws std::runtime_error that says why where there can be no image of that size.
+void check_image_size(std::int64_t width, std::int64_t height);
+
+/// The same, and where a file of that many bytes cannot hold one.
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes);
 
 /// A file that is written under a temporary name beside its own and takes its own name only when it is complete.
 /// So whatever happens, there is never half a file under that name.
 class TemporaryFile {
 public:
-    /// Removes what killed processes of this machine have left of the same file.
+    /// Removes what processes that were killed have left of the same file, as far as it is certain that they are
+    /// no more: those that ran since this machine has started, and in this container.
     explicit TemporaryFile(std::filesystem::path final_path);
     ~TemporaryFile(); ///< removes the file unless it was committed
     TemporaryFile(const TemporaryFile&) = delete;

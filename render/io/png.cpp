@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -28,9 +29,15 @@ void append(void* bytes, void* data, int size) {
     out.insert(out.end(), first, first + size);
 }
 
+// The encoder counts bytes by int, of rows that each have one more.
+static_assert(3 * most_image_pixels + most_image_edge <= std::numeric_limits<int>::max());
+
 std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb) {
+    check_image_size(size.x, size.y);
+    if (rgb.size() != 3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
+        throw std::runtime_error("there are other than three bytes for each pixel");
     std::vector<char> bytes;
-    if (rgb.empty() || !stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), 3 * size.x))
+    if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), 3 * size.x))
         throw std::runtime_error("the image cannot be encoded");
     return bytes;
 }

@@ -41,7 +41,8 @@ std::uint32_t checksum_of(const ReferenceImage& reference);
 /// mean's error and the scene's checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
-/// Whether the file is one of these. Throws std::runtime_error that names a file that is no EXR.
+/// Whether the file is one of these, as its header says: no pixels are read. Throws std::runtime_error that names
+/// a file that is no EXR.
 bool is_reference(const std::filesystem::path& path);
 
 /// Reads what write_reference wrote. Throws std::runtime_error that names the file if it is anything else.

@@ -53,15 +53,14 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
         resume();
 }
 
-bool ReferenceRender::run(const Watch& watch) {
+bool ReferenceRender::run(const Watch& watch, const std::stop_token& stop) {
     auto last = Clock::now();
     while (!is_complete()) {
-        if (!watch(*this)) {
+        Render& behind = halves_[halves_[1].spp() < halves_[0].spp()];
+        if (!watch(*this) || !behind.pass(pool_, stop)) {
             write();
             return false;
         }
-        Render& behind = halves_[halves_[1].spp() < halves_[0].spp()];
-        behind.pass(pool_);
         if (std::chrono::duration<double>(Clock::now() - last).count() >= recipe_.checkpoint_seconds) {
             write();
             last = Clock::now();

@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -48,8 +49,9 @@ public:
     /// A watch of a reference: it is shown the render before each pass, and says whether to go on.
     using Watch = std::function<bool(const ReferenceRender&)>;
 
-    /// Renders until it is complete, or `watch` says no; then writes a last checkpoint. True: it is complete.
-    bool run(const Watch& watch);
+    /// Renders until it is complete, or `watch` says no, or `stop` is asked for, which is looked at within a pass;
+    /// then writes a last checkpoint. True: it is complete.
+    bool run(const Watch& watch, const std::stop_token& stop = {});
 
     int spp() const { return halves_[0].spp() + halves_[1].spp(); } ///< of both halves
     int spp_wanted() const { return recipe_.spp; }

@@ -2,45 +2,39 @@
 
 #include "render/estimator/pass.h"
 #include "render/estimator/settings_table.h"
+#include "render/io/files.h"
 
+#include <algorithm>
 #include <chrono>
-#include <ctime>
+#include <fmt/core.h>
+#include <span>
 #include <stdexcept>
 #include <utility>
-
-#include <fmt/core.h>
 
 namespace tessera {
 
 namespace {
-
-double thread_cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 FilmBuffers buffers_of(const RenderSettings& s) {
     return {has_gradients(s.method), s.method != Method::pt, reuses_paths(s.method) && s.adapt_tile,
             s.very_direct_grid > 1};
 }
 
-/// Throws where one edge of an image is outside its limits.
-int checked(const char* name, int pixels) {
-    if (pixels < 1 || pixels > most_picture_edge)
-        throw std::invalid_argument(
-            fmt::format("{} is {}: must be from 1 to {}", name, pixels, most_picture_edge));
-    return pixels;
+/// Before any memory is asked for. Throws std::runtime_error.
+glm::ivec2 checked(glm::ivec2 size) {
+    check_image_size(size.x, size.y);
+    return size;
 }
 
 } // namespace
 
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
                const RenderSettings& settings)
-    : scene_(std::move(scene)), camera_(camera), size_(size), settings_(settings),
-      film_(checked("image width", size.x), checked("image height", size.y), buffers_of(settings)),
-      plan_(size, settings_), newest_plan_(std::make_shared<const ReusePlan>(plan_)) {
+    : scene_(std::move(scene)), camera_(camera), size_(checked(size)), settings_(settings),
+      film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_),
+      newest_plan_(std::make_shared<const ReusePlan>(plan_)) {
     check(settings);
+    done_blocks_.resize(most_blocks(size, settings));
 }
 
 /// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
@@ -70,26 +64,36 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
             },
             stop);
     };
-    if (settings_.very_direct_grid > 1 && spp_ == 0) {
+    const auto done_before = std::ranges::count(done_blocks_, 1);
+    if (settings_.very_direct_grid > 1 && spp_ == 0 && done_before == 0) {
         RgbImage look(size_.x, size_.y);
         for_each(blocks.size(), [&](int i, Worker& worker) {
             look_at_lamps(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, look);
         });
+        if (stop.stop_requested())
+            return false; // a part of the look tells nothing
         film_.find_lamp_edges(look);
     }
     for_each(blocks.size(), [&](int i, Worker& worker) {
+        std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
+        if (is_done)
+            return; // before the pass was stopped
         render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
+        is_done = 1;
     });
-    if (stop.stop_requested())
-        return false;
-
+    const auto done = std::ranges::count(done_blocks_, 1);
+    if (done == done_before)
+        return false; // and the look, if there was one, is to be had again
     for (const auto& worker : workers) {
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
     }
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (std::cmp_less(done, blocks.size()))
+        return false;
+    std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     plan_.learn(film_.base_luminance());
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++spp_;
     return true;
 }
@@ -97,6 +101,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
 Memory Render::memory() {
     Memory memory = film_.memory();
     append(memory, plan_.memory());
+    append(memory, {std::as_writable_bytes(std::span(done_blocks_))});
     append(memory, {memory_of(counters_), memory_of(spp_), memory_of(seconds_), memory_of(cpu_seconds_)});
     return memory;
 }

@@ -5,23 +5,27 @@
 #include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
 
+#include <cstdint>
 #include <memory>
 #include <stop_token>
+#include <vector>
 
 namespace tessera {
 
 /// A render in progress: a film and the passes it has seen.
 class Render {
 public:
-    /// Throws std::invalid_argument for a size or settings outside their limits.
+    /// Throws std::runtime_error for a size, std::invalid_argument for settings outside their limits.
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
            const RenderSettings& settings);
 
-    /// Takes one more sample at every pixel. False: stopped on the way; the render is then good for nothing more.
+    /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
+    /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
+    /// picture.
     bool pass(ThreadPool& pool, std::stop_token stop = {});
 
     int spp() const { return spp_; }
-    double seconds() const { return seconds_; }         ///< wall time of all passes
+    double seconds() const { return seconds_; }         ///< wall time of all passes, those stopped among them
     double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
@@ -48,6 +52,7 @@ private:
     glm::ivec2 size_;
     RenderSettings settings_;
     Film film_;
+    std::vector<std::uint8_t> done_blocks_; // of the pass under way: 1 for each that it has done
     ReusePlan plan_;
     std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
     Counters counters_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <ctime>
 #include <exception>
 
 #include <sys/resource.h>
@@ -28,6 +29,12 @@ void work_in_background() {
 
 void work_behind_others() {
     give_way(15);
+}
+
+double thread_cpu_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 struct ThreadPool::Loop {
@@ -98,11 +105,19 @@ void ThreadPool::work(int worker, Priority priority) {
         Loop& loop = *loop_;
         ++loop.workers_inside;
         lock.unlock();
+        const double before = thread_cpu_seconds();
         loop.run(worker, mutex_);
+        const double after = thread_cpu_seconds();
         lock.lock();
+        own_cpu_seconds_ += after - before;
         if (--loop.workers_inside == 0)
             done_.notify_all();
     }
+}
+
+double ThreadPool::cpu_seconds() const {
+    const std::lock_guard lock(mutex_);
+    return thread_cpu_seconds() + own_cpu_seconds_;
 }
 
 ParallelFor ThreadPool::loops() {

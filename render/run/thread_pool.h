@@ -20,6 +20,9 @@ void work_in_background();
 /// about a quarter of the time.
 void work_behind_others();
 
+/// CPU time that the calling thread has had, seconds.
+double thread_cpu_seconds();
+
 /// Threads that run the iterations of one loop at a time. Own threads, not TBB's, so that the thread sanitizer
 /// sees every synchronisation.
 class ThreadPool {
@@ -35,6 +38,10 @@ public:
 
     int size() const { return static_cast<int>(threads_.size()) + 1; }
 
+    /// CPU time that the calling thread has had, and the pool's own threads in loops, seconds. The difference over
+    /// a piece of work that alone uses the pool is what that work has cost, whatever else the process does.
+    double cpu_seconds() const;
+
     /// Runs body(i, worker) for i in [0, count), worker in [0, size()); returns when all are done. Once `stop` is
     /// asked for, iterations not yet begun are left out. The first exception thrown by a body is thrown again
     /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
@@ -47,13 +54,14 @@ private:
     struct Loop;
     void work(int worker, Priority priority);
 
-    std::mutex callers_; // held by the caller whose loop runs
-    std::mutex mutex_;   // guards what follows
+    std::mutex callers_;       // held by the caller whose loop runs
+    mutable std::mutex mutex_; // guards what follows
     std::condition_variable wake_;
     std::condition_variable done_;
     Loop* loop_ = nullptr;
     std::uint64_t generation_ = 0;
     bool quit_ = false;
+    double own_cpu_seconds_ = 0; // of threads_
     std::vector<std::thread> threads_;
 };
 

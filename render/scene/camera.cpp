@@ -1,5 +1,7 @@
 #include "render/scene/camera.h"
 
+#include "recon/enumeration.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -36,7 +38,7 @@ constexpr std::string_view axis_names[] = {"x", "y", "diagonal", "smaller", "lar
 } // namespace
 
 std::string_view to_string(FovAxis axis) {
-    return axis_names[static_cast<std::size_t>(axis)];
+    return entry_of(axis_names, axis);
 }
 
 std::optional<FovAxis> fov_axis_from_name(std::string_view name) {

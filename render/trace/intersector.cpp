@@ -8,7 +8,9 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -49,14 +51,39 @@ bool is_sound(glm::vec3 v) {
     return (std::abs(v.x) < farthest) & (std::abs(v.y) < farthest) & (std::abs(v.z) < farthest);
 }
 
-void on_error(void*, RTCError code, const char* text) {
+/// The first exception of what Embree calls in the middle of its work, from any of its threads. Embree's interface
+/// is C, through which nothing may be thrown: it is kept until Embree has returned.
+class KeptException {
+public:
+    void keep(std::exception_ptr exception) noexcept {
+        const std::lock_guard lock(mutex_);
+        if (!first_)
+            first_ = std::move(exception);
+    }
+    void throw_kept() const {
+        const std::lock_guard lock(mutex_);
+        if (first_)
+            std::rethrow_exception(first_);
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::exception_ptr first_;
+};
+
+void on_error(void* kept, RTCError code, const char* text) noexcept {
     if (code == RTC_ERROR_CANCELLED)
         return; // by the monitor: see build()
-    throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " + (text ? text : ""));
+    try {
+        throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " +
+                                 (text ? text : ""));
+    } catch (...) { // or there is no memory for the message
+        static_cast<KeptException*>(kept)->keep(std::current_exception());
+    }
 }
 
 /// Embree tells what it is about to allocate, and what it has freed.
-bool count_bytes(void* sum, ssize_t bytes, bool) {
+bool count_bytes(void* sum, ssize_t bytes, bool) noexcept {
     *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
     return true;
 }
@@ -64,25 +91,29 @@ bool count_bytes(void* sum, ssize_t bytes, bool) {
 /// What a monitor is told, and whether it has ended the build.
 struct BuildState {
     const BuildMonitor* monitor;
+    KeptException& kept;
     std::atomic<bool> given_up = false;
 };
 
-bool tell_monitor(void* state, double share) {
+bool tell_monitor(void* state, double share) noexcept {
     BuildState& s = *static_cast<BuildState*>(state);
-    if (!s.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
+    try {
+        if (!s.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
+            throw std::runtime_error("building the BVH was given up");
+    } catch (...) {
+        s.kept.keep(std::current_exception());
         s.given_up = true;
+    }
     return !s.given_up;
 }
 
-/// Builds the BVH; throws std::runtime_error if that is wanted no more.
-void build(RTCScene scene) {
-    BuildState state{BuildMonitor::current()};
+/// Builds the BVH; `kept` has an exception if that went wrong or is wanted no more.
+void build(RTCScene scene, KeptException& kept) {
+    BuildState state{BuildMonitor::current(), kept};
     if (state.monitor)
         rtcSetSceneProgressMonitorFunction(scene, tell_monitor, &state);
     rtcCommitScene(scene);
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    if (state.given_up)
-        throw std::runtime_error("building the BVH was given up");
 }
 
 RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
@@ -211,7 +242,8 @@ void set_buffers(RTCGeometry geometry, const Mesh& mesh) {
     } else {
         auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
-        std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+        if (positions) // else Embree has told of an error
+            std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
     }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(glm::uvec3), mesh.triangles.size());
@@ -245,6 +277,7 @@ float extent(const std::vector<Shape>& shapes) {
 
 struct Intersector::Impl {
     std::atomic<std::ptrdiff_t> bytes = 0; // written by the threads that build
+    KeptException kept;                    // likewise
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<Mask>> masks; // Embree has their addresses
@@ -268,7 +301,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
     impl_->device = rtcNewDevice("max_isa=avx2");
     if (!impl_->device)
         throw std::runtime_error("Embree did not start");
-    rtcSetDeviceErrorFunction(impl_->device, on_error, nullptr);
+    rtcSetDeviceErrorFunction(impl_->device, on_error, &impl_->kept);
     rtcSetDeviceMemoryMonitorFunction(impl_->device, count_bytes, &impl_->bytes);
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
@@ -278,7 +311,9 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
             mask = impl_->masks.emplace_back(new Mask{&shapes[i].mesh, opacities[i]}).get();
         attach(impl_->device, impl_->scene, shapes[i].mesh, mask, static_cast<unsigned>(i));
     }
-    build(impl_->scene);
+    impl_->kept.throw_kept(); // there is no building from what Embree has refused
+    build(impl_->scene, impl_->kept);
+    impl_->kept.throw_kept();
     smallest_coordinate_ = extent(shapes) / 8;
 }
 

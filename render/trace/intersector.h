@@ -64,7 +64,8 @@ public:
     /// @param opacities  one a shape: the share of light (luminance) that meets it; null: all does. May be
     ///                   empty: all shapes are opaque.
     ///
-    /// Meshes and textures must stay where they are for as long as this lives.
+    /// Meshes and textures must stay where they are for as long as this lives. Throws std::runtime_error with
+    /// what Embree says where it fails.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;

@@ -16,8 +16,8 @@ struct Ray {
 /// Numbers side by side, one a pixel of a sampling set, for loops that the compiler turns into vector code. Loops
 /// run over whole vectors, to padded(count): what lies in the lanes beyond is never read for a result.
 inline constexpr int lanes_a_vector = 8;
-/// The largest tile with its halo, rounded up to whole vectors.
-inline constexpr int most_lanes = (17 * 17 + lanes_a_vector - 1) / lanes_a_vector * lanes_a_vector;
+/// As many as the largest sampling set has pixels, and more (render/estimator/path_reuse.cpp sees to it).
+inline constexpr int most_lanes = 37 * lanes_a_vector;
 
 inline int padded(int lanes) {
     return (lanes + lanes_a_vector - 1) / lanes_a_vector * lanes_a_vector;

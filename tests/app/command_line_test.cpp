@@ -54,6 +54,7 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {"render bad-mesh.xml -o out.exr", "bad.obj"},
         {render + "--size 0x0", "--size 0x0"},
         {render + "--size 640", "--size 640"},
+        {render + "--size 32768x32768", "--size 32768x32768: an image of 32768 by 32768 pixels is too large"},
         {render + "--size 16x16x16", "--size 16x16x16"},
         {render + "--spp -3", "--spp"},
         {render + "--spp 0", "--spp"},

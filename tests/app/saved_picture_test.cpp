@@ -1,11 +1,15 @@
 #include "app/commands/commands.h"
 #include "render/io/exr.h"
 #include "render/run/first_hits.h"
+#include "render/run/thread_pool.h"
 #include "tests/support/scene_builder.h"
 #include "ui/state/companions.h"
 
+#include <atomic>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -92,6 +96,34 @@ TEST_F(SavedPictureTest, TheReconstructionIsMadeWhereTheOneOnShowIsAnother) {
     reconstruct(7);
     snapshot->settings.method = Method::pt; // which has none
     EXPECT_EQ(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4), Rgb(0.5f));
+}
+
+/// Not those of the viewer's other threads, which render on meanwhile.
+TEST_F(SavedPictureTest, TheCpuSecondsAreThoseOfTheReconstruction) {
+    auto images = std::make_shared<GradientImages>(*snapshot->images);
+    images->primal = RgbImage(320, 240, Rgb(0.5f));
+    images->dx = images->dy = RgbImage(320, 240, Rgb(0));
+    for (std::size_t i = 0; i < images->primal.size(); i += 3)
+        images->primal.data()[i] = images->dx.data()[i / 2] = Rgb(static_cast<float>(i % 17));
+    snapshot->images = images;
+    settings.norm = Norm::l1;
+    std::atomic<int> begun = 0;
+    std::atomic<bool> is_saved = false;
+    std::vector<std::jthread> others;
+    for (int i = 0; i < 3; ++i)
+        others.emplace_back([&] {
+            for (++begun; !is_saved;)
+                ;
+        });
+    while (begun < 3)
+        std::this_thread::yield();
+    const double before = thread_cpu_seconds();
+    const ExrFile exr = saved({snapshot, settings, {}, nullptr, nullptr});
+    const double all_of_it = thread_cpu_seconds() - before;
+    is_saved = true;
+    const auto stats = json::parse(exr.attributes.at("tessera:stats")).at("seconds").at("reconstruct").at(0);
+    EXPECT_GT(stats.at("cpu"), 0);
+    EXPECT_LE(stats.at("cpu"), all_of_it);
 }
 
 TEST_F(SavedPictureTest, HasWhatTheCameraSeesFirst) {

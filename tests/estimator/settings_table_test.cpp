@@ -1,5 +1,7 @@
 // The table that command line, panel and files are made from.
+#include "recon/enumeration.h"
 #include "render/estimator/settings_table.h"
+#include "render/trace/rays.h"
 
 #include <stdexcept>
 #include <string>
@@ -30,6 +32,24 @@ std::string refusal(const Setting& setting, std::string_view text) {
 std::string refusal(std::string_view id, std::string_view text) {
     RenderSettings settings;
     return refusal(setting_named(settings_of(settings), id), text);
+}
+
+/// Choices are by position: one for each value, and none too many.
+TEST(SettingsTable, HasAChoiceForEachValue) {
+    RenderSettings settings;
+    const auto choices = [&](std::string_view id) {
+        return std::get<Setting::OneOf>(setting_named(settings_of(settings), id).kind).choices.size();
+    };
+    EXPECT_EQ(choices("shift"), enumerator_count<ShiftKind>);
+    EXPECT_EQ(choices("pattern"), enumerator_count<Pattern>);
+    EXPECT_EQ(choices("roulette"), enumerator_count<RouletteKind>);
+    EXPECT_EQ(choices("primal"), enumerator_count<PrimalSource>);
+}
+
+TEST(SettingsTable, TheLargestTileHasLanes) {
+    RenderSettings settings;
+    EXPECT_EQ(std::get<Setting::Whole>(setting_named(settings_of(settings), "tile").kind).most, most_tile);
+    EXPECT_LE((most_tile + 1) * (most_tile + 1), most_lanes);
 }
 
 TEST(SettingsTable, SetTextUndoesText) {

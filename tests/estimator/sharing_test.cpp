@@ -175,6 +175,19 @@ std::vector<TestScene> scenes_without_masks() {
 INSTANTIATE_TEST_SUITE_P(scenes, Shares, testing::ValuesIn(scenes_without_masks()),
                          [](const auto& p) { return p.param.name; });
 
+/// More pixels than there are lanes would be written beyond their end.
+TEST(PathReuse, RefusesASetThatHasNoLanes) {
+    const auto scene = all_test_scenes().front().scene;
+    Counters counters;
+    const Tracer tracer{*scene, counters, {}};
+    const ShiftSettings settings;
+    PathReuse reuse(tracer, settings, 0);
+    const BasePath path;
+    const std::vector<const BasePath*> most(most_lanes, &path), too_many(most_lanes + 1, &path);
+    EXPECT_NO_THROW(reuse.begin(most));
+    EXPECT_THROW(reuse.begin(too_many), std::logic_error);
+}
+
 } // namespace
 
 } // namespace tessera::test

@@ -1,4 +1,5 @@
 #include "render/io/exr.h"
+#include "render/io/files.h"
 #include "render/io/png.h"
 #include "tests/recon/test_images.h"
 
@@ -46,6 +47,38 @@ std::string message_of(const auto& action) {
 bool same_bits(const RgbImage& a, const RgbImage& b) {
     return a.width() == b.width() && a.height() == b.height() &&
            std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+/// Where nothing was rendered yet: what can be written can be read again.
+TEST_F(ImageOutput, OneLimitHoldsForAllImages) {
+    const std::pair<std::int64_t, std::int64_t> fine[] = {{16384, 16384}, {32768, 8192}, {1, 32768}},
+                                                too_large[] = {{16385, 16384}, {32768, 32768}, {32769, 1}};
+    for (const auto& [width, height] : fine) {
+        EXPECT_NO_THROW(check_image_size(width, height));
+        EXPECT_NO_THROW(check_image_size(width, height, std::uintmax_t{1} << 30));
+    }
+    for (const auto& [width, height] : too_large) {
+        EXPECT_THROW(check_image_size(width, height), std::runtime_error);
+        EXPECT_THROW(check_image_size(width, height, std::uintmax_t{1} << 30), std::runtime_error);
+    }
+}
+
+TEST_F(ImageOutput, APngThatItsEncoderCannotCountIsRefused) {
+    const std::vector<std::uint8_t> pixel(3);
+    const std::string message = message_of([&] { write_png(file("a.png"), {32768, 32768}, pixel); });
+    EXPECT_NE(message.find("a.png: an image of 32768 by 32768 pixels is too large"), std::string::npos) << message;
+    EXPECT_NE(message_of([&] {
+                  write_png(file("a.png"), {100, 100}, pixel);
+              }).find("three bytes"),
+              std::string::npos);
+    EXPECT_EQ(files_in_folder(), 0u);
+}
+
+TEST_F(ImageOutput, AttributesAreReadWithoutThePixels) {
+    write_exr(file("a.exr"), {{{"", test::random_image(64, 64, 1)}}, {{"kind", "picture"}}});
+    fs::resize_file(file("a.exr"), fs::file_size(file("a.exr")) / 2);
+    EXPECT_NE(message_of([&] { read_exr(file("a.exr")); }), "no exception");
+    EXPECT_EQ(read_exr_attributes(file("a.exr")).at("kind"), "picture");
 }
 
 TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {

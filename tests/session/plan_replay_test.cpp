@@ -3,7 +3,12 @@
 #include "render/run/render.h"
 #include "tests/support/rooms.h"
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -86,11 +91,33 @@ RenderSettings reconnection() {
     return settings;
 }
 
-/// There is nothing to be learnt: billions of passes take no time.
-TEST(PlanReplayOfSingles, IsThereAtOnce) {
+/// Where there is nothing to be learnt, no pass is looked at: two billion of them would take an hour.
+TEST(PlanReplayOfNothing, IsThereAtOnce) {
     const auto scene = half_lit_room();
-    const RenderSettings settings = settings_of(Method::gpr, 1);
-    replay_plan(*scene, scene->camera(), size, settings, 2000000000, {3, 4});
+    constexpr int pass = 2000000000;
+    constexpr glm::ivec2 pixel(3, 4);
+    RenderSettings whole_tiles = settings_of(Method::gpr);
+    whole_tiles.adapt_tile = false;
+    for (const RenderSettings& settings :
+         {settings_of(Method::gpr, 1), settings_of(Method::pt), rooks(), whole_tiles}) {
+        std::stop_source out_of_patience;
+        std::jthread waiting([&](std::stop_token answered) {
+            std::mutex mutex;
+            std::unique_lock lock(mutex);
+            std::condition_variable_any().wait_for(lock, answered, std::chrono::minutes(1), [] { return false; });
+            if (!answered.stop_requested())
+                out_of_patience.request_stop();
+        });
+        const ReusePlan plan =
+            replay_plan(*scene, scene->camera(), size, settings, pass, pixel, out_of_patience.get_token());
+        waiting.request_stop();
+        waiting.join();
+        EXPECT_FALSE(out_of_patience.stop_requested());
+        const auto sample = [&](const ReusePlan& p) {
+            return bytes_of(inspect(*scene, scene->camera(), size, settings, p, pass, pixel));
+        };
+        EXPECT_EQ(sample(plan), sample(ReusePlan(size, settings)));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,

@@ -1,13 +1,17 @@
 // References in the making: what ends them early changes no bit.
+#include "render/io/memory.h"
 #include "render/run/checkpoint.h"
 #include "render/run/reference_render.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
 #include <span>
+#include <stop_token>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +77,59 @@ TEST_F(References, GoOnFromAnyPassToTheSameBits) {
     EXPECT_EQ(checksum_of(parts), checksum_of(whole));
     EXPECT_EQ(checksum_of(read_reference(file("parts.exr"))), checksum_of(whole));
     EXPECT_FALSE(fs::exists(reference_checkpoint(file("parts.exr"))));
+}
+
+/// Asked for when a pass is about to begin: it does nothing, instead of all.
+TEST_F(References, AStopEndsThePassUnderWay) {
+    ReferenceRender render = begin("a.exr");
+    std::stop_source stop;
+    EXPECT_FALSE(render.run(
+        [&](const ReferenceRender& r) {
+            if (r.spp() == 3)
+                stop.request_stop();
+            return true;
+        },
+        stop.get_token()));
+    EXPECT_EQ(render.spp(), 3);
+    EXPECT_EQ(begin("a.exr").spp_resumed(), 3);
+}
+
+std::uint32_t bits_of(const RgbImage& image) {
+    return checksum(std::as_bytes(std::span(image.data(), image.size())));
+}
+
+/// However often a pass is stopped, and whatever it has done by then, nothing is lost or counted twice.
+TEST_F(References, AStoppedPassGoesOnToTheSameBits) {
+    constexpr glm::ivec2 size(240, 180);
+    constexpr int passes = 3;
+    Render whole(scene, scene->camera(), size, recipe.settings),
+        parts(scene, scene->camera(), size, recipe.settings);
+    int stopped_within = 0;
+    for (std::chrono::duration<double> time(1e-4); parts.spp() < passes; time *= 1.2) {
+        const std::uint32_t before = bits_of(parts.images().dx); // nothing before the first pass is whole
+        std::stop_source stop;
+        const std::jthread ender([&] {
+            std::this_thread::sleep_for(time);
+            stop.request_stop();
+        });
+        if (!parts.pass(pool, stop.get_token()))
+            stopped_within += bits_of(parts.images().dx) != before;
+    }
+    EXPECT_GT(stopped_within, 0);
+    while (whole.spp() < passes)
+        whole.pass(pool);
+    EXPECT_EQ(bits_of(parts.images().primal), bits_of(whole.images().primal));
+    EXPECT_EQ(bits_of(parts.images().dx), bits_of(whole.images().dx));
+    EXPECT_EQ(bits_of(parts.images().very_direct), bits_of(whole.images().very_direct));
+    EXPECT_EQ(parts.counters().camera_paths, whole.counters().camera_paths);
+    EXPECT_EQ(parts.counters().rays, whole.counters().rays);
+}
+
+TEST_F(References, AreKnownByTheirHeaderAlone) {
+    complete("a.exr");
+    fs::resize_file(file("a.exr"), fs::file_size(file("a.exr")) / 2);
+    EXPECT_THROW(read_reference(file("a.exr")), std::runtime_error);
+    EXPECT_TRUE(is_reference(file("a.exr")));
 }
 
 TEST_F(References, AnOddNumberOfSamplesIsOneMore) {

@@ -183,10 +183,19 @@ TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
     });
     ASSERT_TRUE(shows_a_large_primal(session));
     all = &session; // nothing is published by now
-    session.set_reconstruction(0, {Norm::l1});
-    std::this_thread::sleep_for(30ms);
-    session.set_reconstruction(0, {Norm::l2});
-    ASSERT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
+    bool was_too_late = true;
+    for (int attempt = 0; attempt < 20 && was_too_late; ++attempt) {
+        session.set_reconstruction(0, {Norm::none});
+        ASSERT_TRUE(eventually([&] { return is_made_with(session, Norm::none) && !session.reconstructing(0); }));
+        saw_l1 = false;
+        session.set_reconstruction(0, {Norm::l1});
+        ASSERT_TRUE(eventually([&] { return saw_l1 || session.reconstructing(0); }));
+        session.set_reconstruction(0, {Norm::l2});
+        was_too_late =
+            saw_l1 || is_made_with(session, Norm::l1); // where this thread had to wait: there was none to end
+        ASSERT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
+    }
+    ASSERT_FALSE(was_too_late);
     EXPECT_FALSE(saw_l1);
 }
 

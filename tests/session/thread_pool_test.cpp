@@ -1,6 +1,7 @@
 #include "render/run/thread_pool.h"
 
 #include <atomic>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
@@ -74,6 +75,22 @@ TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
     for (const auto& count : runs)
         EXPECT_EQ(count, 1);
     EXPECT_THROW(loops(10, [](int) { throw std::runtime_error("no"); }), std::runtime_error);
+}
+
+TEST(ThreadPool, CountsTheCpuSecondsOfAllItsWorkers) {
+    ThreadPool pool(3);
+    std::mutex mutex;
+    double spent = 0; // in bodies
+    const double before = pool.cpu_seconds();
+    pool.parallel_for(30, [&](int, int) {
+        const double start = thread_cpu_seconds();
+        while (thread_cpu_seconds() - start < 0.005)
+            ;
+        const std::lock_guard lock(mutex);
+        spent += thread_cpu_seconds() - start;
+    });
+    EXPECT_GE(pool.cpu_seconds() - before, spent);
+    EXPECT_LT(pool.cpu_seconds() - before, 1.5 * spent);
 }
 
 } // namespace tessera::test

@@ -195,6 +195,39 @@ TEST_F(CanvasTest, ImagesOfChangingSizeReplaceEachOther) {
     }
 }
 
+/// Red on the left, green on the right.
+RgbImage two_halves(int width, int height) {
+    RgbImage image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            image(x, y) = 2 * x < width ? Rgb(1, 0, 0) : Rgb(0, 1, 0);
+    return image;
+}
+
+TEST_F(CanvasTest, WhatIsLargerThanTexturesCanBeIsShownReduced) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    image_.show(two_halves(most + 10, 2));
+    drawn(filling({60, 20}));
+    expect_colour(10, 10, {255, 0, 0});
+    expect_colour(50, 10, {0, 255, 0});
+    EXPECT_LE(image_.texture().size().x, most);
+}
+
+TEST_F(CanvasTest, AReducedPixelIsTheMeanOfThoseInItsPlace) {
+    RgbImage image = two_halves(40, 30);
+    image(39, 29) = Rgb(nan);
+    image_.show(image, 16);
+    EXPECT_EQ(image_.texture().size(), glm::ivec2(14, 10));
+    drawn(filling({140, 100}));
+    expect_colour(5, 5, {255, 0, 0});
+    expect_colour(65, 50, {srgb(2 / 3.0f), srgb(1 / 3.0f), 0}); // columns 18 and 19, and 20
+    expect_colour(135, 5, {0, 255, 0});
+    expect_colour(135, 95, magenta); // an odd pixel is not lost
+    image_.show(two_halves(40, 30), 40);
+    EXPECT_EQ(image_.texture().size(), glm::ivec2(40, 30));
+}
+
 TEST_F(CanvasTest, LeavesTheBoundFramebufferAlone) {
     Framebuffer other;
     other.resize({4, 4});

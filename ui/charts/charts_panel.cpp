@@ -1,13 +1,14 @@
+#include "recon/enumeration.h"
 #include "ui/charts/charts.h"
 #include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include <glm/common.hpp>
 

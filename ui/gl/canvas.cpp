@@ -30,10 +30,10 @@ const GlTexture& ImageTexture::texture() const {
     return has_image_ ? texture_ : none;
 }
 
-void ImageTexture::show(const RgbImage& image) {
+void ImageTexture::show(const RgbImage& image, int most_edge) {
     has_image_ = !image.empty();
     if (has_image_)
-        texture_.upload(image);
+        texture_.upload(image, most_edge);
     ++serial_;
 }
 

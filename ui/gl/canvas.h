@@ -3,6 +3,7 @@
 #include "ui/gl/gl.h"
 #include "ui/gl/tone.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,8 +41,9 @@ struct CanvasView {
 /// A float image on the graphics side.
 class ImageTexture {
 public:
-    /// Takes over a copy of the pixels. An empty image leaves nothing to show.
-    void show(const RgbImage& image);
+    /// Takes over a copy of the pixels, reduced where textures cannot be as large (GlTexture::upload). An empty
+    /// image leaves nothing to show.
+    void show(const RgbImage& image, int most_edge = std::numeric_limits<int>::max());
 
     bool empty() const { return !has_image_; }
     int serial() const { return serial_; } ///< changes with every show()

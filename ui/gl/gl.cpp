@@ -38,15 +38,55 @@ void GlTexture::bind() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-void GlTexture::upload(const RgbImage& image) {
-    const glm::ivec2 size(image.width(), image.height());
+namespace {
+
+/// Whether the driver has float textures of that size, in pixels along an edge and in memory.
+bool has_textures_of(glm::ivec2 size) {
+    glTexImage2D(GL_PROXY_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT, nullptr);
+    GLint width = 0;
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+    return width == size.x;
+}
+
+glm::ivec2 reduced_size(const RgbImage& image, int step) {
+    return (glm::ivec2(image.width(), image.height()) + step - 1) / step;
+}
+
+/// Squares of step x step pixels become one: their mean, so that none with something odd (NaN, infinity) is lost.
+RgbImage reduced(const RgbImage& image, int step) {
+    const glm::ivec2 size = reduced_size(image, step);
+    RgbImage result(size.x, size.y);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const int x1 = std::min((x + 1) * step, image.width()), y1 = std::min((y + 1) * step, image.height());
+            Rgb sum(0);
+            for (int from_y = y * step; from_y < y1; ++from_y)
+                for (int from_x = x * step; from_x < x1; ++from_x)
+                    sum += image(from_x, from_y);
+            result(x, y) = sum / static_cast<float>((x1 - x * step) * (y1 - y * step));
+        }
+    return result;
+}
+
+} // namespace
+
+void GlTexture::upload(const RgbImage& image, int most_edge) {
     bind();
+    glm::ivec2 size = reduced_size(image, 1);
+    int step = 1;
+    const auto fits = [&] {
+        return std::max(size.x, size.y) <= most_edge && (size == size_ || has_textures_of(size));
+    };
+    while (!fits() && size != glm::ivec2(1))
+        size = reduced_size(image, ++step);
+    const RgbImage smaller = step > 1 ? reduced(image, step) : RgbImage();
+    const Rgb* const pixels = step > 1 ? smaller.data() : image.data();
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     if (size == size_)
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGB, GL_FLOAT, image.data());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGB, GL_FLOAT, pixels);
     else
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT, image.data());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT, pixels);
     size_ = size;
 }
 

@@ -3,6 +3,7 @@
 #include "recon/image.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,13 +24,15 @@ public:
     GlTexture(GlTexture&& other) noexcept;
     GlTexture& operator=(GlTexture&& other) noexcept;
 
-    /// Pixels as 32-bit floats; the storage is kept while the size stays. Not for an empty image.
-    void upload(const RgbImage& image);
+    /// Pixels as 32-bit floats; the storage is kept while the size stays. Not for an empty image. Where the driver
+    /// has no textures of that size, or an edge is longer than `most_edge`, squares of pixels become one, their
+    /// mean.
+    void upload(const RgbImage& image, int most_edge = std::numeric_limits<int>::max());
     /// Storage for 8-bit RGBA, contents undefined. `size` >= 1x1.
     void allocate_rgba8(glm::ivec2 size);
 
-    GLuint name() const { return name_; } ///< 0 before the first upload
-    glm::ivec2 size() const { return size_; }
+    GLuint name() const { return name_; }     ///< 0 before the first upload
+    glm::ivec2 size() const { return size_; } ///< of the texture, whatever that of the image
 
 private:
     void bind();

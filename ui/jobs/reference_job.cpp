@@ -8,6 +8,7 @@
 #include <chrono>
 #include <limits>
 #include <mutex>
+#include <stop_token>
 #include <utility>
 
 #include <fmt/core.h>
@@ -119,7 +120,9 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
                 std::filesystem::remove(reference_checkpoint(file));
             ThreadPool pool(threads);
             ReferenceRender render(file, subject, recipe, pool);
-            const bool is_complete = render.run([&](const ReferenceRender& r) { return watch->look(r, stop); });
+            const std::stop_callback viewer_ends(stop, [&] { watch->cancel(); });
+            const bool is_complete =
+                render.run([&](const ReferenceRender& r) { return watch->look(r, stop); }, stop);
             Made made{{}, render.spp(), {}};
             for (const Render& half : render.halves())
                 made.halves.push_back({half.settings(), half.counters()});

@@ -11,7 +11,7 @@
 namespace tessera {
 
 /// Makes references in the background, as `tessera reference` does and to the same bits, on threads that give way
-/// to those of the panes. Its end, like a cancellation, waits for the pass under way and leaves a checkpoint.
+/// to those of the panes. Its end, like a cancellation, stops the pass under way and leaves a checkpoint.
 class ReferenceJob {
 public:
     /// To be called every frame: fulfils the wishes to make a reference, and tells how far it is. What is

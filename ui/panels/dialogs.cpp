@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -98,7 +99,7 @@ void draw_buttons(Controls& controls, ViewerState& state) {
     const float width = ImGui::GetFontSize() * 7;
     if (making.is_making()) {
         if (controls.button("reference.cancel", "Cancel",
-                            "Ends it after the pass under way; made again, it goes on from there.", width))
+                            "Ends it; made again, it goes on from there.", width))
             state.wishes.stop_making = true;
     } else if (controls.button("reference.make", "Make", "Renders it in the background; the panes go first.",
                                width)) {

@@ -1,5 +1,6 @@
 #include "ui/panels/file_dialog.h"
 
+#include "recon/enumeration.h"
 #include "ui/gl/theme.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ const PurposeText& text_of(FilePurpose purpose) {
         {"Open a reference", ".exr", "The image to measure errors against, an .exr file."},
         {"Load settings", ".json", "Settings or a camera that the viewer has saved, a .json file."},
     };
-    return texts[static_cast<std::size_t>(purpose)];
+    return entry_of(texts, purpose);
 }
 
 std::string with_slash(const fs::path& folder) {

@@ -1,3 +1,4 @@
+#include "recon/enumeration.h"
 #include "render/estimator/settings_table.h"
 #include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"

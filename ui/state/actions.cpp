@@ -23,6 +23,7 @@ std::string name(Key key) {
     if (key >= Key::f1 && key <= Key::f12)
         return "F" + std::to_string(1 + place(key) - place(Key::f1));
     static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift"};
+    static_assert(names.size() == static_cast<std::size_t>(place(Key::shift) - place(Key::left) + 1));
     const int index = place(key) - place(Key::left);
     return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
 }

@@ -288,7 +288,7 @@ constexpr BufferInfo table[] = {
 } // namespace
 
 const BufferInfo& info(Buffer buffer) {
-    return table[static_cast<std::size_t>(buffer)]; // in the order of the enumeration
+    return entry_of(table, buffer);
 }
 
 std::string_view paper_name(Method method) {

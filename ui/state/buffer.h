@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/enumeration.h"
 #include "render/session/snapshot.h"
 #include "ui/gl/canvas.h"
 #include "ui/state/companions.h"
@@ -39,6 +40,7 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::primal_variance,
                                          Buffer::dx_variance,
                                          Buffer::dy_variance};
+static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.
 enum class BufferFamily {

@@ -65,6 +65,9 @@ inline constexpr SettingChoice directions[] = {
 inline constexpr SettingChoice themes[] = {{"dark", "", ""}, {"light", "", ""}};
 } // namespace words
 
+static_assert(std::size(words::off_on) == 2 && std::size(words::chart_axes) == 2); // of a bool
+
+/// Not of a bool: of an enum whose words these are.
 template <class Enum, std::size_t count>
 std::string_view word(const SettingChoice (&words)[count], Enum value) {
     return words[static_cast<std::size_t>(value)].id;

@@ -1,0 +1,34 @@
+// Tables by position: whether there is an entry for each value is known when the program is compiled.
+#include "recon/enumeration.h"
+#include "recon/reconstruct.h"
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+enum class Colour : unsigned char { red, green, blue };
+enum class Single { only };
+
+template <class Table>
+concept HasEntries = requires(const Table& table) {
+    entry_of(table, Colour::red);
+};
+
+static_assert(enumerator_count<Colour> == 3);
+static_assert(enumerator_count<Single> == 1);
+static_assert(enumerator_count<Norm> == 6);
+static_assert(HasEntries<int[3]>);
+static_assert(!HasEntries<int[2]> && !HasEntries<int[4]>,
+              "a table that is too short or too long is no such table");
+
+TEST(Enumeration, EntriesAreInTheOrderOfTheValues) {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    EXPECT_STREQ(entry_of(names, Colour::red), "red");
+    EXPECT_STREQ(entry_of(names, Colour::blue), "blue");
+}
+
+} // namespace
+
+} // namespace tessera
