@@ -147,7 +147,7 @@ TEST(SaveQueue, GivesWayToWhatDraws) {
             return std::string();
         },
         {});
-    while (!queue.poll())
+    while (!queue.take())
         std::this_thread::yield();
     EXPECT_GT(there, own);
 }

@@ -13,28 +13,53 @@
 
 namespace tessera {
 
-/// One piece of work on a thread of its own, newest first: a new one gives the last up. The end waits for all.
-template <class Result>
+/// Which object something was made of, without keeping it alive. An object that takes the place of one that is
+/// gone differs from it.
+class Identity {
+public:
+    Identity() = default; ///< of no object, as of a null pointer
+    template <class T>
+    Identity(const std::shared_ptr<T>& object) : object_(object) {}
+
+    bool operator==(const Identity& other) const {
+        return !object_.owner_before(other.object_) && !other.object_.owner_before(object_);
+    }
+
+private:
+    std::weak_ptr<const void> object_;
+};
+
+/// How the viewer does what takes longer than a frame: asked for a request, it works on a thread of its own, and
+/// is polled every frame for what came of it. The latest request wins: nothing more is heard of an older one. The
+/// destructor tells all work to stop, and waits for it.
+template <class Request, class Result>
 class BackgroundJob {
 public:
-    /// What came of it.
+    /// What came of a request.
     struct Outcome {
+        Request request;
         std::optional<Result> result;
         std::string error; ///< if there is no result
     };
     using Work = std::function<Result(std::stop_token)>;
 
-    /// Nothing more is heard of a job under way, which is told to stop. `on_done` is called from the new job's
-    /// thread once poll() has its outcome; it may be empty.
-    void start(Work work, std::function<void()> on_done) {
+    /// Starts, unless this is what was asked for last, be it under way, done or failed.
+    void ask(Request request, Work work, std::function<void()> on_done) {
+        if (!(asked_ == request))
+            start(std::move(request), std::move(work), std::move(on_done));
+    }
+
+    /// Starts in any case. `on_done` is called from the job's thread once take() has the outcome; it may be empty.
+    void start(Request request, Work work, std::function<void()> on_done) {
         cancel();
+        asked_ = std::move(request);
         job_ = std::make_unique<Job>();
         Job* job = job_.get();
         job->thread = std::jthread([job, work = std::move(work), done = std::move(on_done)](std::stop_token stop) {
             try {
-                job->outcome.result = work(stop);
+                job->result = work(stop);
             } catch (const std::exception& error) {
-                job->outcome.error = error.what();
+                job->error = error.what();
             }
             job->finished = true;
             if (done)
@@ -42,18 +67,29 @@ public:
         });
     }
 
+    /// Tells the work under way to stop. Its outcome is still awaited.
+    void stop() {
+        if (job_)
+            job_->thread.request_stop();
+    }
+
+    /// Gives up the work under way, and forgets what was asked for.
     void cancel() {
+        stop();
+        asked_.reset();
         forget_ended();
-        if (!job_)
-            return;
-        job_->thread.request_stop();
-        given_up_.push_back(std::move(job_));
+        if (job_)
+            given_up_.push_back(std::move(job_));
     }
 
     bool running() const { return job_ != nullptr; }
+    bool stopping() const { return job_ && job_->thread.get_stop_token().stop_requested(); }
+
+    /// What was asked for last, also once it is done; empty: nothing since the last cancel().
+    const std::optional<Request>& asked() const { return asked_; }
 
     /// The outcome, once; never waits.
-    std::optional<Outcome> poll() {
+    std::optional<Outcome> take() {
         forget_ended();
         return job_ && job_->finished ? wait() : std::nullopt;
     }
@@ -63,14 +99,15 @@ public:
         if (!job_)
             return std::nullopt;
         job_->thread.join();
-        Outcome outcome = std::move(job_->outcome);
+        Outcome outcome{*asked_, std::move(job_->result), std::move(job_->error)};
         job_.reset();
         return outcome;
     }
 
 private:
     struct Job {
-        Outcome outcome; // written before `finished`
+        std::optional<Result> result; // written before `finished`, as the next
+        std::string error;
         std::atomic<bool> finished{false};
         std::jthread thread; // last: ends first
     };
@@ -78,6 +115,7 @@ private:
         std::erase_if(given_up_, [](const auto& job) { return job->finished.load(); });
     }
 
+    std::optional<Request> asked_;
     std::unique_ptr<Job> job_;
     std::vector<std::unique_ptr<Job>> given_up_; // until they have ended by themselves
 };

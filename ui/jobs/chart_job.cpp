@@ -21,62 +21,42 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
 } // namespace
 
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (auto outcome = job_.poll()) {
-        state.redraw = true;
-        if (!outcome->result)
-            state.add_message(Message::Kind::error, "What charts show was not measured: " + outcome->error);
-        else
-            for (Measured& measured : *outcome->result)
-                take(state, measured);
-    }
-    for (std::size_t slot = 0; slot < state.charts.size(); ++slot) {
-        if (state.pane_in(static_cast<int>(slot)))
-            continue;
-        state.charts[slot] = {}; // the pane is gone
-        done_[slot] = {};
-    }
-    for (const PaneState& pane : state.panes)
-        note_shifts(pane, state.chart_of(pane));
+    for (std::size_t slot = 0; slot < jobs_.size(); ++slot)
+        take(state, slot);
     const bool wants_histograms = state.show_charts || state.large_charts || state.save_charts;
-    for (const PaneState& pane : state.panes)
-        if (PaneChart& chart = state.chart_of(pane);
-            !wants_histograms || (chart.histogram && chart.histogram_generation != pane.generation))
-            drop_histogram(pane, chart);
-    if (!job_.running())
-        start(state, wants_histograms, wake);
-    state.histograms_due = wants_histograms && job_.running() &&
-                           std::any_of(state.panes.begin(), state.panes.end(), [&](const PaneState& pane) {
-                               return final_source(pane) && !state.chart_of(pane).histogram;
-                           });
-}
-
-/// It is another picture's, or will be: passes go on while nobody looks.
-void ChartJob::drop_histogram(const PaneState& pane, PaneChart& chart) {
-    chart.histogram = nullptr;
-    done_[static_cast<std::size_t>(pane.slot)].histogram = false;
-}
-
-void ChartJob::start(const ViewerState& state, bool wants_histograms, const std::function<void()>& wake) {
-    std::vector<Measured> work;
+    state.histograms_due = false;
     for (const PaneState& pane : state.panes) {
-        const auto& reference = state.companions.reference;
-        std::shared_ptr<const void> source = final_source(pane);
-        Done& done = done_[static_cast<std::size_t>(pane.slot)];
-        const bool wants_error = reference && (source != done.source || reference != done.reference);
-        const bool wants_histogram = wants_histograms && (source != done.source || !done.histogram);
-        if (!source || !(wants_error || wants_histogram))
-            continue;
-        done = {source, reference, wants_histograms};
-        work.push_back({pane.slot, pane.snapshot, std::move(source), reference, wants_histograms});
+        Job& job = jobs_[static_cast<std::size_t>(pane.slot)];
+        PaneChart& chart = state.chart_of(pane);
+        note_shifts(pane, chart);
+        // It is another picture's, or will be: passes go on while nobody looks.
+        if (chart.histogram && !(wants_histograms && chart.histogram_generation == pane.generation)) {
+            chart.histogram = nullptr;
+            if (!job.running())
+                job.cancel(); // asked again, it is to be measured again
+        }
+        if (!job.running())
+            ask(job, pane, state.companions.reference, wants_histograms, wake);
+        state.histograms_due |= wants_histograms && job.running() && !chart.histogram;
     }
-    if (work.empty())
+}
+
+void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const Reference>& reference,
+                   bool wants_histogram, const std::function<void()>& wake) {
+    const std::shared_ptr<const void> source = final_source(pane);
+    if (!source || !(reference || wants_histogram))
         return;
-    job_.start(
-        [work = std::move(work)](std::stop_token) mutable {
+    const Snapshot& s = *pane.snapshot;
+    const Method method = s.settings.method;
+    const Request request{
+        source,          reference,
+        wants_histogram, s.generation,
+        method,          has_gradients(method) ? s.reconstructed_with : ReconstructionSettings{Norm::none}};
+    job.ask(
+        request,
+        [request, snapshot = pane.snapshot](std::stop_token) {
             work_in_background();
-            for (Measured& picture : work)
-                measure(picture);
-            return std::move(work);
+            return measure(*snapshot, request);
         },
         wake);
 }
@@ -98,54 +78,64 @@ void ChartJob::note_shifts(const PaneState& pane, PaneChart& chart) {
     chart.shifts.add(point);
 }
 
-void ChartJob::measure(Measured& m) {
-    const Snapshot& s = *m.snapshot;
+ChartJob::Measured ChartJob::measure(const Snapshot& s, const Request& request) {
+    Measured measured;
     RgbImage scratch;
     const RgbImage& image = picture(s, Buffer::reconstruction, scratch);
-    if (m.wants_histogram)
-        m.histogram = histogram_of(image);
-    const auto error = m.reference ? error_to(*m.reference, image) : std::nullopt;
-    const bool reconstructed = m.source == s.reconstruction;
+    if (request.wants_histogram)
+        measured.histogram = std::make_shared<const Histogram>(histogram_of(image));
+    const auto error = request.reference ? error_to(*request.reference, image) : std::nullopt;
+    const bool reconstructed = request.source == s.reconstruction;
     if (error)
-        m.point = ErrorPoint{reconstructed ? s.reconstruction_spp : s.spp,
-                             reconstructed ? s.reconstruction_seconds : s.seconds, error->relative_mse,
-                             error->standard_error, error->not_finite};
+        measured.point = ErrorPoint{reconstructed ? s.reconstruction_spp : s.spp,
+                                    reconstructed ? s.reconstruction_seconds : s.seconds, error->relative_mse,
+                                    error->standard_error, error->not_finite};
+    return measured;
 }
 
 /// To the line of those made in the same way, which becomes the last.
-void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Snapshot& s, const ErrorPoint& point) {
-    ErrorCurve curve{s.settings.method, s.reconstructed_with, {}};
-    if (!has_gradients(curve.method))
-        curve.reconstruction = {Norm::none};
+void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Request& request, const ErrorPoint& point) {
     const auto same = std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& c) {
-        return c.method == curve.method && c.reconstruction == curve.reconstruction;
+        return c.method == request.method && c.reconstruction == request.reconstruction;
     });
     if (same != curves.end()) {
         std::rotate(same, same + 1, curves.end());
     } else {
         // A slider of alpha passes by many that nobody is after.
         if (!curves.empty() && curves.back().points().size() == 1 &&
-            curves.back().reconstruction.norm == curve.reconstruction.norm)
+            curves.back().reconstruction.norm == request.reconstruction.norm)
             curves.pop_back();
-        curves.push_back(std::move(curve));
+        curves.push_back({request.method, request.reconstruction, {}});
     }
     curves.back().history.add(point);
 }
 
-void ChartJob::take(ViewerState& state, Measured& measured) {
-    const PaneState* pane = state.pane_in(measured.slot);
-    if (!pane || pane->generation != measured.snapshot->generation)
-        return; // it has been taken away, or shows something else
+void ChartJob::take(ViewerState& state, std::size_t slot) {
+    Job& job = jobs_[slot];
+    const auto outcome = job.take();
+    const PaneState* pane = state.pane_in(static_cast<int>(slot));
+    if (!pane) { // it was taken away
+        state.charts[slot] = {};
+        return job.cancel();
+    }
+    if (!outcome)
+        return;
+    state.redraw = true;
+    if (!outcome->result)
+        return state.add_message(Message::Kind::error, "What charts show was not measured: " + outcome->error);
+    const Request& request = outcome->request;
+    if (pane->generation != request.generation)
+        return; // the pane shows something else by now
     PaneChart& chart = state.chart_of(*pane);
-    if (chart.generation != measured.snapshot->generation || chart.reference != measured.reference)
+    if (chart.generation != request.generation || chart.reference != request.reference)
         chart.curves.clear();
-    chart.generation = measured.snapshot->generation;
-    chart.reference = measured.reference;
-    if (measured.point)
-        add_point(chart.curves, *measured.snapshot, *measured.point);
-    if (measured.histogram) {
-        chart.histogram = std::make_shared<const Histogram>(*measured.histogram);
-        chart.histogram_generation = pane->generation;
+    chart.generation = request.generation;
+    chart.reference = request.reference;
+    if (outcome->result->point)
+        add_point(chart.curves, request, *outcome->result->point);
+    if (outcome->result->histogram) {
+        chart.histogram = outcome->result->histogram;
+        chart.histogram_generation = request.generation;
     }
 }
 

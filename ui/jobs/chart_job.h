@@ -4,7 +4,10 @@
 #include "ui/state/viewer_state.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace tessera {
@@ -17,31 +20,29 @@ public:
     void update(ViewerState& state, const std::function<void()>& wake);
 
 private:
-    /// A picture to measure, and what came of it.
+    /// A picture to measure.
+    struct Request {
+        std::shared_ptr<const void> source;         // picture_source()
+        std::shared_ptr<const Reference> reference; // null: it has no error
+        bool wants_histogram = false;
+        std::uint64_t generation = 0; // of the pane's request
+        Method method = Method::gpr;
+        ReconstructionSettings reconstruction; // Norm::none where the method has no gradients
+        bool operator==(const Request&) const = default;
+    };
     struct Measured {
-        int slot;
-        std::shared_ptr<const Snapshot> snapshot;
-        std::shared_ptr<const void> source; ///< picture_source()
-        std::shared_ptr<const Reference> reference;
-        bool wants_histogram;
-        std::optional<ErrorPoint> point{};
-        std::optional<Histogram> histogram{};
+        std::optional<ErrorPoint> point;
+        std::shared_ptr<const Histogram> histogram; // null where none was wanted
     };
-    /// What was measured last in a slot.
-    struct Done {
-        std::shared_ptr<const void> source;
-        std::shared_ptr<const Reference> reference;
-        bool histogram = false;
-    };
-    void start(const ViewerState& state, bool wants_histograms, const std::function<void()>& wake);
-    void drop_histogram(const PaneState& pane, PaneChart& chart);
+    using Job = BackgroundJob<Request, Measured>;
     static void note_shifts(const PaneState& pane, PaneChart& chart);
-    static void measure(Measured& picture);
-    static void add_point(std::vector<ErrorCurve>& curves, const Snapshot& snapshot, const ErrorPoint& point);
-    void take(ViewerState& state, Measured& measured);
+    static void ask(Job& job, const PaneState& pane, const std::shared_ptr<const Reference>& reference,
+                    bool wants_histogram, const std::function<void()>& wake);
+    static Measured measure(const Snapshot& snapshot, const Request& request);
+    static void add_point(std::vector<ErrorCurve>& curves, const Request& request, const ErrorPoint& point);
+    void take(ViewerState& state, std::size_t slot);
 
-    BackgroundJob<std::vector<Measured>> job_;
-    std::array<Done, most_panes> done_; // by slot
+    std::array<Job, most_panes> jobs_; // by slot
 };
 
 } // namespace tessera

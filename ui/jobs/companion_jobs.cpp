@@ -51,14 +51,14 @@ void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake
     update_first_hits(state, wake);
 }
 
-void CompanionJobs::start_reference(std::string file, const std::function<void()>& wake) {
-    reference_file_ = std::move(file);
-    share_read_ = std::make_shared<std::atomic<float>>(0.0f);
+void CompanionJobs::read_reference(std::string file, const std::function<void()>& wake) {
+    const Reading reading{std::move(file), std::make_shared<std::atomic<float>>(0.0f)};
     reference_.start(
-        [file = reference_file_, share = share_read_, wake](std::stop_token stop) {
+        reading,
+        [reading, wake](std::stop_token stop) {
             work_in_background();
-            return load_reference(file, [&, told = Clock::now()](float now) mutable {
-                *share = now;
+            return load_reference(reading.file, [&, told = Clock::now()](float now) mutable {
+                *reading.share = now;
                 if (wake && Clock::now() - told > between_news) {
                     told = Clock::now();
                     wake();
@@ -71,14 +71,14 @@ void CompanionJobs::start_reference(std::string file, const std::function<void()
 
 void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
     if (std::exchange(state.cancel_reference, false) && reference_.running()) {
+        state.add_message(Message::Kind::note, "Reading " + reference_.asked()->file + " was given up.");
         reference_.cancel();
-        state.add_message(Message::Kind::note, "Reading " + reference_file_ + " was given up.");
     }
     // Before the next one starts: that can be given up for a frame at least.
-    const auto outcome = reference_.poll();
+    const auto outcome = reference_.take();
     if (std::string file = in_full(std::exchange(state.reference_file, {})); !file.empty())
-        start_reference(std::move(file), wake);
-    state.reference_read = reference_.running() ? std::optional(share_read_->load()) : std::nullopt;
+        read_reference(std::move(file), wake);
+    state.reference_read = reference_.running() ? std::optional(reference_.asked()->share->load()) : std::nullopt;
     if (!outcome)
         return;
     if (!outcome->result) {
@@ -92,60 +92,59 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
 /// Once for each reference and scene, as either may come first; the camera is the one that it is seen with then.
 void CompanionJobs::check_reference(ViewerState& state, const std::function<void()>& wake) {
     const auto& reference = state.companions.reference;
-    const bool is_known = checked_reference_.lock() == reference && checked_scene_.lock() == state.scene;
-    if (reference && reference->scene && state.scene && !is_known) {
-        checked_reference_ = reference;
-        checked_scene_ = state.scene;
-        check_.start(
-            [reference, scene = state.scene, camera = state.camera.camera()](std::stop_token) {
-                work_in_background();
-                return difference(*reference->scene, checksums_of(scene->description(), camera));
-            },
-            wake);
-        return; // for a frame at least nothing is said of it
-    }
-    if (const auto outcome = check_.poll(); outcome && outcome->result && !outcome->result->empty())
+    const Check now{reference, state.scene};
+    const auto outcome = check_.take();
+    if (outcome && outcome->request == now && outcome->result && !outcome->result->empty())
         state.add_message(Message::Kind::error,
                           fmt::format("The reference shows something else than the panes, in its {}: errors to it "
                                       "mean little. It is {}",
-                                      *outcome->result, reference ? reference->name : "gone"),
+                                      *outcome->result, reference->name),
                           Message::Origin::scene);
+    if (!reference || !reference->scene || !state.scene)
+        return;
+    check_.ask(
+        now,
+        [reference, scene = state.scene, camera = state.camera.camera()](std::stop_token) {
+            work_in_background();
+            return difference(*reference->scene, checksums_of(scene->description(), camera));
+        },
+        wake);
 }
 
 /// Whatever the size that was traced.
-bool CompanionJobs::is_of(const View& view, const ViewerState& state) {
-    return view.divisor > 0 && view.scene.lock() == state.scene && view.camera == state.camera.camera() &&
-           view.size == state.request_size();
+bool CompanionJobs::is_of(const std::optional<View>& view, const ViewerState& state) {
+    return view && *view == View{state.scene, state.camera.camera(), state.request_size(), view->divisor};
 }
 
 void CompanionJobs::take_first_hits(ViewerState& state) {
-    const bool is_of_scene = asked_.scene.lock() == state.scene;
-    if (!is_of_scene)
-        state.companions.first_hits = nullptr; // of a camera moved on it may stay for the moment
-    if (const auto outcome = first_hits_.poll()) {
+    Companions& companions = state.companions;
+    const Identity scene(state.scene);
+    if (auto outcome = first_hits_.take()) {
         if (!outcome->result)
             state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
-        else if (is_of_scene) {
-            state.companions.first_hits = *outcome->result;
-            hit_ = asked_;
+        else if (outcome->request.scene == scene) {
+            companions.first_hits = *outcome->result;
+            hit_ = outcome->request;
             state.redraw = true;
         }
     }
-    state.companions.first_hits_are_earlier = state.companions.first_hits && !is_of(hit_, state);
+    if (!hit_ || hit_->scene != scene) // of a camera moved on they may stay for the moment
+        companions.first_hits = nullptr;
+    companions.first_hits_are_earlier = companions.first_hits && !is_of(hit_, state);
 }
 
 /// A look at a fraction of the size first, which is not given up when the camera moves on: a picture somewhat late
 /// is better than none. What failed is not tried again before the view is another.
 void CompanionJobs::update_first_hits(ViewerState& state, const std::function<void()>& wake) {
     take_first_hits(state);
-    const bool is_asked = is_of(asked_, state);
-    const bool is_whole = is_asked && asked_.divisor == 1;
-    const bool is_under_way = first_hits_.running() && (is_asked || asked_.divisor > 1);
-    if (!state.scene || is_whole || is_under_way || !wants_first_hits(state))
+    const bool is_asked = is_of(first_hits_.asked(), state);
+    const bool is_under_way = first_hits_.running() && (is_asked || first_hits_.asked()->divisor > 1);
+    if (!state.scene || is_under_way || !wants_first_hits(state))
         return;
-    asked_ = {state.scene, state.camera.camera(), state.request_size(), is_asked ? 1 : coarse_divisor};
-    first_hits_.start(
-        [scene = state.scene, view = asked_](std::stop_token stop) {
+    const View view{state.scene, state.camera.camera(), state.request_size(), is_asked ? 1 : coarse_divisor};
+    first_hits_.ask(
+        view,
+        [scene = state.scene, view](std::stop_token stop) {
             work_in_background();
             const glm::ivec2 size = (view.size + view.divisor - 1) / view.divisor;
             return std::make_shared<const FirstHits>(trace_first_hits(*scene, view.camera, size, stop));

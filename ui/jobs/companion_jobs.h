@@ -6,6 +6,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tessera {
@@ -19,29 +20,35 @@ public:
     void update(ViewerState& state, const std::function<void()>& wake);
 
 private:
+    /// A reference that is read.
+    struct Reading {
+        std::string file;
+        std::shared_ptr<std::atomic<float>> share; // how far, told by the work
+    };
+    /// What a reference is compared with.
+    struct Check {
+        Identity reference, scene;
+        bool operator==(const Check&) const = default;
+    };
     /// What first hits depend on, and how large they are.
     struct View {
-        std::weak_ptr<const Scene> scene; // not kept alive by what was made of it
+        Identity scene;
         Camera camera;
         glm::ivec2 size{0};
-        int divisor = 0; // of the size; 0: nothing was traced
+        int divisor = 1; // of the size
+        bool operator==(const View&) const = default;
     };
-    static bool is_of(const View& view, const ViewerState& state);
+    static bool is_of(const std::optional<View>& view, const ViewerState& state);
     void take_first_hits(ViewerState& state);
-    void start_reference(std::string file, const std::function<void()>& wake);
+    void read_reference(std::string file, const std::function<void()>& wake);
     void update_reference(ViewerState& state, const std::function<void()>& wake);
     void check_reference(ViewerState& state, const std::function<void()>& wake);
     void update_first_hits(ViewerState& state, const std::function<void()>& wake);
 
-    std::string reference_file_;                     // that is read, ...
-    std::shared_ptr<std::atomic<float>> share_read_; // ... and how far, told by the job
-    BackgroundJob<std::shared_ptr<const Reference>> reference_;
-    BackgroundJob<std::string> check_; // of the reference: in what it differs
-    std::weak_ptr<const Reference> checked_reference_;
-    std::weak_ptr<const Scene> checked_scene_;
-    BackgroundJob<std::shared_ptr<const FirstHits>> first_hits_;
-    View asked_; // by the last job of first hits that was started
-    View hit_;   // what the first hits of the state are of
+    BackgroundJob<Reading, std::shared_ptr<const Reference>> reference_;
+    BackgroundJob<Check, std::string> check_; // the result: in what it differs
+    BackgroundJob<View, std::shared_ptr<const FirstHits>> first_hits_;
+    std::optional<View> hit_; // what the first hits of the state are of
 };
 
 } // namespace tessera

@@ -32,20 +32,19 @@ ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_tok
 } // namespace
 
 void InspectionJob::take(ViewerState& state) {
-    const auto outcome = job_.poll();
+    const auto outcome = job_.take();
     if (!outcome)
         return;
+    const Request& asked = outcome->request;
     Inspector& inspector = state.inspector;
-    if (inspector.sample != asked_.sample) { // another was chosen since
-        asked_ = {};
-        return;
-    }
+    if (inspector.sample != asked.sample) // another was chosen since
+        return job_.cancel();
     const Found found = outcome->result.value_or(Found{});
-    const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked_.sample.slot &&
+    const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked.sample.slot &&
                          inspector.inspection->pixel == found.inspection->pixel;
     state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
-    inspector.slot = asked_.sample.slot;
-    inspector.generation = asked_.generation;
+    inspector.slot = asked.sample.slot;
+    inspector.generation = asked.generation;
     inspector.scene_radius = found.scene_radius;
     inspector.inspection = found.inspection;
     state.redraw = true;
@@ -60,7 +59,7 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     if (!inspector.sample)
         return;
     if (!inspector.active && (inspector.sample->origin || job_.running()))
-        give_up();
+        job_.cancel();
     if (!inspector.active && inspector.sample->origin) {
         inspector.sample.reset();
         inspector.inspection.reset();
@@ -69,9 +68,9 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     }
 }
 
-void InspectionJob::give_up() {
-    job_.cancel();
-    asked_ = {};
+/// Of whatever pass.
+bool InspectionJob::has_asked(const PassOrigin& origin, const SampleChoice& sample) const {
+    return job_.asked() && job_.asked()->generation == origin.generation && job_.asked()->sample == sample;
 }
 
 /// Null: its pane shows nothing yet that could be looked at. A given pass needs no picture.
@@ -95,8 +94,8 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
 int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const {
     if (sample.pass)
         return *sample.pass;
-    if (asked_.is_of(origin, sample) && !state.inspector.follows)
-        return asked_.pass;
+    if (has_asked(origin, sample) && !state.inspector.follows)
+        return job_.asked()->pass;
     return state.pane_in(sample.slot)->snapshot->spp - 1;
 }
 
@@ -109,25 +108,23 @@ void InspectionJob::update(ViewerState& state, const std::function<void()>& wake
     const SampleChoice sample = *inspector.sample;
     const std::shared_ptr<const PassOrigin> origin = origin_of(state, sample);
     // What is under way is given up for another sample only: else it might never come to an end.
-    if (!origin || (job_.running() && asked_.is_of(*origin, sample)))
+    if (!origin || (job_.running() && has_asked(*origin, sample)))
         return;
     if (sample.pass && !is_within(sample.pixel, origin->size)) {
-        give_up();
+        job_.cancel();
         inspector.sample.reset();
         inspector.inspection.reset(); // where the picture was larger before
         return state.add_message(Message::Kind::error, outside_text(sample.pixel, origin->size));
     }
-    const Asked wanted{origin->generation, sample, pass_of(state, *origin, sample)};
-    if (!(wanted == asked_))
-        start(origin, wanted, wake);
+    ask(origin, {origin->generation, sample, pass_of(state, *origin, sample)}, wake);
 }
 
-void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const Asked& wanted,
-                          const std::function<void()>& wake) {
-    asked_ = wanted;
-    const glm::ivec2 pixel = glm::clamp(wanted.sample.pixel, glm::ivec2(0), origin->size - 1);
-    job_.start(
-        [origin, pixel, pass = wanted.pass](std::stop_token stop) {
+void InspectionJob::ask(const std::shared_ptr<const PassOrigin>& origin, const Request& request,
+                        const std::function<void()>& wake) {
+    const glm::ivec2 pixel = glm::clamp(request.sample.pixel, glm::ivec2(0), origin->size - 1);
+    job_.ask(
+        request,
+        [origin, pixel, pass = request.pass](std::stop_token stop) {
             work_in_background();
             const PassOrigin& o = *origin;
             const ReusePlan plan = plan_of(o, pass, pixel, stop);
@@ -142,9 +139,9 @@ void InspectionJob::start(const std::shared_ptr<const PassOrigin>& origin, const
 
 void SlowMotionJob::update(ViewerState& state, float seconds, const std::function<void()>& wake) {
     SlowMotion& slow = state.slow_motion;
-    if (const auto outcome = job_.poll()) {
+    if (const auto outcome = job_.take()) {
         if (outcome->result) {
-            slow.take(*outcome->result, asked_.sample.slot, asked_.generation);
+            slow.take(*outcome->result, outcome->request.sample.slot, outcome->request.generation);
             state.space.fits = state.redraw = true;
         } else {
             state.add_message(Message::Kind::error, outcome->error);
@@ -153,7 +150,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     if (!slow.active) {
         if (slow.view_before) // the picture goes back to where it was
             state.view = *std::exchange(slow.view_before, std::nullopt);
-        asked_ = {};
+        job_.cancel();
         slow.tile = nullptr;
         return;
     }
@@ -192,11 +189,8 @@ void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
         return;
     const glm::ivec2 size(snapshot->images->primal.width(), snapshot->images->primal.height());
     slow.sample->pixel = glm::clamp(slow.sample->pixel, glm::ivec2(0), size - 1); // the picture may have shrunk
-    const Asked wanted{snapshot->generation, *slow.sample};
-    if (wanted == asked_)
-        return;
-    asked_ = wanted;
-    job_.start(
+    job_.ask(
+        {snapshot->generation, *slow.sample},
         [scene = state.scene, snapshot, size, pixel = slow.sample->pixel](std::stop_token) {
             return std::make_shared<const TileInspection>(inspect_tile(
                 *scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, snapshot->spp - 1, pixel));
@@ -252,7 +246,7 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, co
 }
 
 void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wake) {
-    if (const auto outcome = job_.poll(); outcome && !outcome->result) {
+    if (const auto outcome = job_.take(); outcome && !outcome->result) {
         state.add_message(Message::Kind::error, "What lies around the paths: " + outcome->error);
     } else if (outcome) {
         const bool first = state.space.surroundings == nullptr;
@@ -271,14 +265,12 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
     const View view{scene,
                     origin ? origin->camera : state.camera.camera(),
                     {points_across, std::max(static_cast<int>(points_across * whole.y / whole.x), 1)}};
-    if (view == asked_)
-        return;
-    if (scene != asked_.scene.lock()) {
+    if (!job_.asked() || view.scene != job_.asked()->scene) {
         state.space.surroundings = nullptr;
         state.space.fits = true;
     }
-    asked_ = view;
-    job_.start([scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
+    job_.ask(
+        view, [scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
 }
 
 } // namespace tessera

@@ -17,14 +17,11 @@ public:
     bool running() const { return job_.running(); }
 
 private:
-    struct Asked {
-        std::uint64_t generation = 0; ///< of its request
-        SampleChoice sample;          ///< as it was chosen
+    struct Request {
+        std::uint64_t generation = 0; // of the picture's request
+        SampleChoice sample;          // as it was chosen
         int pass = 0;
-        bool is_of(const PassOrigin& origin, const SampleChoice& choice) const {
-            return generation == origin.generation && sample == choice;
-        }
-        bool operator==(const Asked&) const = default;
+        bool operator==(const Request&) const = default;
     };
     struct Found {
         std::shared_ptr<const Inspection> inspection;
@@ -32,14 +29,13 @@ private:
     };
     void take(ViewerState& state);
     void drop_what_is_gone(ViewerState& state);
-    void give_up();
+    bool has_asked(const PassOrigin& origin, const SampleChoice& sample) const;
     std::shared_ptr<const PassOrigin> origin_of(const ViewerState& state, const SampleChoice& sample) const;
     int pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const;
-    void start(const std::shared_ptr<const PassOrigin>& origin, const Asked& wanted,
-               const std::function<void()>& wake);
+    void ask(const std::shared_ptr<const PassOrigin>& origin, const Request& request,
+             const std::function<void()>& wake);
 
-    BackgroundJob<Found> job_;
-    Asked asked_; // last
+    BackgroundJob<Request, Found> job_;
 };
 
 /// Lets the slow motion go on, and finds its tiles out in the background.
@@ -50,16 +46,15 @@ public:
     void update(ViewerState& state, float seconds, const std::function<void()>& wake);
 
 private:
-    struct Asked {
-        std::uint64_t generation = 0;
+    struct Request {
+        std::uint64_t generation = 0; // of the picture's request
         SampleChoice sample;
-        bool operator==(const Asked&) const = default;
+        bool operator==(const Request&) const = default;
     };
     static void choose(ViewerState& state);
     void ask(ViewerState& state, const std::function<void()>& wake);
 
-    BackgroundJob<std::shared_ptr<const TileInspection>> job_;
-    Asked asked_; // last
+    BackgroundJob<Request, std::shared_ptr<const TileInspection>> job_;
 };
 
 /// Finds out in the background what lies around the paths that are looked at.
@@ -73,17 +68,14 @@ public:
 
 private:
     struct View {
-        std::weak_ptr<const Scene> scene; // not kept alive by what was found in it
+        Identity scene;
         Camera camera;
         glm::ivec2 size{0};
-        bool operator==(const View& other) const {
-            return scene.lock() == other.scene.lock() && camera == other.camera && size == other.size;
-        }
+        bool operator==(const View&) const = default;
     };
     static std::shared_ptr<const Surroundings> find(const Scene& scene, const View& view, std::stop_token stop);
 
-    BackgroundJob<std::shared_ptr<const Surroundings>> job_;
-    View asked_; // last
+    BackgroundJob<View, std::shared_ptr<const Surroundings>> job_;
 };
 
 } // namespace tessera

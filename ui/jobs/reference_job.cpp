@@ -5,7 +5,6 @@
 #include "render/run/thread_pool.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <mutex>
@@ -31,18 +30,14 @@ public:
     Watch(ReferenceProgress start, std::function<void()> wake)
         : progress_(std::move(start)), wake_(std::move(wake)) {}
 
-    void cancel() { cancelled_ = true; }
-
     ReferenceProgress progress() const {
         const std::lock_guard lock(mutex_);
-        ReferenceProgress progress = progress_;
-        progress.is_ending = cancelled_;
-        return progress;
+        return progress_;
     }
 
     /// Whether to go on.
     bool look(const ReferenceRender& render, const std::stop_token& stop) {
-        const bool goes_on = !cancelled_ && !stop.stop_requested();
+        const bool goes_on = !stop.stop_requested();
         std::optional<FloorFreeError> error;
         if (goes_on && is_time_to_measure(render))
             error = measure(render);
@@ -76,7 +71,6 @@ private:
 
     mutable std::mutex mutex_;
     ReferenceProgress progress_; // guarded by it
-    std::atomic<bool> cancelled_ = false;
     std::function<void()> wake_;
     // Used by the render's thread alone.
     Clock::time_point woken_, measured_;
@@ -87,11 +81,17 @@ void ReferenceJob::update(ViewerState& state, int threads, const std::function<v
     ReferenceMaking& making = state.reference_making;
     if (std::exchange(making.start, false) && !job_.running() && state.scene)
         start(state, threads, wake);
-    if (std::exchange(making.cancel, false) && watch_)
-        watch_->cancel();
-    if (auto outcome = job_.poll())
-        take(state, std::move(*outcome));
-    making.progress = job_.running() ? std::optional(watch_->progress()) : std::nullopt;
+    if (std::exchange(making.cancel, false))
+        job_.stop();
+    if (const auto outcome = job_.take()) {
+        take(state, *outcome);
+        job_.cancel(); // its order would keep the scene
+    }
+    making.progress.reset();
+    if (job_.running()) {
+        making.progress = job_.asked()->watch->progress();
+        making.progress->is_ending = job_.stopping();
+    }
 }
 
 void ReferenceJob::start(ViewerState& state, int threads, const std::function<void()>& wake) {
@@ -103,15 +103,16 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     recipe.size = state.request_size();
     recipe.spp = making.spp;
     recipe.checkpoint_seconds = 30;
-    subject_ = {state.scene, state.camera.camera(), recipe.size};
     ReferenceProgress progress;
     progress.file = file;
     progress.spp_wanted = recipe.spp;
     progress.seconds_left = std::numeric_limits<double>::infinity();
-    watch_ = std::make_shared<Watch>(progress, wake);
-    const PictureSubject subject{state.scene_source, state.scene, subject_.camera};
+    const Order order{file, state.scene, state.camera.camera(), recipe.size,
+                      std::make_shared<Watch>(progress, wake)};
+    const PictureSubject subject{state.scene_source, order.scene, order.camera};
     job_.start(
-        [=, watch = watch_, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {
+        order,
+        [=, watch = order.watch, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {
             work_behind_others(); // and so do the pool's threads, which begin as their maker is
             check_writable(file);
             if (anew)
@@ -129,21 +130,21 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
         wake);
 }
 
-void ReferenceJob::take(ViewerState& state, BackgroundJob<Made>::Outcome outcome) {
-    const std::string file = watch_->progress().file.string();
-    watch_.reset();
-    const Subject subject = std::exchange(subject_, {});
+void ReferenceJob::take(ViewerState& state, const Job::Outcome& outcome) {
+    const Order& order = outcome.request;
+    const std::string file = order.file.string();
     if (!outcome.result)
         return state.add_message(Message::Kind::error, "The reference was not made: " + outcome.error);
     const Made& made = *outcome.result;
     for (const Counted& half : made.halves)
         state.add_refused("The reference", half.counters, state.active().slot,
-                          {subject.scene, subject.camera, subject.size, half.settings});
+                          {order.scene, order.camera, order.size, half.settings});
     if (!made.error)
         return state.add_message(Message::Kind::note,
                                  fmt::format("The reference has {} spp; made again, it goes on from {}", made.spp,
                                              reference_checkpoint(file).string()));
-    const bool is_on_show = subject == Subject{state.scene, state.camera.camera(), state.request_size()};
+    const bool is_on_show =
+        order.scene == state.scene && order.camera == state.camera.camera() && order.size == state.request_size();
     state.add_message(Message::Kind::note,
                       fmt::format("Saved the reference, {} spp, to {}; its own relMSE is {:.3g} +- {:.2g}{}",
                                   made.spp, file, made.error->relative_mse, made.error->standard_error,

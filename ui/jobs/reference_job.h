@@ -3,6 +3,7 @@
 #include "ui/jobs/background_job.h"
 #include "ui/state/viewer_state.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -30,20 +31,20 @@ private:
         int spp = 0;
         std::vector<Counted> halves;
     };
-    /// What it is made of.
-    struct Subject {
+    class Watch;
+    /// What it is made of, and where it goes.
+    struct Order {
+        std::filesystem::path file;
         std::shared_ptr<const Scene> scene;
         Camera camera;
         glm::ivec2 size{0};
-        bool operator==(const Subject&) const = default;
+        std::shared_ptr<Watch> watch;
     };
-    class Watch;
+    using Job = BackgroundJob<Order, Made>;
     void start(ViewerState& state, int threads, const std::function<void()>& wake);
-    void take(ViewerState& state, BackgroundJob<Made>::Outcome outcome);
+    static void take(ViewerState& state, const Job::Outcome& outcome);
 
-    std::shared_ptr<Watch> watch_; // of the job under way
-    Subject subject_;
-    BackgroundJob<Made> job_;
+    Job job_;
 };
 
 } // namespace tessera

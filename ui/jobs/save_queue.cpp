@@ -19,6 +19,7 @@ void SaveQueue::start_next() {
     Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
     job_.start(
+        {},
         [work = std::move(next.work)](std::stop_token) {
             work_in_background();
             return work();
@@ -33,8 +34,8 @@ std::vector<SaveQueue::Outcome> SaveQueue::finish() {
     return outcomes;
 }
 
-std::optional<SaveQueue::Outcome> SaveQueue::poll() {
-    std::optional<Outcome> outcome = job_.poll();
+std::optional<SaveQueue::Outcome> SaveQueue::take() {
+    std::optional<Outcome> outcome = job_.take();
     start_next();
     return outcome;
 }

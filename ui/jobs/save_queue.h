@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace tessera {
@@ -16,31 +17,31 @@ struct Saved {
         : what(std::move(saved)), then(std::move(afterwards)) {}
 
     std::string what;           ///< was saved, and where; empty: nothing that anybody need be told of
-    std::function<void()> then; ///< to be called by who polls; may be empty
+    std::function<void()> then; ///< to be called by who takes it; may be empty
 };
 
-/// Files to write, one after the other in the background, in the order of their wishes. Its end waits until all
-/// are written.
+/// Files to write, one after the other in the background, in the order of their wishes: none of them is given up
+/// for a later one. Its end waits until all are written.
 class SaveQueue {
 public:
     /// Writes. Throws std::exception.
     using Work = std::function<Saved()>;
-    using Outcome = BackgroundJob<Saved>::Outcome;
+    using Outcome = BackgroundJob<std::monostate, Saved>::Outcome;
 
     SaveQueue() = default;
     ~SaveQueue();
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 
-    /// `on_done` is called from another thread once poll() has the outcome; it may be empty.
+    /// `on_done` is called from another thread once take() has the outcome; it may be empty.
     void add(Work work, std::function<void()> on_done);
 
     bool running() const { return job_.running(); }
 
     /// What came of the oldest, once; begins the next. Never waits.
-    std::optional<Outcome> poll();
+    std::optional<Outcome> take();
 
-    /// Writes all that is left, and waits; what came of each that had not been polled.
+    /// Writes all that is left, and waits; what came of each that had not been taken.
     std::vector<Outcome> finish();
 
 private:
@@ -51,7 +52,7 @@ private:
     void start_next();
 
     std::deque<Waiting> waiting_;
-    BackgroundJob<Saved> job_;
+    BackgroundJob<std::monostate, Saved> job_;
 };
 
 } // namespace tessera

@@ -1,13 +1,14 @@
 #include "ui/jobs/scene_load.h"
 
 #include <exception>
+#include <stop_token>
 #include <utility>
 
 namespace tessera {
 
 namespace {
 
-SceneLoadResult load(const SceneOrigin& origin, LoadProgress& progress) {
+SceneLoadResult load_scene(const SceneOrigin& origin, LoadProgress& progress) {
     SceneLoadResult loaded;
     loaded.origin = origin;
     try {
@@ -22,27 +23,23 @@ SceneLoadResult load(const SceneOrigin& origin, LoadProgress& progress) {
 
 } // namespace
 
-void SceneLoad::cancel() {
-    if (progress_)
-        progress_->give_up();
-    job_.cancel();
-}
-
 void SceneLoad::start(SceneOrigin origin, std::function<void()> on_done) {
-    cancel();
-    origin_ = std::move(origin);
-    start_ = Clock::now();
-    progress_ = std::make_shared<LoadProgress>();
-    job_.start([origin = origin_, progress = progress_](std::stop_token) { return load(origin, *progress); },
-               std::move(on_done));
+    const Load load{std::move(origin), std::make_shared<LoadProgress>(), Clock::now()};
+    job_.start(
+        load,
+        [load](std::stop_token stop) {
+            const std::stop_callback give_up(stop, [&] { load.progress->give_up(); });
+            return load_scene(load.origin, *load.progress);
+        },
+        std::move(on_done));
 }
 
 double SceneLoad::seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
+    return std::chrono::duration<double>(Clock::now() - job_.asked()->start).count();
 }
 
-std::optional<SceneLoadResult> SceneLoad::poll() {
-    auto outcome = job_.poll();
+std::optional<SceneLoadResult> SceneLoad::take() {
+    auto outcome = job_.take();
     return outcome ? std::move(outcome->result) : std::nullopt;
 }
 

@@ -46,30 +46,30 @@ struct SceneLoadResult {
 /// One scene on its way, loaded in the background. Its end gives the scene up and waits for the loader.
 class SceneLoad {
 public:
-    ~SceneLoad() { cancel(); }
-
-    /// A load under way is given up: nothing more is heard of it. `on_done` is called from the loading thread,
-    /// once poll() has a result.
+    /// A load under way is given up, as by cancel(). `on_done` is called from the loading thread once take() has a
+    /// result.
     void start(SceneOrigin origin, std::function<void()> on_done);
 
     /// Gives up what is under way: nothing more is heard of it.
-    void cancel();
+    void cancel() { job_.cancel(); }
 
     bool running() const { return job_.running(); }
-    const SceneOrigin& origin() const { return origin_; } ///< only while running, as the next two
-    LoadProgress::State progress() const { return progress_->state(); }
+    const SceneOrigin& origin() const { return job_.asked()->origin; } ///< only while running, as the next two
+    LoadProgress::State progress() const { return job_.asked()->progress->state(); }
     double seconds() const; ///< since its start
 
     /// The result, once; never waits.
-    std::optional<SceneLoadResult> poll();
+    std::optional<SceneLoadResult> take();
 
 private:
     using Clock = std::chrono::steady_clock;
+    struct Load {
+        SceneOrigin origin;
+        std::shared_ptr<LoadProgress> progress; // told by the work, which may outlast this
+        Clock::time_point start;
+    };
 
-    SceneOrigin origin_;
-    Clock::time_point start_;
-    std::shared_ptr<LoadProgress> progress_; // of the job, which may outlast it; null before the first
-    BackgroundJob<SceneLoadResult> job_;
+    BackgroundJob<Load, SceneLoadResult> job_;
 };
 
 } // namespace tessera

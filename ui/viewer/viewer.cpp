@@ -72,7 +72,7 @@ Viewer::~Viewer() {
 // --- a new scene ---
 
 void Viewer::take_scene() {
-    std::optional<SceneLoadResult> result = load_.poll();
+    std::optional<SceneLoadResult> result = load_.take();
     state_.loading = load_.running() ? to_string(load_.progress()) : "";
     if (!result)
         return;

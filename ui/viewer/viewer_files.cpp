@@ -115,7 +115,7 @@ void Viewer::fulfil_saves() {
         save_exr();
     if (std::exchange(state_.save_view, false))
         save_view();
-    if (const auto outcome = save_queue_.poll())
+    if (const auto outcome = save_queue_.take())
         take(*outcome);
 }
 
