@@ -4,7 +4,6 @@
 #include "recon/reconstruct.h"
 #include "render/estimator/counters.h"
 #include "render/estimator/film.h"
-#include "render/estimator/reuse_policy.h"
 #include "render/estimator/settings.h"
 #include "render/scene/camera.h"
 
@@ -13,6 +12,7 @@
 
 namespace tessera {
 
+class ReusePlan;
 class Scene;
 
 /// What a pane shows: the state of a render after a whole number of passes. Immutable once published.

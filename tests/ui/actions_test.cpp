@@ -60,9 +60,9 @@ TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
     ViewerState state = two_panes();
     state.loading = "a scene";
     type(state, key(Key::escape), true);
-    EXPECT_FALSE(state.cancel_load);
+    EXPECT_FALSE(state.wishes.cancel_scene);
     type(state, key(Key::escape));
-    EXPECT_TRUE(state.cancel_load);
+    EXPECT_TRUE(state.wishes.cancel_scene);
 }
 
 TEST(Actions, MenusLieTogether) {
@@ -83,28 +83,28 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     type(state, key(Key::space));
     EXPECT_FALSE(state.paused);
     type(state, key(Key::r));
-    EXPECT_TRUE(state.restart);
+    EXPECT_TRUE(state.wishes.restart);
     type(state, {Key::q, true, false, 0});
-    EXPECT_TRUE(state.quit);
+    EXPECT_TRUE(state.wishes.quit);
     type(state, {Key::s, true, false, 0});
-    EXPECT_TRUE(state.save_picture);
+    EXPECT_TRUE(state.wishes.save_picture);
     type(state, {Key::i, true, false, 0});
-    EXPECT_TRUE(state.sample_form.show);
+    EXPECT_TRUE(state.layout.sample_form.show);
     type(state, key(Key::escape));
-    EXPECT_FALSE(state.sample_form.show);
+    EXPECT_FALSE(state.layout.sample_form.show);
     type(state, key(Key::f5));
-    EXPECT_TRUE(state.reload);
+    EXPECT_TRUE(state.wishes.reload);
     type(state, key(Key::k));
-    EXPECT_TRUE(state.save_camera);
-    EXPECT_FALSE(state.copy_camera);
+    EXPECT_TRUE(state.wishes.save_camera);
+    EXPECT_FALSE(state.wishes.copy_camera);
     type(state, {Key::k, false, true, 0});
-    EXPECT_TRUE(state.copy_camera);
+    EXPECT_TRUE(state.wishes.copy_camera);
     type(state, key(Key::p));
-    EXPECT_FALSE(state.show_panel);
+    EXPECT_FALSE(state.layout.show_panel);
     type(state, key(Key::t));
-    EXPECT_TRUE(state.show_statistics);
+    EXPECT_TRUE(state.layout.show_statistics);
     type(state, key(Key::f2));
-    EXPECT_TRUE(state.show_messages);
+    EXPECT_TRUE(state.layout.show_messages);
     type(state, key(Key::tab));
     EXPECT_EQ(state.active_pane, 0);
 }
@@ -112,13 +112,13 @@ TEST(Actions, EveryShortcutRunsItsAction) {
 TEST(Actions, HelpOpensByBothKeysAndCloses) {
     ViewerState state = two_panes();
     type(state, key(Key::f1));
-    EXPECT_TRUE(state.show_help);
+    EXPECT_TRUE(state.layout.show_help);
     type(state, key(Key::escape));
-    EXPECT_FALSE(state.show_help);
+    EXPECT_FALSE(state.layout.show_help);
     type(state, character('?'));
-    EXPECT_TRUE(state.show_help);
+    EXPECT_TRUE(state.layout.show_help);
     type(state, character('?'));
-    EXPECT_FALSE(state.show_help);
+    EXPECT_FALSE(state.layout.show_help);
 }
 
 TEST(Actions, MethodsOfTheActivePaneInTurn) {
@@ -200,16 +200,16 @@ TEST(Actions, TheFormBeginsWithTheSampleThatIsLookedAt) {
     ViewerState state = two_panes();
     state.active().settings.render.seed = 5;
     type(state, {Key::i, true, false, 0});
-    EXPECT_TRUE(state.sample_form.show);
-    EXPECT_EQ(state.sample_form.seed, 5u);
+    EXPECT_TRUE(state.layout.sample_form.show);
+    EXPECT_EQ(state.layout.sample_form.seed, 5u);
     PassOrigin origin{};
     origin.settings.seed = 9;
     state.inspector.choose({0, {3, 4}, 2, std::make_shared<const PassOrigin>(origin)});
-    state.sample_form.show = false;
+    state.layout.sample_form.show = false;
     type(state, {Key::i, true, false, 0});
-    EXPECT_EQ(state.sample_form.pixel, glm::ivec2(3, 4));
-    EXPECT_EQ(state.sample_form.pass, 2);
-    EXPECT_EQ(state.sample_form.seed, 9u);
+    EXPECT_EQ(state.layout.sample_form.pixel, glm::ivec2(3, 4));
+    EXPECT_EQ(state.layout.sample_form.pass, 2);
+    EXPECT_EQ(state.layout.sample_form.seed, 9u);
 }
 
 TEST(Actions, TextEntryKeepsItsLetters) {
@@ -217,11 +217,11 @@ TEST(Actions, TextEntryKeepsItsLetters) {
     type(state, key(Key::r), true);
     type(state, key(Key::digit2), true);
     type(state, character('+'), true);
-    EXPECT_FALSE(state.restart);
+    EXPECT_FALSE(state.wishes.restart);
     EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
     EXPECT_FLOAT_EQ(state.tone.exposure, 0);
     type(state, {Key::q, true, false, 0}, true);
-    EXPECT_TRUE(state.quit);
+    EXPECT_TRUE(state.wishes.quit);
 }
 
 TEST(Actions, CameraGoesHomeAndFliesWithKeys) {
@@ -250,18 +250,18 @@ TEST(Messages, OfAnOriginGoTogetherAndTakeTheListWithThem) {
     ViewerState state = two_panes();
     state.add_message(Kind::note, "of the viewer");
     state.add_message(Kind::note, "of the scene", Origin::scene);
-    EXPECT_FALSE(state.show_messages);
+    EXPECT_FALSE(state.layout.show_messages);
     state.add_message(Kind::error, "of a load", Origin::failed_load);
-    EXPECT_TRUE(state.show_messages);
+    EXPECT_TRUE(state.layout.show_messages);
     state.drop_messages(Origin::scene);
-    EXPECT_TRUE(state.show_messages); // there is an error yet
+    EXPECT_TRUE(state.layout.show_messages); // there is an error yet
     state.drop_messages(Origin::failed_load);
-    EXPECT_FALSE(state.show_messages);
+    EXPECT_FALSE(state.layout.show_messages);
     ASSERT_EQ(state.messages.size(), 1u);
     EXPECT_EQ(state.messages[0].text, "of the viewer");
-    state.show_messages = true; // by hand, to read notes
+    state.layout.show_messages = true; // by hand, to read notes
     state.drop_messages(Origin::scene);
-    EXPECT_TRUE(state.show_messages);
+    EXPECT_TRUE(state.layout.show_messages);
 }
 
 TEST(Messages, OldestGoWhenThereAreTooMany) {

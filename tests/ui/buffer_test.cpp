@@ -1,4 +1,5 @@
 #include "recon/metrics.h"
+#include "render/run/first_hits.h"
 #include "ui/state/buffer.h"
 #include "ui/state/shift_outcomes.h"
 

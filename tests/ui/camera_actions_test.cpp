@@ -44,7 +44,7 @@ TEST_F(CameraActions, SavesBesideTheScene) {
     type(Key::k);
     finish_saving();
     EXPECT_TRUE(read_camera(file) == state().camera.camera());
-    EXPECT_FALSE(state().save_camera);
+    EXPECT_FALSE(state().wishes.save_camera);
 }
 
 TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {

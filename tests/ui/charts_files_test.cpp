@@ -39,7 +39,7 @@ TEST_F(Charts, WithoutAReferenceOneCanBeOpenedOrMade) {
     EXPECT_TRUE(state().reference_making.show);
     type(Key::escape);
     click("charts.open_reference");
-    EXPECT_EQ(state().choosing, FilePurpose::reference);
+    EXPECT_EQ(state().layout.choosing, FilePurpose::reference);
 }
 
 /// The files of the current folder, by their extensions.
@@ -70,7 +70,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     wait_until([&] { return !errors(1).empty(); });
     type(Key::z); // with the panel closed
     finish_saving();
-    EXPECT_FALSE(state().save_charts);
+    EXPECT_FALSE(state().wishes.save_charts);
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
     EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
     const auto files = files_here();
@@ -84,7 +84,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     for (const char* word : {"1  PT", "2  G-PR", "relMSE", "seconds", "a room"})
         EXPECT_NE(files.at(".svg").find(word), std::string::npos) << word;
     EXPECT_EQ(size_of_png(files.at(".png")).x, static_cast<int>(std::ceil(64 * ImGui::GetFontSize())));
-    EXPECT_EQ(state().show_charts, false);
+    EXPECT_EQ(state().layout.show_charts, false);
     frames(2);
     EXPECT_FALSE(has("charts.picture"));
 }
@@ -94,7 +94,7 @@ TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
     viewer.keyboard().press(Key::z, Key::z, false, false);
     frame();
     EXPECT_TRUE(state().histograms_due); // the wish alone asks for them
-    EXPECT_TRUE(state().save_charts);
+    EXPECT_TRUE(state().wishes.save_charts);
     finish_saving();
     EXPECT_NE(files_here().at(".csv").find("luminance,pixels"), std::string::npos);
 }
@@ -121,7 +121,7 @@ TEST_F(Charts, AreSavedAlikeFromAnyWindow) {
 
 TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
     set_reference(Rgb(0.3f));
-    state().show_panel = false;
+    state().layout.show_panel = false;
     type(Key::h);
     wait_until([&] { return !errors(1).empty() && state().charts[1].histogram; });
     frames(2);
@@ -151,7 +151,7 @@ TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
 
 TEST_F(Charts, AreDrawnLarge) {
     set_reference(Rgb(0.3f));
-    state().show_panel = false;
+    state().layout.show_panel = false;
     type(Key::h);
     wait_until([&] { return !errors(1).empty() && state().charts[1].histogram; });
     click("charts.large");

@@ -197,7 +197,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
         });
     }
     type(Key::h);
-    EXPECT_TRUE(state().show_charts);
+    EXPECT_TRUE(state().layout.show_charts);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
     frames(2);
     save("charts.png");
@@ -207,7 +207,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     EXPECT_NE(csv.find("1,pt,none,,,16,"), std::string::npos) << csv;
     EXPECT_NE(csv.find("2,gpr,weighted,0.2,1,16,"), std::string::npos) << csv;
     choose("charts.axis", "spp");
-    EXPECT_TRUE(state().charts_by_spp);
+    EXPECT_TRUE(state().layout.charts_by_spp);
 
     // Another reference, and another request, begin anew.
     set_reference(Rgb(0.5f));
@@ -222,7 +222,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
 TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     type(Key::h);
     choose("charts.kind", "shifts");
-    EXPECT_EQ(state().chart_kind, ChartKind::shifts);
+    EXPECT_EQ(state().layout.chart_kind, ChartKind::shifts);
     for (int spp : {4, 8, 16}) {
         state().pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });

@@ -91,7 +91,7 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
     const RenderSettings before = pane(1).settings.render;
     click("menu View");
     click("menu View/Inspect a sample ...");
-    ASSERT_TRUE(state().sample_form.show);
+    ASSERT_TRUE(state().layout.sample_form.show);
     frames(2);
     save("sample-dialog.png");
     EXPECT_TRUE(viewer.controls().unexplained().count("sample.seed") == 0);
@@ -101,18 +101,18 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
     type_into("sample.seed", std::to_string(seed));
     EXPECT_EQ(pane(1).settings.render, before); // nothing happens before the button
     click("sample.inspect");
-    EXPECT_FALSE(state().sample_form.show);
+    EXPECT_FALSE(state().layout.sample_form.show);
     EXPECT_EQ(pane(0).settings.render.seed, seed); // which is linked
     expect_that_of_the_render();
     frames(3);
     save("sample-chosen.png");
     // Opened again, it asks for what is looked at.
     type(Key::i, true);
-    EXPECT_EQ(state().sample_form.pixel, pixel);
-    EXPECT_EQ(state().sample_form.pass, pass);
-    EXPECT_EQ(state().sample_form.seed, seed);
+    EXPECT_EQ(state().layout.sample_form.pixel, pixel);
+    EXPECT_EQ(state().layout.sample_form.pass, pass);
+    EXPECT_EQ(state().layout.sample_form.seed, seed);
     type(Key::escape);
-    EXPECT_FALSE(state().sample_form.show);
+    EXPECT_FALSE(state().layout.sample_form.show);
 }
 
 TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {

@@ -1,6 +1,8 @@
 // Buffers that need more than a snapshot: errors to a reference, first hits.
 
 #include "render/io/exr.h"
+#include "render/run/first_hits.h"
+#include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <algorithm>
@@ -172,12 +174,12 @@ TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
     frame();
     expect_given_up();
 
-    state().show_help = true; // which Esc closes alone
+    state().layout.show_help = true; // which Esc closes alone
     viewer.drop({file_});
     frame();
     viewer.keyboard().press(Key::escape, Key::escape, false, false);
     frame();
-    EXPECT_FALSE(state().show_help);
+    EXPECT_FALSE(state().layout.show_help);
     EXPECT_TRUE(wait_until([&] { return state().companions.reference != before; }));
     EXPECT_FALSE(state().reference_read);
 }

@@ -19,10 +19,10 @@ TEST_F(Compare, TheLineIsWhereTheMouseIsAfterGoingBeyondAnEnd) {
     move_to(grip);
     press();
     move_to(grip + glm::vec2(-width, 0));
-    EXPECT_EQ(state().wipe, 0);
+    EXPECT_EQ(state().layout.wipe, 0);
     move_to(grip + glm::vec2(-0.2f * width, 0));
     release();
-    EXPECT_NEAR(state().wipe, 0.3f, 0.01f); // not 0.8, where the sum of the steps would lead
+    EXPECT_NEAR(state().layout.wipe, 0.3f, 0.01f); // not 0.8, where the sum of the steps would lead
 }
 
 TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
@@ -58,11 +58,11 @@ TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
     drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0});
     EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
     EXPECT_EQ(state().ranges.count(Buffer::survival), 1u);
-    state().wipe = 0;
+    state().layout.wipe = 0;
     frames(2);
     EXPECT_FALSE(has("pane0.legend")); // nothing of that side is seen
     EXPECT_TRUE(has("pane0.right_legend"));
-    state().wipe = 0.5f;
+    state().layout.wipe = 0.5f;
     choose("pane0.buffer", "survival");
     EXPECT_TRUE(has("pane0.legend"));
     EXPECT_FALSE(has("pane0.right_legend")); // one serves both
@@ -106,7 +106,7 @@ TEST_F(Compare, TheRightSideOfAWipeSaysWhatItLacks) {
     choose("pane0.buffer", "dx");
     click("pane1.picture");
     type(Key::v);
-    state().wipe = 0.2f;
+    state().layout.wipe = 0.2f;
     frames(2);
     save("no-right-side.png");
     const ScreenPixels pixels = screen();
@@ -132,7 +132,7 @@ TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
     frames(2);
     EXPECT_EQ(shared(), range);
     save("variances.png");
-    state().restart = true;
+    state().wishes.restart = true;
     frame(); // in which it is asked for: what is on show until then has settled long since
     wait_for_settled();
     EXPECT_NE(shared(), ValueRange());

@@ -91,8 +91,8 @@ TEST_F(CountersView, PanelShowsTheFiguresOfTheActivePane) {
     type(Key::t);
     const Counters& c = pane(1).snapshot->counters;
     EXPECT_GE(c.camera_paths, 3u * 48 * 36);
-    for (const FigureGroup& group : statistics(*pane(1).snapshot)) {
-        for (const Figure& figure : group.figures) {
+    for (const StatisticGroup& group : statistics(*pane(1).snapshot)) {
+        for (const Statistic& figure : group.statistics) {
             EXPECT_TRUE(has("statistics." + figure.id)) << figure.id;
             if (figure.id == "camera_paths") {
                 EXPECT_EQ(figure.value, std::to_string(c.camera_paths));
@@ -152,7 +152,7 @@ TEST_F(CountersView, FiguresAndLegendExplainThemselves) {
 TEST_F(CountersView, PanelIsInTheMenuAndScrolls) {
     click("menu View");
     click("menu View/Statistics");
-    EXPECT_TRUE(state().show_statistics);
+    EXPECT_TRUE(state().layout.show_statistics);
     const float before = place("statistics.spp").min.y;
     move_to(place("statistics.spp").center());
     wheel(-3);
@@ -161,7 +161,7 @@ TEST_F(CountersView, PanelIsInTheMenuAndScrolls) {
 
 TEST(StatisticsPanel, IsHarmlessBeforeAnyScene) {
     ViewerHarness h;
-    h.state().show_statistics = true;
+    h.state().layout.show_statistics = true;
     h.frames(3);
     EXPECT_FALSE(h.has("statistics.spp"));
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(200, 20), glm::ivec2(60, 60)}) {

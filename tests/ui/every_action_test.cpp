@@ -32,8 +32,8 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
      [](ViewerState& s) {
          s.set_view(ImageView(2, {0.4f, 0.5f}));
      }},
-    {"Smaller text", [](ViewerState& s) { s.text_factor = 1.25f; }},
-    {"Text as the display says", [](ViewerState& s) { s.text_factor = 1.25f; }},
+    {"Smaller text", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
+    {"Text as the display says", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Two panes", [](ViewerState& s) { s.set_pane_count(4); }},
     {"Reset camera",
      [](ViewerState& s) {
@@ -113,14 +113,15 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
             text += " " + kind;
         text += fmt::format("\nclipboard: {}\n", ImGui::GetClipboardText());
         text += fmt::format("pane {}, text {}, {} spp, reloaded {}, anew {}, quit {}\n", s.active_pane,
-                            s.text_factor, s.active().snapshot->spp, s.scenes_shown - scenes,
-                            s.active().generation != generation, s.quit);
-        text += fmt::format("paused {}, light {}, panel {}, statistics {}, charts {}, help {}, messages {}\n",
-                            s.paused, s.theme == Theme::light, s.show_panel, s.show_statistics, s.show_charts,
-                            s.show_help, s.show_messages);
+                            s.layout.text_factor, s.active().snapshot->spp, s.scenes_shown - scenes,
+                            s.active().generation != generation, s.wishes.quit);
+        text +=
+            fmt::format("paused {}, light {}, panel {}, statistics {}, charts {}, help {}, messages {}\n",
+                        s.paused, s.layout.theme == Theme::light, s.layout.show_panel, s.layout.show_statistics,
+                        s.layout.show_charts, s.layout.show_help, s.layout.show_messages);
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
-                            s.choosing ? static_cast<int>(*s.choosing) : -1, s.sample_form.show,
-                            s.reference_making.show, s.inspector.active);
+                            s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
+                            s.layout.sample_form.show, s.reference_making.show, s.inspector.active);
         const SlowMotion& motion = s.slow_motion;
         text += fmt::format("slow motion {}, held {}, at {}", motion.active, motion.held,
                             motion.held ? static_cast<float>(motion.current) + motion.arrived : 0);

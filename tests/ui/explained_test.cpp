@@ -40,9 +40,9 @@ using Silent = std::set<std::string>;
 TEST_F(Explained, EveryControlHasATooltip) {
     state().panes[0].settings.buffer = Buffer::reused;
     state().panes[0].settings.render.method = Method::pr;
-    for (auto show : {&ViewerState::show_panel, &ViewerState::show_statistics, &ViewerState::show_charts,
-                      &ViewerState::show_messages, &ViewerState::show_help})
-        state().*show = true;
+    Layout& layout = state().layout;
+    layout.show_panel = layout.show_statistics = layout.show_charts = layout.show_messages = layout.show_help =
+        true;
     state().add_message(Message::Kind::note, "a note");
     state().messages.back().samples = {SampleChoice{}};
     state().size.base = SizeChoice::Base::custom;
@@ -53,7 +53,7 @@ TEST_F(Explained, EveryControlHasATooltip) {
     EXPECT_EQ(silent(), Silent());
     EXPECT_TRUE(has("pane0.wipe"));
     EXPECT_TRUE(has("scene_name"));
-    state().show_help = state().show_messages = false;
+    state().layout.show_help = state().layout.show_messages = false;
     frames(2);
     click("more");
     EXPECT_EQ(silent(), Silent());
@@ -82,10 +82,10 @@ TEST_F(Explained, TheInspectorsControlsHaveTooltips) {
 
 TEST_F(Explained, WhatLiesOverThePicturesHasTooltips) {
     for (auto show :
-         {+[](ViewerState& s) { s.set_slow_motion(true); }, +[](ViewerState& s) { s.large_charts = true; },
+         {+[](ViewerState& s) { s.set_slow_motion(true); }, +[](ViewerState& s) { s.layout.large_charts = true; },
           +[](ViewerState& s) { s.reference_making.show = true; },
-          +[](ViewerState& s) { s.sample_form.show = true; },
-          +[](ViewerState& s) { s.choosing = FilePurpose::scene; }}) {
+          +[](ViewerState& s) { s.layout.sample_form.show = true; },
+          +[](ViewerState& s) { s.layout.choosing = FilePurpose::scene; }}) {
         show(state());
         wait_until([&] { return !state().slow_motion.active || state().slow_motion.shows_choice(); });
         frames(4);

@@ -94,7 +94,7 @@ TEST_F(Dialog, OpensASceneByClicks) {
     h.click_at("file/room.xml", 0.1f);
     EXPECT_TRUE(h.has("file/room.xml"));
     h.click("file.open");
-    EXPECT_FALSE(h.state().choosing.has_value());
+    EXPECT_FALSE(h.state().layout.choosing.has_value());
     h.wait_until([&] { return h.state().scenes_shown == 2; });
     EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "scenes" / "room.xml").string()});
     h.frames(3);
@@ -127,7 +127,7 @@ TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
     EXPECT_NE(h.state().messages.back().text.find("bad.json:2:14: method is none of"), std::string::npos)
         << h.state().messages.back().text;
     EXPECT_EQ(h.pane(0).settings.render.tile, 8);
-    h.state().show_messages = false;
+    h.state().layout.show_messages = false;
     load("good.json");
     EXPECT_EQ(h.pane(0).settings.render.tile, 3);
 }
@@ -143,7 +143,7 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     h.viewer.keyboard().press(Key::w, Key::w, false, false);
     h.viewer.keyboard().press(Key::b, Key::b, false, false);
     h.frames(3);
-    EXPECT_FALSE(h.state().flicker);
+    EXPECT_FALSE(h.state().layout.flicker);
     h.viewer.keyboard().release(Key::w);
     h.viewer.keyboard().release(Key::b);
     h.type(Key::digit4, true);
@@ -152,7 +152,7 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     EXPECT_TRUE(h.state().camera.camera() == camera);
     EXPECT_EQ(h.state().panes.size(), 2u);
     EXPECT_FALSE(h.state().paused);
-    EXPECT_EQ(h.state().theme, Theme::dark);
+    EXPECT_EQ(h.state().layout.theme, Theme::dark);
     ASSERT_TRUE(h.has("file/other.xml"));
     ImGui::GetIO().AddInputCharacter('r'); // what is typed goes on after the folder
     h.frames(3);
@@ -160,14 +160,14 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     EXPECT_FALSE(h.has("file/other.xml"));
     h.type(Key::escape);
     h.frames(2);
-    EXPECT_FALSE(h.state().choosing.has_value());
+    EXPECT_FALSE(h.state().layout.choosing.has_value());
 }
 
 TEST_F(Dialog, AReferenceIsNamedInFull) {
     write_exr("r.exr", {{{"", RgbImage(48, 36, Rgb(1))}}, {}});
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
-    h.state().reference_file = "./r.exr";
+    h.state().wishes.open_reference = "./r.exr";
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
     EXPECT_EQ(h.state().companions.reference->name, (folder.path / "r.exr").string());
 }
@@ -185,7 +185,7 @@ TEST_F(Dialog, OpensAReferenceAndCanBeCancelled) {
     h.type(Key::r, true);
     h.frames(2);
     h.click("file.open"); // nothing is chosen yet
-    EXPECT_TRUE(h.state().choosing.has_value());
+    EXPECT_TRUE(h.state().layout.choosing.has_value());
     h.click_at("file/r.exr", 0.1f);
     h.click("file.open");
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
@@ -201,9 +201,9 @@ TEST_F(Dialog, ASceneCanBeOnItsWayBehindIt) {
             std::this_thread::yield();
         return viewer_scene();
     });
-    h.state().choosing = FilePurpose::scene;
+    h.state().layout.choosing = FilePurpose::scene;
     h.frames(3);
-    EXPECT_TRUE(h.state().choosing);
+    EXPECT_TRUE(h.state().layout.choosing);
     through = true;
     h.wait_until([&] { return h.state().loading.empty(); });
 }

@@ -3,6 +3,7 @@
 #include "render/io/files.h"
 #include "render/io/text.h"
 #include "render/scene/camera.h"
+#include "render/scene/scene.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/state/settings_file.h"
@@ -37,9 +38,10 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     state().pace = {Pace::Equal::spp, 12, 34.5};
     state().panes[3].settings.reconstruction.joint_colour = false;
     state().active_pane = 1;
-    state().alone = state().show_tiles = state().magnifier = state().charts_by_spp = state().mark_negative = true;
-    state().chart_kind = ChartKind::shifts;
-    state().wipe = 0.125f;
+    state().layout.alone = state().show_tiles = state().magnifier = state().layout.charts_by_spp =
+        state().mark_negative = true;
+    state().layout.chart_kind = ChartKind::shifts;
+    state().layout.wipe = 0.125f;
     state().view = ImageView(3.5f, {0.25f, 0.75f});
     state().ranges = {{Buffer::depth, {0.5f, 7, false}}, {Buffer::error_squared, {1e-6f, 1e-2f, true}}};
     state().camera.orbit({30, 10}, 300);
@@ -66,9 +68,10 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     EXPECT_TRUE(other.camera.camera() == camera);
     EXPECT_EQ(other.camera.distance(), state().camera.distance());
     EXPECT_EQ(other.active_pane, 1);
-    EXPECT_TRUE(other.alone && other.show_tiles && other.magnifier && other.charts_by_spp && other.mark_negative);
-    EXPECT_EQ(other.chart_kind, ChartKind::shifts);
-    EXPECT_EQ(other.wipe, 0.125f);
+    EXPECT_TRUE(other.layout.alone && other.show_tiles && other.magnifier && other.layout.charts_by_spp &&
+                other.mark_negative);
+    EXPECT_EQ(other.layout.chart_kind, ChartKind::shifts);
+    EXPECT_EQ(other.layout.wipe, 0.125f);
     EXPECT_TRUE(other.view == state().view);
     EXPECT_TRUE(other.ranges == state().ranges);
     other.scene_name = state().scene_name;
@@ -89,10 +92,10 @@ TEST_F(SettingsFile, TheReferenceIsLoadedAgain) {
     state().companions.reference = std::make_shared<Reference>(Reference{"room.exr", {}, 1});
     const std::string text = settings_json(state());
     apply_settings_json(state(), text, "settings.json");
-    EXPECT_EQ(state().reference_file, ""); // it is that one
+    EXPECT_EQ(state().wishes.open_reference, ""); // it is that one
     state().companions.reference.reset();
     apply_settings_json(state(), text, "settings.json");
-    EXPECT_EQ(state().reference_file, "room.exr");
+    EXPECT_EQ(state().wishes.open_reference, "room.exr");
 }
 
 TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
@@ -205,7 +208,7 @@ TEST(DroppedTogether, TheSettingsCountAfterTheScene) {
 
     const int before = h.state().scenes_shown;
     h.viewer.drop({folder.path / "s.json", folder.path / "other.xml"});
-    h.wait_until([&] { return h.state().scenes_shown > before && h.state().settings_file.empty(); });
+    h.wait_until([&] { return h.state().scenes_shown > before && h.state().wishes.open_settings.empty(); });
     EXPECT_TRUE(h.state().camera.camera() == camera);
     EXPECT_EQ(h.state().view.zoom(), 2);
     for (const PaneState& pane : h.state().panes)

@@ -1,5 +1,6 @@
 // What the path inspector and the slow motion show, saved and taken back.
 
+#include "render/inspect/inspection.h"
 #include "render/io/text.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/state/settings_file.h"

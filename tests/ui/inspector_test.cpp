@@ -1,5 +1,6 @@
 // The path inspector: a pixel is chosen by the mouse, and its sample drawn and listed.
 
+#include "render/inspect/inspection.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/inside/inside.h"
 

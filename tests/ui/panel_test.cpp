@@ -1,3 +1,4 @@
+#include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <gtest/gtest.h>
@@ -190,11 +191,11 @@ TEST_F(PanelTest, MenuRunsActionsOfTheTable) {
     EXPECT_EQ(pane(1).settings.buffer, Buffer::dx);
     click("menu Help");
     click("menu Help/Keys and mouse");
-    EXPECT_TRUE(state().show_help);
+    EXPECT_TRUE(state().layout.show_help);
     frames(2);
     save("help.png");
     click("close_help");
-    EXPECT_FALSE(state().show_help);
+    EXPECT_FALSE(state().layout.show_help);
 }
 
 TEST_F(PanelTest, TooltipAppearsAfterAWhile) {
@@ -256,7 +257,7 @@ TEST_F(PanelTest, KeysFlyAndRunActions) {
     type(Key::digit4);
     EXPECT_EQ(pane(1).settings.buffer, Buffer::dy);
     type(Key::q, true);
-    EXPECT_TRUE(state().quit);
+    EXPECT_TRUE(state().wishes.quit);
 }
 
 } // namespace

@@ -135,11 +135,11 @@ TEST_F(Panes, WipeShowsBothAndItsLineIsDragged) {
     const ControlRect rect = place("pane0.picture");
     const float width = rect.max.x - rect.min.x;
     drag(point(0, 0.5f, 0.6f) + glm::vec2(12, 0), {width * 0.3f, 5});
-    EXPECT_NEAR(state().wipe, 0.8f, 0.02f);
+    EXPECT_NEAR(state().layout.wipe, 0.8f, 0.02f);
     EXPECT_EQ(state().camera.position(), camera);
     EXPECT_GT(distance(0, 1, 0.7f, screen()), 5);
     drag(point(0, 0.8f, 0.6f), {-2 * width, 0});
-    EXPECT_EQ(state().wipe, 0);
+    EXPECT_EQ(state().layout.wipe, 0);
     drag(point(0, 0.4f, 0.6f), {20, 0}); // elsewhere the camera moves
     EXPECT_NE(state().camera.position(), camera);
     type(Key::v);

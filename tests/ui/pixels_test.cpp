@@ -43,7 +43,7 @@ TEST_F(Pixels, DifferencesAreReadAsDifferences) {
     click("pane0.picture");
     type(Key::n);
     move_to(middle_of(0, 20, 20));
-    const auto value = value_at(showing_at(state(), 0, 0.5f), images(), state().cursor->place);
+    const auto value = value_at(showing_at(state(), 0, 0.5f), images(), state().layout.cursor->place);
     ASSERT_TRUE(value);
     const Rgb expected = viewer.pane_image(0).pixels()(20, 20) - viewer.pane_image(1).pixels()(20, 20);
     EXPECT_EQ(*value, expected);
@@ -90,7 +90,7 @@ TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
     coarse->images = images;
     PaneImages looks;
     looks[1].take(coarse.get(), Buffer::primal, {});
-    state().cursor = Cursor{1, {0.5f, 0.5f}, 0.5f};
+    state().layout.cursor = Cursor{1, {0.5f, 0.5f}, 0.5f};
     EXPECT_EQ(cursor_text(state(), looks, 1).substr(0, 8), "(24, 18)");
 }
 

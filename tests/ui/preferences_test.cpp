@@ -57,7 +57,7 @@ TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
     EXPECT_EQ(read_preferences("viewer.json", note).window.size, glm::ivec2(0));
     EXPECT_EQ(read_preferences("viewer.json", note).text_factor, 3.0f);
     EXPECT_EQ(read_preferences("viewer.json", note).panes, most_panes);
-    EXPECT_EQ(read_preferences("viewer.json", note).panel_width, ViewerState::least_panel_width);
+    EXPECT_EQ(read_preferences("viewer.json", note).panel_width, Layout::least_panel_width);
 }
 
 TEST(Preferences, WhatCannotBeReadIsIgnoredWithANote) {
@@ -120,7 +120,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
         h.type(Key::f9);
         h.type(Key::digit4, true);
         h.drag(h.place("panel edge").center(), {-60, 0});
-        EXPECT_GT(h.state().panel_width, 22);
+        EXPECT_GT(h.state().layout.panel_width, 22);
         width = h.place("panel edge").center().x;
     }
     options.panes_as_remembered = true;
@@ -128,8 +128,8 @@ TEST(Remembered, LayoutAndRecentScenes) {
     EXPECT_EQ(h.state().panes.size(), 4u);
     h.frames(2);
     EXPECT_EQ(h.place("panel edge").center().x, width);
-    EXPECT_TRUE(h.state().show_charts);
-    EXPECT_EQ(h.state().theme, Theme::light);
+    EXPECT_TRUE(h.state().layout.show_charts);
+    EXPECT_EQ(h.state().layout.theme, Theme::light);
     ASSERT_EQ(h.state().recent_scenes.size(), 1u);
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).window.size, glm::ivec2(900, 600));
@@ -287,8 +287,8 @@ TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.frames(2);
-        h.state().window_place.position = {30, 40};
-        h.state().window_place.maximised = true;
+        h.state().layout.window.position = {30, 40};
+        h.state().layout.window.maximised = true;
         h.resize({1280, 720});
         h.frames(2);
     }

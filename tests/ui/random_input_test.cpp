@@ -229,7 +229,7 @@ TEST_F(RandomInput, BreaksNothing) {
     for (double said = 0; elapsed() < seconds; ++frames) {
         for (int i = integer(0, 4); i > 0; --i, ++events)
             act();
-        harness_->state().quit = false;
+        harness_->state().wishes.quit = false;
         harness_->frame(real(0.0f, 0.1f));
         check();
         if (HasFatalFailure())

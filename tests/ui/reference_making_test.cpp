@@ -142,7 +142,7 @@ TEST_F(MakeReference, OfAViewThatIsGoneIsNotTaken) {
     h.frames(3);
     EXPECT_TRUE(fs::exists(made));
     EXPECT_EQ(h.state().companions.reference, nullptr);
-    EXPECT_EQ(h.state().reference_file, "");
+    EXPECT_EQ(h.state().wishes.open_reference, "");
     EXPECT_NE(h.state().messages.back().text.find(made.string()), std::string::npos);
     EXPECT_NE(h.state().messages.back().text.find("not opened"), std::string::npos);
 }

@@ -1,5 +1,7 @@
 // Samples that were not finite: told once a request, and opened in the inspector as they were.
 
+#include "render/inspect/inspection.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/panes_fixture.h"
@@ -25,7 +27,7 @@ std::shared_ptr<const Scene> broken_scene() {
 TEST(RefusedSamples, AreReportedOnceARequest) {
     ViewerHarness h;
     h.state().pace.spp_limit = 3;
-    h.state().show_statistics = true;
+    h.state().layout.show_statistics = true;
     h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(3); });
     h.frames(3);
@@ -41,7 +43,7 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
     EXPECT_TRUE(h.has("statistics.refused"));
     h.type(Key::f2);
     h.save("refused.png");
-    h.state().restart = true;
+    h.state().wishes.restart = true;
     h.frame();
     h.wait_until([&] { return h.viewer.settled(3); });
     h.frames(3);
@@ -63,7 +65,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     h.frames(2);
     h.wait_until([&] { return h.viewer.settled(2); });
     h.state().messages = {gpr};
-    h.state().show_messages = true;
+    h.state().layout.show_messages = true;
     h.frames(2);
     h.click("inspect_message0");
     ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
@@ -95,7 +97,7 @@ TEST(RefusedSamples, OpenOneAfterTheOther) {
     ASSERT_EQ(samples.size(), FirstRefused::most);
     samples.resize(3);
     for (const std::size_t i : {0u, 1u, 2u, 0u}) { // and round again
-        h.state().show_messages = true;            // the inspector takes their place
+        h.state().layout.show_messages = true;     // the inspector takes their place
         h.frames(2);
         const SampleChoice sample = h.state().messages[0].samples[i];
         h.save("refused-" + std::to_string(i) + ".png");
@@ -116,14 +118,14 @@ TEST(RefusedSamples, OfAReferenceOpen) {
     h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().reference_making.spp = 2;
-    h.state().reference_making.start = true;
+    h.state().wishes.make_reference = true;
     const auto told = [&] { return h.state().messages.size() > 4; }; // of both halves, and the end
     ASSERT_TRUE(h.wait_until(told));
     h.state().messages.erase(h.state().messages.begin(), h.state().messages.begin() + 2);
     const Message& second = h.state().messages[1];
     EXPECT_EQ(second.text.rfind("The reference: ", 0), 0u) << second.text;
     EXPECT_NE(second.text.find("seed 1002"), std::string::npos) << second.text;
-    h.state().show_messages = true;
+    h.state().layout.show_messages = true;
     h.frames(2);
     h.click("inspect_message1");
     ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));

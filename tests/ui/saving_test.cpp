@@ -115,10 +115,10 @@ TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.rest(2);
-        h.state().save_exr = true;
+        h.state().wishes.save_exr = true;
         testing::internal::CaptureStderr();
         h.frame();
-        h.state().save_exr = true;
+        h.state().wishes.save_exr = true;
         h.frame();
     }
     told = testing::internal::GetCapturedStderr();
@@ -186,7 +186,7 @@ TEST_F(SavedView, IsOfTheActivePaneAndItsDifference) {
     frames(2);
     EXPECT_NE(picture(1).rgb, own.rgb);
     state().panes[1].settings.comparison = {Comparison::Kind::wipe, 0};
-    state().wipe = 0;
+    state().layout.wipe = 0;
     frames(2);
     EXPECT_EQ(picture(1).rgb, own.rgb); // its own, wherever the line is
 }

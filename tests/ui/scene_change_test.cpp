@@ -1,5 +1,6 @@
 // Reloading, dropping files, and what the viewer says meanwhile.
 
+#include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <algorithm>
@@ -111,13 +112,13 @@ TEST_F(SceneChange, BrokenFileLeavesTheOldSceneAndSaysWhereItIsBroken) {
     ASSERT_EQ(state().messages.size(), 1u) << "the same error comes once";
     EXPECT_EQ(state().messages[0].text, file.error);
     EXPECT_EQ(state().messages[0].kind, Message::Kind::error);
-    EXPECT_TRUE(state().show_messages);
+    EXPECT_TRUE(state().layout.show_messages);
     save("broken.png");
     file.error.clear();
     reload();
     EXPECT_NE(state().scene, before);
     EXPECT_TRUE(state().messages.empty());
-    EXPECT_FALSE(state().show_messages);
+    EXPECT_FALSE(state().layout.show_messages);
 }
 
 TEST_F(SceneChange, FirstSceneThatWasBrokenCanBeLoadedAgain) {
@@ -162,11 +163,11 @@ TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
     reload();
     frames(3);
     EXPECT_EQ(state().messages.size(), 501u);
-    EXPECT_FALSE(state().scroll_to_newest);
+    EXPECT_FALSE(state().wishes.scroll_to_newest);
     EXPECT_NE(screen().rgb, top.rgb) << "the list does not show its end";
     save("notes_error.png");
     click("hide_messages"); // the buttons have not been scrolled away
-    EXPECT_FALSE(state().show_messages);
+    EXPECT_FALSE(state().layout.show_messages);
 }
 
 TEST_F(SceneChange, DroppedSceneIsLoaded) {
@@ -249,9 +250,9 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
         frames(2);
         save("cancel_load.png");
         if (by_key) {
-            state().show_help = true;
+            state().layout.show_help = true;
             type(Key::escape); // closes the help alone
-            EXPECT_FALSE(state().show_help);
+            EXPECT_FALSE(state().layout.show_help);
             EXPECT_TRUE(viewer.loading());
             type(Key::escape);
         } else {

@@ -1,3 +1,4 @@
+#include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/viewer/script.h"
 
@@ -46,19 +47,19 @@ TEST_F(Play, KeysMouseAndSettings) {
     EXPECT_EQ(state().active_pane, 0);
     EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::wipe);
     play("drag pane0.picture@0.5,0.5 pane0.picture@0.25,0.5");
-    EXPECT_NEAR(state().wipe, 0.25f, 0.01f);
+    EXPECT_NEAR(state().layout.wipe, 0.25f, 0.01f);
     play("choose pane0.method gpt\nclick \"menu Buffer\"\nclick \"menu Buffer/Primal\"\nkey +");
     EXPECT_EQ(pane(0).settings.render.method, Method::gpt);
     EXPECT_EQ(pane(1).settings.buffer, Buffer::primal);
     EXPECT_EQ(state().tone.exposure, 0.5f);
     play("hold B");
-    EXPECT_TRUE(state().flicker);
+    EXPECT_TRUE(state().layout.flicker);
     play("release B");
-    EXPECT_FALSE(state().flicker);
+    EXPECT_FALSE(state().layout.flicker);
     play("modifiers ctrl\nmove pane1.picture\nwheel 3\nmodifiers none");
     EXPECT_NEAR(state().view.zoom(), 1.953f, 0.01f);
     play("quit");
-    EXPECT_TRUE(state().quit);
+    EXPECT_TRUE(state().wishes.quit);
 }
 
 TEST_F(Play, MeasuresFrames) {

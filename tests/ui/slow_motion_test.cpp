@@ -1,5 +1,6 @@
 // The slow motion: the base paths of one tile arrive one after the other over the active pane's picture.
 
+#include "render/inspect/inspection.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"
@@ -235,8 +236,8 @@ TEST_F(SlowMotionView, StandsChangesOfAllKinds) {
     resize({1, 1});
     frames(3);
     resize({1280, 720});
-    state().theme = Theme::light;
-    state().text_factor = 2.0f;
+    state().layout.theme = Theme::light;
+    state().layout.text_factor = 2.0f;
     frames(30);
     save("slow-motion-200.png");
     type(Key::digit1, true);

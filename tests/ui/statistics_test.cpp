@@ -22,9 +22,9 @@ Snapshot snapshot_of_counts() {
     return snapshot;
 }
 
-const Figure& figure(const std::vector<FigureGroup>& groups, const std::string& id) {
-    for (const FigureGroup& group : groups) {
-        for (const Figure& f : group.figures) {
+const Statistic& figure(const std::vector<StatisticGroup>& groups, const std::string& id) {
+    for (const StatisticGroup& group : groups) {
+        for (const Statistic& f : group.statistics) {
             if (f.id == id)
                 return f;
         }
@@ -33,15 +33,15 @@ const Figure& figure(const std::vector<FigureGroup>& groups, const std::string& 
 }
 
 bool has_figure(const Snapshot& snapshot, const std::string& id) {
-    const std::vector<FigureGroup> groups = statistics(snapshot);
-    return std::any_of(groups.begin(), groups.end(), [&](const FigureGroup& group) {
-        return std::any_of(group.figures.begin(), group.figures.end(),
-                           [&](const Figure& f) { return f.id == id; });
+    const std::vector<StatisticGroup> groups = statistics(snapshot);
+    return std::any_of(groups.begin(), groups.end(), [&](const StatisticGroup& group) {
+        return std::any_of(group.statistics.begin(), group.statistics.end(),
+                           [&](const Statistic& f) { return f.id == id; });
     });
 }
 
 TEST(Statistics, FiguresOfEveryCounter) {
-    const std::vector<FigureGroup> groups = statistics(snapshot_of_counts());
+    const std::vector<StatisticGroup> groups = statistics(snapshot_of_counts());
     EXPECT_EQ(figure(groups, "spp").value, "12");
     EXPECT_EQ(figure(groups, "camera_paths").value, "2000");
     EXPECT_EQ(figure(groups, "path_vertices").value, "2.50");
@@ -56,8 +56,8 @@ TEST(Statistics, FiguresOfEveryCounter) {
     EXPECT_DOUBLE_EQ(*figure(groups, "shifts.ok").share, 0.6);
     EXPECT_DOUBLE_EQ(*figure(groups, "shifts.occluded").share, 0.3);
     EXPECT_DOUBLE_EQ(*figure(groups, "shifts.kind_mismatch").share, 0);
-    for (const FigureGroup& group : groups) {
-        for (const Figure& f : group.figures)
+    for (const StatisticGroup& group : groups) {
+        for (const Statistic& f : group.statistics)
             EXPECT_GT(f.help.size(), 20u) << f.id;
     }
 }

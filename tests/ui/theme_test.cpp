@@ -12,25 +12,25 @@ TEST(Look, TextGrowsByKeysUpToThreeHundredPercent) {
     for (int i = 0; i < 20; ++i)
         h.type(Key::up, true);
     h.frames(2);
-    EXPECT_EQ(h.state().ui_scale(), 3);
+    EXPECT_EQ(h.state().layout.ui_scale(), 3);
     EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 3, 4);
     for (int i = 0; i < 20; ++i)
         h.type(Key::down, true);
     h.frames(2);
-    EXPECT_EQ(h.state().ui_scale(), 1);
+    EXPECT_EQ(h.state().layout.ui_scale(), 1);
 }
 
 TEST(Look, TextIsAsMuchLargerOnAnotherDisplay) {
     ViewerHarness h({1920, 1200}, 1.5f);
     h.frames(2);
-    EXPECT_EQ(h.state().ui_scale(), 1.5f);
+    EXPECT_EQ(h.state().layout.ui_scale(), 1.5f);
     h.type(Key::up, true);
-    EXPECT_EQ(h.state().ui_scale(), 1.75f);
+    EXPECT_EQ(h.state().layout.ui_scale(), 1.75f);
     h.scale_ = 1; // the window is moved there
     h.frames(2);
-    EXPECT_NEAR(h.state().ui_scale(), 1.75f / 1.5f, 1e-5f);
+    EXPECT_NEAR(h.state().layout.ui_scale(), 1.75f / 1.5f, 1e-5f);
     h.type(Key::digit0, true);
-    EXPECT_EQ(h.state().ui_scale(), 1);
+    EXPECT_EQ(h.state().layout.ui_scale(), 1);
 }
 
 TEST(Look, ThemesAreDarkAndLight) {
@@ -48,11 +48,11 @@ TEST(Look, ThemesAreDarkAndLight) {
     EXPECT_LT(lightness_of(panel), 40);
     h.type(Key::f9);
     h.frames(2);
-    EXPECT_EQ(h.state().theme, Theme::light);
+    EXPECT_EQ(h.state().layout.theme, Theme::light);
     EXPECT_GT(lightness_of(panel), 230);
     EXPECT_EQ(h.place("pane1.picture"), picture);          // the same places,
     EXPECT_NEAR(h.brightness("pane1.picture"), before, 1); // and the same pictures
-    h.state().show_statistics = true;
+    h.state().layout.show_statistics = true;
     h.frames(3);
     h.save("light.png");
     h.type(Key::f1);

@@ -44,8 +44,8 @@ ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options
 }
 
 void ViewerHarness::frame(float seconds) {
-    state().display_scale = scale_;
-    gui.set_look(state().ui_scale(), state().theme);
+    state().layout.display_scale = scale_;
+    gui.set_look(state().layout.ui_scale(), state().layout.theme);
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();
@@ -76,9 +76,9 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
 
 void ViewerHarness::finish_saving() {
     wait_until([&] {
-        const ViewerState& s = state();
-        return !s.save_picture && !s.save_charts && !s.save_camera && !s.save_settings && !s.save_exr &&
-               !s.save_view && !viewer.saving();
+        const Wishes& w = state().wishes;
+        return !w.save_picture && !w.save_charts && !w.save_camera && !w.save_settings && !w.save_exr &&
+               !w.save_view && !viewer.saving();
     });
 }
 

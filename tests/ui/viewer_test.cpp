@@ -63,7 +63,7 @@ TEST(Viewer, OldSceneStaysWhenTheNextFails) {
     ASSERT_EQ(h.state().messages.size(), 2u);
     EXPECT_EQ(h.state().messages[0].kind, Message::Kind::note);
     EXPECT_EQ(h.state().messages[1].text, "broken.xml:7:3: no such thing");
-    EXPECT_TRUE(h.state().show_messages);
+    EXPECT_TRUE(h.state().layout.show_messages);
     EXPECT_TRUE(h.has("clear_messages"));
     h.save("messages.png");
     h.click("clear_messages");
@@ -90,7 +90,7 @@ TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
     expect_new(1, true, "camera");
     h.state().size.custom = {40, 30};
     expect_new(0, true, "size");
-    h.state().restart = true;
+    h.state().wishes.restart = true;
     expect_new(1, true, "restart");
     h.state().tone.exposure = 2;
     h.state().panes[0].settings.buffer = Buffer::primal;
@@ -133,7 +133,7 @@ TEST(Viewer, RestsAtItsLimitAndIsThenSettled) {
     EXPECT_EQ(h.pane(0).snapshot->spp, 3);
     EXPECT_EQ(h.pane(1).snapshot->spp, 3);
     EXPECT_EQ(h.pane(1).snapshot->reconstruction_spp, 3);
-    h.state().restart = true;
+    h.state().wishes.restart = true;
     h.frame();
     EXPECT_FALSE(h.viewer.settled(3));
 }
@@ -147,11 +147,11 @@ TEST(Viewer, SurvivesBeingOnePixelLarge) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 300), glm::ivec2(700, 3), glm::ivec2(60, 60)}) {
         h.resize(size);
         h.type(Key::f1);
-        h.state().show_messages = true;
+        h.state().layout.show_messages = true;
         h.frames(2);
         h.type(Key::f1);
     }
-    h.state().show_messages = false;
+    h.state().layout.show_messages = false;
     h.resize({700, 400});
     h.type(Key::r); // some of these sizes may have been taken: there was little to lose
     EXPECT_EQ(h.state().request_size(), before);

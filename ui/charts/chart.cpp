@@ -74,7 +74,8 @@ std::ptrdiff_t labels(const std::vector<ChartTick>& ticks) {
     return std::count_if(ticks.begin(), ticks.end(), [](const ChartTick& tick) { return !tick.label.empty(); });
 }
 
-/// As few digits as make the scale readable; on less than that, steps as on a linear scale.
+/// Ticks at as few digits as make the scale readable. A scale too short for any of these has steps as a linear
+/// one.
 std::vector<ChartTick> log_ticks(double low, double high) {
     const int stride = std::max(1, static_cast<int>(std::ceil(std::log10(high / low) / most_labels)));
     for (std::string_view digits : {"1", "125", "12357"}) {

@@ -68,7 +68,7 @@ struct ChartPlot {
 };
 
 /// Plots side by side, below a title, with one key for all. Written to a file by to_svg, and drawn on the screen
-/// by draw_plot (chart_view.h).
+/// by draw_plot (charts.h).
 struct Chart {
     std::string title;
     std::vector<ChartPlot> plots;

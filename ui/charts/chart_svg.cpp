@@ -11,7 +11,7 @@ namespace tessera {
 
 namespace {
 
-// Pixels.
+// All sizes are in pixels.
 constexpr double frame_width = 400, frame_height = 300;
 constexpr double left_room = 78, right_room = 22, bottom_room = 66, title_height = 46;
 constexpr double key_line = 22, key_sample = 34, letter_width = 7.2;

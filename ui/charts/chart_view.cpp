@@ -2,7 +2,6 @@
 #include "ui/gl/gl.h"
 #include "ui/gl/gui.h"
 #include "ui/gl/theme.h"
-#include "ui/inside/drawing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,14 +54,14 @@ float x_of(double x, const ScreenRect& frame, const ChartAxes& axes) {
     return glm::mix(frame.min.x, frame.max.x, static_cast<float>(axes.x.position(x)));
 }
 
-/// Of what has no place on the scale: the lower end.
+/// What has no place on the scale is drawn at its lower end.
 float y_of(double y, const ScreenRect& frame, const ChartAxes& axes) {
     const float at =
         axes.y.has(y) ? glm::mix(frame.max.y, frame.min.y, static_cast<float>(axes.y.position(y))) : frame.max.y;
     return std::min(at, frame.max.y);
 }
 
-/// One standard error to each side.
+/// Draws one standard error to each side of the point.
 void draw_bar(const ChartPoint& p, const ScreenRect& frame, const ChartAxes& axes, ImU32 colour) {
     if (!std::isfinite(p.error) || p.error <= 0)
         return;
@@ -103,7 +102,7 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
 
 namespace {
 
-/// In sizes of the font: so high that one plot is large, and several can be read.
+/// The picture's size in sizes of the font: so high that one plot is large, and several can be read.
 glm::vec2 size_of_picture(const ViewerState& state) {
     const auto plots = static_cast<float>(viewer_chart(state).plots.size());
     const auto lines = static_cast<float>(line_colours(state).size()); // of numbers, below the plots
@@ -134,7 +133,7 @@ public:
     SideFrame(const SideFrame&) = delete;
     SideFrame& operator=(const SideFrame&) = delete;
 
-    /// Ends it, and fills the framebuffer drawn into.
+    /// Ends the frame, and fills the framebuffer drawn into.
     void draw() const {
         ImGui::Render();
         ImDrawData* drawn = ImGui::GetDrawData();
@@ -220,7 +219,7 @@ std::string chart_svg(const ViewerState& state) {
     for (ChartPlot& plot : chart.plots) {
         for (ChartSeries& series : plot.series) {
             const double slope = slope_of_last_decade(series);
-            if (state.chart_kind == ChartKind::error && std::isfinite(slope))
+            if (state.layout.chart_kind == ChartKind::error && std::isfinite(slope))
                 series.label += fmt::format(" (slope {:.2f})", slope);
         }
     }

@@ -30,7 +30,7 @@ ScreenPixels chart_picture(const ViewerState& state);
 /// for the first.
 std::string chart_csv(const ViewerState& state);
 
-/// The chart that is chosen, and the active pane's histogram.
+/// The chart that is chosen and the active pane's histogram, as a picture of SVG.
 std::string chart_svg(const ViewerState& state);
 
 /// The chart that is chosen. Of errors and efficiencies: one plot with the panes' lines in their order, one for
@@ -43,13 +43,13 @@ Chart viewer_chart(const ViewerState& state);
 /// out; empty: nothing.
 std::string chart_caveat(const ViewerState& state);
 
-/// Those that have shifted paths.
+/// The panes, by place, whose pictures have shifted paths.
 std::vector<std::size_t> shifting_panes(const ViewerState& state);
 
 /// "2  G-PR".
 std::string pane_name(const ViewerState& state, std::size_t pane);
 
-/// Of the lines of each of its plots.
+/// The colours of the lines in each plot of viewer_chart, in their order.
 std::vector<ImU32> line_colours(const ViewerState& state);
 
 /// The outcomes that any pane's shifts have had; empty: there were no shifts.
@@ -58,16 +58,16 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state);
 /// How many pixels of the active pane's picture have which luminance; without lines where it is not known yet.
 ChartPlot histogram_plot(const ViewerState& state);
 
-/// The slope over the last decade of x; not a number while there are too few points (recon/slope.h).
+/// The slope over the last decade of x; not a number while there are too few points (recon/metrics.h).
 double slope_of_last_decade(const ChartSeries& series);
 
 /// 1 / (relMSE x seconds), 1/s.
 double efficiency_of(const ErrorPoint& point);
 
-/// Errors, efficiencies or shifts against time or samples, and the active pane's histogram; only what is to be
-/// shown, while they are drawn large.
+/// Draws errors, efficiencies or shifts against time or samples, and the active pane's histogram; only what is to
+/// be shown, while they are drawn large.
 void draw_charts_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
-/// Chart and histogram without the controls, as large as there is room; over the pictures. Noted as
+/// Draws chart and histogram without the controls, as large as there is room; over the pictures. Noted as
 /// charts.picture.
 void draw_large_charts(const ScreenRect& where, Controls& controls, const ViewerState& state);
 

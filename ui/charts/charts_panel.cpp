@@ -39,7 +39,7 @@ constexpr const char* help_of(ChartKind kind) {
     return "";
 }
 
-/// Takes room of a height, as an item; where it is.
+/// Takes room of a height as an item, and says where it is.
 ScreenRect take_room(float height) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f);
@@ -70,12 +70,12 @@ std::string figures_text(const ViewerState& state, const ChartSeries& series) {
     if (std::isfinite(newest.error) && newest.error > 0)
         std::snprintf(error, sizeof error, " ± %.1g", newest.error);
     std::snprintf(text, sizeof text, "%.3g%s%s   slope %s", newest.y, error,
-                  state.chart_kind == ChartKind::efficiency ? " /s" : "",
+                  state.layout.chart_kind == ChartKind::efficiency ? " /s" : "",
                   slope_text(slope_of_last_decade(series)).c_str());
     return text;
 }
 
-/// For each line of the plot the newest error or efficiency and the slope; and what all of them lack.
+/// Draws for each line of the plot the newest error or efficiency and the slope, and what all of them lack.
 void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
                   const std::vector<ImU32>& colours) {
     float widest = 0;
@@ -100,7 +100,7 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
                                    "independent of each other: errors against both are free of their noise.");
 }
 
-/// A line for each outcome, with the newest share in every pane that has a plot.
+/// Draws a line for each outcome, with the newest share in every pane that has a plot.
 void draw_shares(Controls& controls, const ViewerState& state, const Chart& chart,
                  const std::vector<ImU32>& colours) {
     const float font = ImGui::GetFontSize();
@@ -123,24 +123,25 @@ void draw_shares(Controls& controls, const ViewerState& state, const Chart& char
     controls.note("charts.shares", "The newest share of each outcome, a column for each pane.");
 }
 
-/// The chart that is chosen, `height` of all its plots together, and what it says in numbers.
+/// Draws the chart that is chosen, `height` of all its plots together, and what it says in numbers.
 void draw_chart(Controls& controls, const ViewerState& state, float height) {
     const Chart chart = viewer_chart(state);
     const std::vector<ImU32> colours = line_colours(state);
     if (chart.plots.empty()) {
-        ImGui::TextDisabled(state.chart_kind == ChartKind::shifts ? "No pane has shifted a path"
-                                                                  : "No reference to measure errors against");
+        ImGui::TextDisabled(state.layout.chart_kind == ChartKind::shifts
+                                ? "No pane has shifted a path"
+                                : "No reference to measure errors against");
         return;
     }
     const float each = height / static_cast<float>(chart.plots.size());
     for (std::size_t i = 0; i < chart.plots.size(); ++i) {
         draw_plot(take_room(each), chart.plots[i], colours);
-        controls.note(
-            ("charts." + kinds[static_cast<std::size_t>(state.chart_kind)].id + (i > 0 ? std::to_string(i) : ""))
-                .c_str(),
-            help_of(state.chart_kind));
+        controls.note(("charts." + kinds[static_cast<std::size_t>(state.layout.chart_kind)].id +
+                       (i > 0 ? std::to_string(i) : ""))
+                          .c_str(),
+                      help_of(state.layout.chart_kind));
     }
-    if (state.chart_kind == ChartKind::shifts)
+    if (state.layout.chart_kind == ChartKind::shifts)
         draw_shares(controls, state, chart, colours);
     else
         draw_figures(controls, state, chart.plots.front(), colours);
@@ -148,13 +149,13 @@ void draw_chart(Controls& controls, const ViewerState& state, float height) {
 
 float chart_height(const ViewerState& state) {
     const float font = ImGui::GetFontSize();
-    if (state.chart_kind != ChartKind::shifts)
+    if (state.layout.chart_kind != ChartKind::shifts)
         return font * plot_height;
     const std::size_t plots = shifting_panes(state).size();
     return font * (plots > 1 ? small_plot_height * static_cast<float>(plots) : plot_height);
 }
 
-/// Its bins, on a square root scale; the bright line is what the exposure makes white.
+/// Draws the bins on a square root scale; the bright line is what the exposure makes white.
 void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposure) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto most = static_cast<float>(
@@ -190,7 +191,7 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
                         histogram->not_finite);
 }
 
-/// Which chart, and against what.
+/// Draws the choices of a chart, and of what it is against.
 void draw_choices(Controls& controls, ViewerState& state) {
     static const std::array<ChoiceItem, 2> axes = {{
         {words::chart_axes[0], "against seconds", "Wall time of a pane's own passes."},
@@ -198,46 +199,47 @@ void draw_choices(Controls& controls, ViewerState& state) {
     }};
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float width = std::floor((ImGui::GetContentRegionAvail().x - spacing) * 0.5f);
-    int kind = static_cast<int>(state.chart_kind), axis = state.charts_by_spp;
+    int kind = static_cast<int>(state.layout.chart_kind), axis = state.layout.charts_by_spp;
     controls.bare_choice("charts.kind", kinds[static_cast<std::size_t>(kind)].label.c_str(), kinds, kind, width,
                          "Which chart is shown.");
     ImGui::SameLine();
     controls.bare_choice("charts.axis", axes[static_cast<std::size_t>(axis)].label.c_str(), axes, axis, -FLT_MIN,
                          "What it is shown against.");
-    state.chart_kind = static_cast<ChartKind>(kind);
-    state.charts_by_spp = axis == 1;
+    state.layout.chart_kind = static_cast<ChartKind>(kind);
+    state.layout.charts_by_spp = axis == 1;
 }
 
-/// Where a reference comes from.
+/// Two ways to a reference: one from a file, and one that is made here.
 void draw_reference_buttons(Controls& controls, ViewerState& state) {
     if (controls.button("charts.open_reference", "Open a reference ...", "Chooses an EXR file."))
-        state.choosing = FilePurpose::reference;
+        state.layout.choosing = FilePurpose::reference;
     ImGui::SameLine();
     if (controls.button("charts.make_reference", "Make one ...", "Renders a reference of what the panes show."))
         state.reference_making.show = true;
 }
 
 void draw_chart_buttons(Controls& controls, ViewerState& state) {
-    if (controls.button("charts.large", state.large_charts ? "Small" : "Large",
-                        state.large_charts ? "Draws them here again (Esc)."
-                                           : "Draws chart and histogram over the pictures instead of here."))
-        state.large_charts = !state.large_charts;
+    if (controls.button("charts.large", state.layout.large_charts ? "Small" : "Large",
+                        state.layout.large_charts
+                            ? "Draws them here again (Esc)."
+                            : "Draws chart and histogram over the pictures instead of here."))
+        state.layout.large_charts = !state.layout.large_charts;
     ImGui::SameLine();
     if (controls.button("charts.save", "Save",
                         "Writes the points of all panes and the histogram as CSV, the chart as SVG, and a picture "
                         "of it as PNG, to the current folder."))
-        state.save_charts = true;
+        state.wishes.save_charts = true;
 }
 
 void draw_contents(Controls& controls, ViewerState& state) {
     heading("Charts");
     draw_choices(controls, state);
-    if (!state.large_charts)
+    if (!state.layout.large_charts)
         draw_chart(controls, state, chart_height(state));
-    if (state.chart_kind != ChartKind::shifts && !state.companions.reference)
+    if (state.layout.chart_kind != ChartKind::shifts && !state.companions.reference)
         draw_reference_buttons(controls, state);
     draw_chart_buttons(controls, state);
-    if (state.large_charts)
+    if (state.layout.large_charts)
         return;
     heading("Histogram");
     draw_histogram(controls, state);

@@ -1,8 +1,8 @@
 #include "recon/metrics.h"
 #include "ui/charts/charts.h"
 #include "ui/gl/tone.h"
-#include "ui/state/shift_outcomes.h"
 #include "ui/state/companions.h"
+#include "ui/state/shift_outcomes.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
@@ -29,11 +29,16 @@ const PassHistory<ShiftPoint>& shifts_of(const ViewerState& state, std::size_t p
 
 template <class Point>
 double x_of(const ViewerState& state, const Point& p) {
-    return state.charts_by_spp ? p.spp : p.seconds;
+    return state.layout.charts_by_spp ? p.spp : p.seconds;
 }
 
 ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scale) {
-    return {state.charts_by_spp ? "samples a pixel" : "seconds", std::move(y_label), Scale::log, y_scale, {}, {}};
+    return {state.layout.charts_by_spp ? "samples a pixel" : "seconds",
+            std::move(y_label),
+            Scale::log,
+            y_scale,
+            {},
+            {}};
 }
 
 /// A line of the chart of errors.
@@ -44,7 +49,7 @@ struct PaneLine {
     std::size_t age; // lines of the pane that are newer
 };
 
-/// Which of the pane's lines: as much of its reconstruction as tells it from the others.
+/// The name of one of the pane's lines: as much of its reconstruction as tells it from the others.
 std::string curve_name(std::size_t pane, const ErrorCurve& curve, const std::vector<ErrorCurve>& all) {
     std::string name = method_name(pane, curve.method);
     const auto norms = std::count_if(all.begin(), all.end(), [&](const ErrorCurve& other) {
@@ -71,7 +76,7 @@ std::vector<PaneLine> error_lines(const ViewerState& state) {
 }
 
 ChartPlot error_plot(const ViewerState& state) {
-    const bool is_error = state.chart_kind == ChartKind::error;
+    const bool is_error = state.layout.chart_kind == ChartKind::error;
     ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
     for (const PaneLine& line : error_lines(state)) {
         ChartSeries series{line.name, {}, false, true};
@@ -97,7 +102,7 @@ ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
     return plot;
 }
 
-/// Darker on a light ground, where words are written in it.
+/// The colour, made darker on a light ground, where words are written in it.
 ImU32 readable(ImU32 colour, Theme theme) {
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(colour);
     const float share = theme == Theme::light ? 0.72f : 1.0f;
@@ -113,7 +118,7 @@ ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
     return ImGui::ColorConvertFloat4ToU32(c);
 }
 
-/// The newest of a pane's lines in its colour, older ones fainter.
+/// The newest of a pane's lines has its colour, older ones a fainter one.
 ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(pane_colour(state, line.pane));
     c.w *= 1 / (1 + 0.8f * static_cast<float>(line.age));
@@ -168,7 +173,7 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
 Chart viewer_chart(const ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     Chart chart{fmt::format("{}: {}x{}", state.scene_name, size.x, size.y), {}};
-    if (state.chart_kind == ChartKind::shifts) {
+    if (state.layout.chart_kind == ChartKind::shifts) {
         for (std::size_t pane : shifting_panes(state))
             chart.plots.push_back(shift_plot(state, pane));
     } else if (state.companions.reference) {
@@ -179,12 +184,12 @@ Chart viewer_chart(const ViewerState& state) {
 
 std::vector<ImU32> line_colours(const ViewerState& state) {
     std::vector<ImU32> colours;
-    if (state.chart_kind == ChartKind::shifts)
+    if (state.layout.chart_kind == ChartKind::shifts)
         for (ShiftOutcome outcome : seen_outcomes(state))
-            colours.push_back(readable(outcome_colour(outcome), state.theme));
+            colours.push_back(readable(outcome_colour(outcome), state.layout.theme));
     else
         for (const PaneLine& line : error_lines(state))
-            colours.push_back(readable(line_colour(state, line), state.theme));
+            colours.push_back(readable(line_colour(state, line), state.layout.theme));
     return colours;
 }
 

@@ -142,8 +142,8 @@ const Value& Controls::draft_of(const char* id, const Value& value) const {
     return draft ? *draft : value;
 }
 
-/// To be called after the item, with what it has made of the draft. `at_once`: it is complete, as after Enter.
-/// Tells whether the value has changed.
+/// Takes what the item just drawn has made of the draft, once it is complete (`at_once`, as after Enter) or the
+/// item is left. Tells whether the value has changed.
 template <class Value>
 bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Value& value) {
     if (at_once || ImGui::IsItemDeactivatedAfterEdit()) {
@@ -159,7 +159,7 @@ bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Valu
     return false;
 }
 
-/// Of ImGuiDataType.
+/// The ImGuiDataType of the value.
 template <class Value>
 constexpr int data_type() {
     if constexpr (std::is_same_v<Value, double>)

@@ -10,17 +10,16 @@
 #include <variant>
 
 #include <glm/vec2.hpp>
-
 #include <imgui.h>
 
 namespace tessera {
 
-/// Of a window beside the pictures: it stays where it is, and scrolls.
+/// For a window beside the pictures: it stays where it is, and scrolls.
 inline constexpr ImGuiWindowFlags side_panel_flags =
     (ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
 
-/// Of one over them.
+/// For a window over the pictures.
 inline constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
 
@@ -47,25 +46,25 @@ public:
     /// `time` in seconds.
     void begin_frame(double time);
 
-    /// Wide as the row; the choice's items are noted as "id/item id" while the list is open.
+    /// A choice is as wide as the row; its items are noted as "id/item id" while the list is open.
     bool choice(const char* id, const char* label, std::span<const ChoiceItem> items, int& index,
                 const char* help);
-    /// The same of a given width and without a label, showing `shown` instead of the item's label.
+    /// A choice of a given width and without a label, showing `shown` instead of the item's label.
     bool bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index, float width,
                      const char* help);
     bool slider(const char* id, const char* label, int& value, int least, int most, const char* help);
     bool slider(const char* id, const char* label, float& value, float least, float most, const char* format,
                 const char* help);
-    /// Logarithmic. If `least` is 0, the left end is 0 and reads "off".
+    /// A slider on a logarithmic scale. If `least` is 0, the left end is 0 and reads "off".
     bool log_slider(const char* id, const char* label, float& value, float least, float most, const char* help);
     /// What is typed is taken with Enter, and when the control is left.
     bool number(const char* id, const char* label, int& value, int least, int most, const char* help);
     bool number(const char* id, const char* label, double& value, double least, double most, const char* help);
     bool number(const char* id, const char* label, std::uint64_t& value, const char* help);
-    /// Taken likewise; empty text shows `hint`.
+    /// What is typed is taken as a number's is; empty text shows `hint`.
     bool text(const char* id, const char* label, std::string& value, const char* hint, const char* help);
     bool toggle(const char* id, const char* label, bool& value, const char* help);
-    /// No row of its own: as wide as its label, or `width`.
+    /// A button has no row of its own: it is as wide as its label, or `width`.
     bool button(const char* id, const char* label, const char* help, float width = 0);
 
     /// A row's label, for what is drawn without these widgets: the item after it fills the row.
@@ -74,13 +73,13 @@ public:
     /// explains itself, such as a menu.
     void note(const char* id, const char* help);
 
-    /// The same of an area that is no item.
+    /// Notes an area that is no item, without explaining it.
     void note_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
 
     /// Ids of what has been noted without help since the last frame began.
     const std::set<std::string, std::less<>>& unexplained() const { return unexplained_; }
 
-    /// By id, of this frame or the last whole one.
+    /// Where controls lie, by id, in this frame or the last whole one.
     const std::map<std::string, ControlRect, std::less<>>& rects() const { return rects_; }
 
     /// Whether a tooltip is about to appear, so that a frame is due soon though nothing happens.

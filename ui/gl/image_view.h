@@ -38,7 +38,7 @@ public:
     void pan(glm::vec2 pixels, glm::ivec2 image_size, glm::ivec2 pane_size);
     /// Shows a part of the image, fractions of it, as large as the pane allows.
     void show(glm::vec2 min, glm::vec2 max, glm::ivec2 image_size, glm::ivec2 pane_size);
-    /// The whole picture, in the middle.
+    /// Shows the whole picture, in the middle.
     void fit() { *this = ImageView(); }
 
     float zoom() const { return zoom_; } ///< 1: the whole picture fits
@@ -57,7 +57,7 @@ struct PictureFrame {
     glm::ivec2 pixels{1};    ///< of the place, in the framebuffer
     Placement placement;     ///< of the picture in it, framebuffer pixels
 
-    /// Between points of the screen and fractions of the image.
+    /// The fraction of the image at a point of the screen; to_screen() is its inverse.
     glm::vec2 to_image(glm::vec2 screen) const { return placement.to_image((screen - rect.min) * pixels_a_unit); }
     glm::vec2 to_screen(glm::vec2 place) const {
         return rect.min + (placement.origin + place * placement.extent) / pixels_a_unit;

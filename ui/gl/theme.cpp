@@ -1,5 +1,6 @@
 #include "ui/gl/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
@@ -204,6 +205,11 @@ ImU32 method_colour(Method method) {
         return IM_COL32(76, 200, 176, 255);
     }
     return colours::text;
+}
+
+ImU32 with_alpha(ImU32 colour, float alpha) {
+    const auto bits = static_cast<ImU32>(std::clamp(alpha, 0.0f, 1.0f) * 255);
+    return (colour & ~IM_COL32_A_MASK) | (bits << IM_COL32_A_SHIFT);
 }
 
 } // namespace tessera

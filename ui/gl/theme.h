@@ -34,11 +34,11 @@ ImFont* bold_font();
 /// A font of one width, for text with columns: error messages point into lines of files.
 ImFont* mono_font();
 
-/// Those of the theme that was applied last.
+/// The colours of the theme that was applied last.
 namespace colours {
 extern ImU32 text, dim_text, accent, error, warning, line, panel;
 
-// Of boxes over pictures, in every theme.
+// Boxes over pictures have these in every theme.
 inline constexpr ImU32 overlay = IM_COL32(20, 22, 26, 215);
 inline constexpr ImU32 overlay_text = IM_COL32(226, 228, 233, 255);
 inline constexpr ImU32 overlay_dim_text = IM_COL32(146, 151, 163, 255);
@@ -48,5 +48,8 @@ inline constexpr ImU32 overlay_accent = IM_COL32(64, 196, 178, 255);
 
 /// The colour that stands for a method wherever methods are compared.
 ImU32 method_colour(Method method);
+
+/// The colour with another opacity, in [0, 1].
+ImU32 with_alpha(ImU32 colour, float alpha);
 
 } // namespace tessera

@@ -1,5 +1,6 @@
 #include "ui/inside/drawing.h"
 
+#include "render/inspect/inspection.h"
 #include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
@@ -82,11 +83,6 @@ namespace {
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 150);
 
 } // namespace
-
-ImU32 with_alpha(ImU32 colour, float alpha) {
-    const auto bits = static_cast<ImU32>(std::clamp(alpha, 0.0f, 1.0f) * 255);
-    return (colour & ~IM_COL32_A_MASK) | (bits << IM_COL32_A_SHIFT);
-}
 
 SceneLines::SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth)
     : frame_(frame), projection_(camera, size), size_(size), least_depth_(least_depth) {}

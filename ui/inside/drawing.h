@@ -3,6 +3,7 @@
 #include "render/inspect/inspection.h"
 #include "render/scene/camera.h"
 #include "ui/gl/image_view.h"
+#include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 
 #include <string>
@@ -26,9 +27,9 @@ public:
     /// The edges of one pixel, within it.
     void frame(glm::ivec2 pixel, ImU32 colour, float width) const;
     void outline(PixelRect rect, ImU32 colour, float width) const;
-    /// Around all pixels of the set that are its border, or all that are not.
+    /// Draws a line around all pixels of the set that are its border, or all that are not.
     void outline(const InspectedSet& set, bool border, ImU32 colour, float width) const;
-    /// From one pixel's middle toward another's, a share of the way.
+    /// An arrow from one pixel's middle toward another's, over a share of the way.
     void arrow(glm::ivec2 from, glm::ivec2 to, float share, ImU32 colour, float width) const;
 
 private:
@@ -40,9 +41,6 @@ namespace set_colours {
 inline constexpr ImU32 inner = IM_COL32(64, 196, 178, 255), border = IM_COL32(255, 168, 51, 255);
 }
 
-/// With another opacity, in [0, 1].
-ImU32 with_alpha(ImU32 colour, float alpha);
-
 /// Draws lines and points of the scene, as a camera sees them, into the current window.
 class SceneLines {
 public:
@@ -51,12 +49,12 @@ public:
     SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth);
 
     void line(glm::vec3 from, glm::vec3 to, ImU32 colour, float width) const;
-    /// Plain on bright pictures, too.
+    /// A line with dark edges, plain on bright pictures, too.
     void outlined_line(glm::vec3 from, glm::vec3 to, ImU32 colour, float width) const;
     void point(glm::vec3 p, ImU32 colour, float radius) const;
     /// A small square, without an edge: for thousands of them.
     void dot(glm::vec3 p, ImU32 colour, float width) const;
-    /// Beside the point.
+    /// Writes the text beside the point.
     void name(glm::vec3 p, const std::string& text, ImU32 colour) const;
 
 private:

@@ -21,11 +21,11 @@ struct SpaceSubject {
     float scene_radius = 1;
 };
 
-/// Draws it into the current window, where the cursor is, as an item "space": a drag turns it, a drag with Shift
-/// or the middle button moves it, the wheel comes nearer, a double click shows the whole path.
+/// Draws the subject into the current window, where the cursor is, as an item "space": a drag turns it, a drag
+/// with Shift or the middle button moves it, the wheel comes nearer, a double click shows the whole path.
 void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& view, Controls& controls);
 
-/// Those of the shifts of an inspection that are shown.
+/// The shifts of an inspection that its direction selects for show.
 std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector);
 
 /// Draws the inspected sample over the picture of its pane: the base path in white, light samples in yellow, and
@@ -34,10 +34,10 @@ std::vector<const InspectedShift*> shown_shifts(const Inspector& inspector);
 /// called within the pane's window.
 void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int pane, const ViewerState& state);
 
-/// The vertices of the base path, or of the shift whose row is chosen; `width` in screen units.
+/// Lists the vertices of the base path, or of the shift whose row is chosen; `width` in screen units.
 void draw_vertex_table(const Inspector& inspector, float width, Controls& controls);
 
-/// The shifts on show, a row each. The one under the mouse is marked, a click chooses.
+/// Lists the shifts on show, a row each. The one under the mouse is marked, a click chooses.
 void draw_shift_table(Inspector& inspector, float width, Controls& controls);
 
 /// Radiance as a luminance, and numbers, in four digits.
@@ -48,7 +48,7 @@ std::string short_text(glm::ivec2 pixel);
 
 /// Whether the slow motion has a tile to show.
 bool has_slow_motion(const ViewerState& state);
-/// Whether it is this pane's.
+/// Whether the tile of the slow motion is this pane's.
 bool shows_slow_motion(int pane, const ViewerState& state);
 
 /// Draws the tile over the picture of its pane: its parts, the sampling set at hand with its border, what every

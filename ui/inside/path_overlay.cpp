@@ -1,3 +1,5 @@
+#include "render/inspect/inspection.h"
+#include "render/scene/scene.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"

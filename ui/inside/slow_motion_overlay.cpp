@@ -1,3 +1,4 @@
+#include "render/inspect/inspection.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"
@@ -51,7 +52,7 @@ private:
         }
     }
 
-    /// Into what the tile is cut.
+    /// Draws what the tile is cut into.
     void draw_parts() const {
         for (const InspectedSet& part : slow_.tile->sets)
             drawing_.outline(part, false, part_colour, line_ * 0.6f);
@@ -77,7 +78,7 @@ private:
         }
     }
 
-    /// At the edge of the pixel, as numbers stand within.
+    /// Draws at the edge of the pixel, as numbers stand within.
     void draw_mark(const InspectedShift& s) const {
         const ImVec2 a = drawing_.corner(s.to), b = drawing_.corner(s.to + 1);
         const float in = std::max((b.x - a.x) * 0.06f, line_);

@@ -1,3 +1,5 @@
+#include "render/inspect/inspection.h"
+#include "render/scene/scene.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"
@@ -149,7 +151,7 @@ void draw_story(const ViewerState& state, Controls& controls) {
                   "the pixels: above the light, below the weight.");
 }
 
-/// Over all base paths of the tile: how many have arrived, and how many are skipped.
+/// Draws how many base paths of the tile have arrived, and how many are skipped.
 void draw_progress(const SlowMotion& slow, float width) {
     const int count = slow.tile->base_count();
     const float height = std::floor(ImGui::GetFontSize() * 0.5f), step = width / static_cast<float>(count);

@@ -1,3 +1,4 @@
+#include "render/inspect/inspection.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"
 

@@ -43,13 +43,14 @@ public:
     };
     using Work = std::function<Result(std::stop_token)>;
 
-    /// Starts, unless this is what was asked for last, be it under way, done or failed.
+    /// Starts the work, unless this is what was asked for last, be it under way, done or failed.
     void ask(Request request, Work work, std::function<void()> on_done) {
         if (!(asked_ == request))
             start(std::move(request), std::move(work), std::move(on_done));
     }
 
-    /// Starts in any case. `on_done` is called from the job's thread once take() has the outcome; it may be empty.
+    /// Starts the work in any case. `on_done` is called from the job's thread once take() has the outcome; it may
+    /// be empty.
     void start(Request request, Work work, std::function<void()> on_done) {
         cancel();
         asked_ = std::move(request);

@@ -23,7 +23,7 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     for (std::size_t slot = 0; slot < jobs_.size(); ++slot)
         take(state, slot);
-    const bool wants_histograms = state.show_charts || state.large_charts || state.save_charts;
+    const bool wants_histograms = state.layout.shows_charts() || state.wishes.save_charts;
     state.histograms_due = false;
     for (const PaneState& pane : state.panes) {
         Job& job = jobs_[static_cast<std::size_t>(pane.slot)];
@@ -47,11 +47,9 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     if (!source || !(reference || wants_histogram))
         return;
     const Snapshot& s = *pane.snapshot;
-    const Method method = s.settings.method;
-    const Request request{
-        source,          reference,
-        wants_histogram, s.generation,
-        method,          has_gradients(method) ? s.reconstructed_with : ReconstructionSettings{Norm::none}};
+    Request request{source, reference, wants_histogram, s.generation, s.settings.method, s.reconstructed_with};
+    if (!has_gradients(request.method))
+        request.reconstruction = {Norm::none};
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {
@@ -93,7 +91,7 @@ ChartJob::Measured ChartJob::measure(const Snapshot& s, const Request& request) 
     return measured;
 }
 
-/// To the line of those made in the same way, which becomes the last.
+/// Adds the point to the line of pictures made in the same way, which becomes the last line.
 void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Request& request, const ErrorPoint& point) {
     const auto same = std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& c) {
         return c.method == request.method && c.reconstruction == request.reconstruction;
@@ -120,7 +118,7 @@ void ChartJob::take(ViewerState& state, std::size_t slot) {
     }
     if (!outcome)
         return;
-    state.redraw = true;
+    state.wishes.redraw = true;
     if (!outcome->result)
         return state.add_message(Message::Kind::error, "What charts show was not measured: " + outcome->error);
     const Request& request = outcome->request;

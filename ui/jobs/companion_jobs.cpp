@@ -1,7 +1,9 @@
 #include "ui/jobs/companion_jobs.h"
 
+#include "render/run/first_hits.h"
 #include "render/run/reference_image.h"
 #include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
 #include "ui/state/companions.h"
 
 #include <algorithm>
@@ -28,7 +30,7 @@ std::shared_ptr<const Reference> load_reference(const std::filesystem::path& fil
     return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
 }
 
-/// Saved settings name it, and may be read from another folder.
+/// The file by its full name: saved settings have it, and may be read from another folder.
 std::string in_full(const std::string& file) {
     std::error_code gone; // the current folder
     const std::filesystem::path path = std::filesystem::absolute(file, gone);
@@ -70,13 +72,13 @@ void CompanionJobs::read_reference(std::string file, const std::function<void()>
 }
 
 void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
-    if (std::exchange(state.cancel_reference, false) && reference_.running()) {
+    if (std::exchange(state.wishes.cancel_reference, false) && reference_.running()) {
         state.add_message(Message::Kind::note, "Reading " + reference_.asked()->file + " was given up.");
         reference_.cancel();
     }
     // Before the next one starts: that can be given up for a frame at least.
     const auto outcome = reference_.take();
-    if (std::string file = in_full(std::exchange(state.reference_file, {})); !file.empty())
+    if (std::string file = in_full(std::exchange(state.wishes.open_reference, {})); !file.empty())
         read_reference(std::move(file), wake);
     state.reference_read = reference_.running() ? std::optional(reference_.asked()->share->load()) : std::nullopt;
     if (!outcome)
@@ -89,7 +91,8 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
     state.add_message(Message::Kind::note, "The reference is now " + state.companions.reference->name);
 }
 
-/// Once for each reference and scene, as either may come first; the camera is the one that it is seen with then.
+/// Checks once for each reference and scene, as either may come first; the camera is the one that it is seen with
+/// then.
 void CompanionJobs::check_reference(ViewerState& state, const std::function<void()>& wake) {
     const auto& reference = state.companions.reference;
     const Check now{reference, state.scene};
@@ -111,7 +114,7 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
         wake);
 }
 
-/// Whatever the size that was traced.
+/// Whether the view is what the panes show, at whatever fraction of the size it was traced.
 bool CompanionJobs::is_of(const std::optional<View>& view, const ViewerState& state) {
     return view && *view == View{state.scene, state.camera.camera(), state.request_size(), view->divisor};
 }
@@ -125,7 +128,7 @@ void CompanionJobs::take_first_hits(ViewerState& state) {
         else if (outcome->request.scene == scene) {
             companions.first_hits = *outcome->result;
             hit_ = outcome->request;
-            state.redraw = true;
+            state.wishes.redraw = true;
         }
     }
     if (!hit_ || hit_->scene != scene) // of a camera moved on they may stay for the moment

@@ -3,6 +3,7 @@
 #include "render/inspect/inspection.h"
 #include "render/run/first_hits.h"
 #include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +25,7 @@ std::string outside_text(glm::ivec2 pixel, glm::ivec2 size) {
                        size.x, size.y);
 }
 
-/// Where it was not kept, that of a late pass takes a while.
+/// The plan of the pass. To learn that of a late pass again takes a while.
 ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
     return o.plan ? *o.plan : replay_plan(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
 }
@@ -47,7 +48,7 @@ void InspectionJob::take(ViewerState& state) {
     inspector.generation = asked.generation;
     inspector.scene_radius = found.scene_radius;
     inspector.inspection = found.inspection;
-    state.redraw = true;
+    state.wishes.redraw = true;
     if (!outcome->result)
         state.add_message(Message::Kind::error, outcome->error);
 }
@@ -68,12 +69,13 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     }
 }
 
-/// Of whatever pass.
+/// Whether this sample of this request was asked for last, of whatever pass.
 bool InspectionJob::has_asked(const PassOrigin& origin, const SampleChoice& sample) const {
     return job_.asked() && job_.asked()->generation == origin.generation && job_.asked()->sample == sample;
 }
 
-/// Null: its pane shows nothing yet that could be looked at. A given pass needs no picture.
+/// What the sample is taken from again. Null: its pane shows nothing yet that could be looked at, as it must
+/// unless a pass is given.
 std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& state,
                                                            const SampleChoice& sample) const {
     if (sample.origin)
@@ -90,7 +92,7 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
         PassOrigin{state.scene, s->camera, size, s->settings, s->plan, s->generation});
 }
 
-/// The newest, where none is given; it then stays, unless the inspector follows.
+/// The pass to look at: the newest, where none is given, which then stays unless the inspector follows.
 int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const {
     if (sample.pass)
         return *sample.pass;
@@ -142,7 +144,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     if (const auto outcome = job_.take()) {
         if (outcome->result) {
             slow.take(*outcome->result, outcome->request.sample.slot, outcome->request.generation);
-            state.space.fits = state.redraw = true;
+            state.space.fits = state.wishes.redraw = true;
         } else {
             state.add_message(Message::Kind::error, outcome->error);
         }
@@ -163,8 +165,8 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         ask(state, wake);
 }
 
-/// A tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in the
-/// middle.
+/// Chooses a tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in
+/// the middle.
 void SlowMotionJob::choose(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (slow.sample && slow.sample->slot == state.active().slot)
@@ -176,8 +178,8 @@ void SlowMotionJob::choose(ViewerState& state) {
         pixel = slow.sample->pixel;
     else if (inspector.sample)
         pixel = inspector.sample->pixel;
-    else if (state.cursor && state.cursor->pane == state.active_pane)
-        pixel = glm::ivec2(state.cursor->place * size);
+    else if (state.layout.cursor && state.layout.cursor->pane == state.active_pane)
+        pixel = glm::ivec2(state.layout.cursor->place * size);
     slow.start({state.active().slot, pixel, {}});
 }
 
@@ -252,7 +254,7 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
         const bool first = state.space.surroundings == nullptr;
         state.space.surroundings = *outcome->result;
         state.space.fits = state.space.fits || first;
-        state.redraw = true;
+        state.wishes.redraw = true;
     }
     if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
         return;

@@ -79,9 +79,9 @@ private:
 
 void ReferenceJob::update(ViewerState& state, int threads, const std::function<void()>& wake) {
     ReferenceMaking& making = state.reference_making;
-    if (std::exchange(making.start, false) && !job_.running() && state.scene)
+    if (std::exchange(state.wishes.make_reference, false) && !job_.running() && state.scene)
         start(state, threads, wake);
-    if (std::exchange(making.cancel, false))
+    if (std::exchange(state.wishes.stop_making, false))
         job_.stop();
     if (const auto outcome = job_.take()) {
         take(state, *outcome);
@@ -151,7 +151,7 @@ void ReferenceJob::take(ViewerState& state, const Job::Outcome& outcome) {
                                   is_on_show ? "" : ". It is not opened: the panes show another view by now"));
     state.reference_making.show = false;
     if (is_on_show)
-        state.reference_file = file;
+        state.wishes.open_reference = file;
 }
 
 } // namespace tessera

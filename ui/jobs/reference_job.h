@@ -14,7 +14,7 @@ namespace tessera {
 /// to those of the panes. Its end, like a cancellation, waits for the pass under way and leaves a checkpoint.
 class ReferenceJob {
 public:
-    /// To be called every frame: fulfils the wishes of state.reference_making, and tells how far it is. What is
+    /// To be called every frame: fulfils the wishes to make a reference, and tells how far it is. What is
     /// complete becomes the reference of the state if its scene, camera and size are still what the panes show.
     /// `threads` as in ThreadPool; `wake` is called from another thread when there is something new.
     void update(ViewerState& state, int threads, const std::function<void()>& wake);

@@ -2,7 +2,6 @@
 
 #include "render/load/load_progress.h"
 #include "render/load/mitsuba_xml.h"
-#include "render/scene/scene.h"
 #include "ui/jobs/background_job.h"
 
 #include <chrono>
@@ -14,6 +13,8 @@
 #include <vector>
 
 namespace tessera {
+
+class Scene;
 
 /// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
 /// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose
@@ -32,7 +33,7 @@ struct SceneOrigin {
     }
 };
 
-/// Of a scene file.
+/// Makes the origin of a scene file.
 using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
 
 /// How a load ended.

@@ -89,10 +89,10 @@ void draw_buttons(Controls& controls, ViewerState& state) {
     if (making.is_making()) {
         if (controls.button("reference.cancel", "Cancel",
                             "Ends it after the pass under way; made again, it goes on from there.", width))
-            making.cancel = true;
+            state.wishes.stop_making = true;
     } else if (controls.button("reference.make", "Make", "Renders it in the background; the panes go first.",
                                width)) {
-        making.start = state.scene != nullptr;
+        state.wishes.make_reference = state.scene != nullptr;
     }
     ImGui::SameLine();
     if (controls.button("reference.close", "Close", "Closes this window; what is being made goes on (Esc).",
@@ -129,7 +129,7 @@ void draw_fields(Controls& controls, SampleForm& form, glm::ivec2 size) {
 }
 
 void draw_sample_buttons(Controls& controls, ViewerState& state) {
-    SampleForm& form = state.sample_form;
+    SampleForm& form = state.layout.sample_form;
     const float width = ImGui::GetFontSize() * 7;
     if (controls.button("sample.inspect", "Inspect", "Opens the sample in the path inspector.", width)) {
         state.inspect(form.pixel, form.pass, form.seed);
@@ -145,7 +145,7 @@ void draw_sample_buttons(Controls& controls, ViewerState& state) {
 void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state) {
     draw_dialog("Inspect a sample", screen, 26, [&] {
         const glm::ivec2 size = state.request_size();
-        draw_fields(controls, state.sample_form, size);
+        draw_fields(controls, state.layout.sample_form, size);
         dim_text(fmt::format(
             "Of the active pane: {}, {} x {} pixels. That of another render is the same only if scene, "
             "camera, size, method and settings are.",

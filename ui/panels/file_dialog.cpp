@@ -39,11 +39,11 @@ std::string with_slash(const fs::path& folder) {
 } // namespace
 
 void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) {
-    if (!state.choosing) {
+    if (!state.layout.choosing) {
         purpose_.reset();
         return;
     }
-    const bool is_new = purpose_ != state.choosing;
+    const bool is_new = purpose_ != state.layout.choosing;
     if (is_new)
         begin(state);
     constexpr const char* id = "###choose a file";
@@ -65,19 +65,19 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     draw_buttons(controls, state);
     if (!chosen_.empty()) {
         const std::string file = chosen_.string();
-        (*purpose_ == FilePurpose::scene       ? state.open_scene
-         : *purpose_ == FilePurpose::reference ? state.reference_file
-                                               : state.settings_file) = file;
-        state.choosing.reset();
+        (*purpose_ == FilePurpose::scene       ? state.wishes.open_scene
+         : *purpose_ == FilePurpose::reference ? state.wishes.open_reference
+                                               : state.wishes.open_settings) = file;
+        state.layout.choosing.reset();
     }
-    if (!state.choosing)
+    if (!state.layout.choosing)
         ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
-/// Where the scene on show lies, or in the current folder.
+/// Begins where the scene on show lies, or in the current folder.
 void FileDialog::begin(const ViewerState& state) {
-    purpose_ = state.choosing;
+    purpose_ = state.layout.choosing;
     chosen_.clear();
     folder_.clear();
     const fs::path& scene = state.scene_source.file;
@@ -202,7 +202,7 @@ void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     ImGui::PopStyleVar();
     ImGui::SameLine();
     if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
-        state.choosing.reset();
+        state.layout.choosing.reset();
     if (!is_file && !typed.beginning.empty()) {
         ImGui::SameLine();
         ImGui::TextDisabled("There is no such file");

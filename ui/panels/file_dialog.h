@@ -17,7 +17,7 @@ namespace tessera {
 /// clicked.
 class FileDialog {
 public:
-    /// Draws it while state.choosing says what for. What is chosen becomes a wish of the state.
+    /// Draws it while state.layout.choosing says what for. What is chosen becomes a wish of the state.
     void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
 
 private:
@@ -35,8 +35,8 @@ private:
     std::optional<FilePurpose> purpose_; // of what is on show
     std::array<char, 4096> text_{};
     bool wants_focus_ = false, wants_cursor_last_ = false; // the text, which was put there
-    std::filesystem::path folder_;                         // that is listed, ...
-    std::vector<FileEntry> entries_;                       // ... and what is in it
+    std::filesystem::path folder_;                         // that is listed
+    std::vector<FileEntry> entries_;                       // of the folder
     std::string filter_;                                   // the beginning that was typed, not clicked
     std::string error_;                                    // why there is nothing to choose
     std::filesystem::path chosen_;                         // empty: nothing yet

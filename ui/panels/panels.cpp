@@ -31,7 +31,7 @@ void draw_recent_scenes(Controls& controls, ViewerState& state) {
         const std::filesystem::path path(file);
         const std::string name = (path.parent_path().filename() / path.filename()).string();
         if (ImGui::MenuItem((name + "##recent" + std::to_string(i)).c_str()))
-            state.open_scene = file;
+            state.wishes.open_scene = file;
         controls.note(("menu File/recent " + std::to_string(i)).c_str(), ("Opens " + file).c_str());
     }
 }
@@ -78,14 +78,14 @@ void draw_references_under_way(Controls& controls, ViewerState& state) {
                                               "A reference is being read. A click gives it up (Esc): what errors "
                                               "are measured against stays.",
                                               controls))
-        state.cancel_reference = true;
+        state.wishes.cancel_reference = true;
     const auto& making = state.reference_making.progress;
     if (making && progress_item("making", "Reference", static_cast<float>(making->share()),
                                 "A reference is being made: shows or hides how far it is.", controls))
         state.reference_making.show = !state.reference_making.show;
 }
 
-// At the right end of the menu bar: the scene, and whether there is something to read.
+// Draws at the right end of the menu bar: the scene, and whether there is something to read.
 void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     const std::size_t count = state.messages.size();
     const bool errors = std::any_of(state.messages.begin(), state.messages.end(),
@@ -106,7 +106,7 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
     if (ImGui::MenuItem((button + "##messages").c_str()))
-        state.show_messages = !state.show_messages;
+        state.layout.show_messages = !state.layout.show_messages;
     ImGui::PopStyleColor();
     controls.note("messages", "Shows or hides the messages (F2).");
 }
@@ -209,17 +209,17 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
     if (ImGui::Begin("Messages", nullptr, overlay_flags)) {
         if (controls.button("clear_messages", "Clear", "Forgets all messages.")) {
             state.messages.clear();
-            state.show_messages = false;
+            state.layout.show_messages = false;
         }
         ImGui::SameLine();
         if (controls.button("hide_messages", "Hide", "Hides the list; F2 shows it again."))
-            state.show_messages = false;
+            state.layout.show_messages = false;
         // The buttons stay where they are while the list is scrolled.
         ImGui::BeginChild("list");
         int index = 0;
         for (Message& message : state.messages)
             draw_message(message, index++, controls, state);
-        if (std::exchange(state.scroll_to_newest, false))
+        if (std::exchange(state.wishes.scroll_to_newest, false))
             ImGui::SetScrollHereY(1.0f);
         ImGui::EndChild();
     }
@@ -243,7 +243,7 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
         draw_gesture_table();
         ImGui::EndChild();
         if (controls.button("close_help", "Close", "Closes this page (F1, ? or Esc)."))
-            state.show_help = false;
+            state.layout.show_help = false;
     }
     ImGui::End();
     ImGui::PopStyleVar(2);
@@ -269,7 +269,7 @@ void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& stat
         list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
         ImGui::SetCursorScreenPos({min.x + pad, min.y + 1.5f * pad + text_size.y});
         if (controls.button("cancel_load", "Cancel", "Gives the scene up; the one on show stays (Esc)."))
-            state.cancel_load = true;
+            state.wishes.cancel_scene = true;
         if (progress.total > 0) {
             const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
             const float left = min.x + pad, right = max.x - pad, bottom = max.y - pad * 0.5f;
@@ -300,10 +300,10 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
                                             colours::accent);
     }
     if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0)
-        state.panel_width = std::clamp((ImGui::GetIO().DisplaySize.x - ImGui::GetIO().MousePos.x) / line,
-                                       ViewerState::least_panel_width, ViewerState::most_panel_width);
+        state.layout.panel_width = std::clamp((ImGui::GetIO().DisplaySize.x - ImGui::GetIO().MousePos.x) / line,
+                                              Layout::least_panel_width, Layout::most_panel_width);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        state.panel_width = ViewerState().panel_width;
+        state.layout.panel_width = Layout().panel_width;
     controls.note("panel edge", "Drag: how wide the panels are. Double click: as at first.");
     ImGui::End();
 }

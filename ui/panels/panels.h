@@ -14,7 +14,7 @@ namespace tessera {
 /// The menus of all actions, across the top; returns its height, screen units.
 float draw_menu_bar(Controls& controls, ViewerState& state);
 
-/// Settings of the active pane (of all, when linked), of the picture and its size.
+/// Draws the settings of the active pane (of all, when linked), of the picture and its size.
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
 /// The edge between `pictures` and the panels to their right, which the mouse can drag.
@@ -32,7 +32,7 @@ void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// All actions and gestures, over everything.
+/// Draws all actions and gestures, over everything.
 void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 
 /// What is being loaded and how far that is, over the pictures, and a button to give it up.

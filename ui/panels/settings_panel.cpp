@@ -124,14 +124,14 @@ void draw_run_buttons(Controls& controls, ViewerState& state) {
     const char* icon = state.paused ? icons().play : icons().pause;
     const std::string pause = std::string(icon) + (*icon ? "  " : "") + (state.paused ? "Resume" : "Pause");
     if (controls.button("restart", restart.c_str(), "Renders all panes anew from the first sample (R).", width))
-        state.restart = true;
+        state.wishes.restart = true;
     ImGui::SameLine();
     if (controls.button("pause", pause.c_str(), "Stops and resumes the rendering (Space).", width))
         state.paused = !state.paused;
     ImGui::SameLine();
     if (controls.button("step", "Step", "Pauses, and adds one sample a pixel in every pane (.).", width)) {
         state.paused = true;
-        ++state.steps;
+        ++state.wishes.steps;
     }
 }
 
@@ -191,9 +191,9 @@ void draw_reference_settings(Controls& controls, ViewerState& state) {
             "reference", "File", file, "an EXR file",
             "EXR file with the image to measure errors against (7, 8, 9): type its name, or drop it on the "
             "window."))
-        state.reference_file = file;
+        state.wishes.open_reference = file;
     if (controls.button("reference_open", "Open ...", "Chooses an EXR file."))
-        state.choosing = FilePurpose::reference;
+        state.layout.choosing = FilePurpose::reference;
     ImGui::SameLine();
     if (controls.button("reference_make", "Make ...", "Renders a reference of what the panes show."))
         state.reference_making.show = true;

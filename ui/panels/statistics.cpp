@@ -3,8 +3,8 @@
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panels/panels.h"
-#include "ui/state/shift_outcomes.h"
 #include "ui/state/buffer.h"
+#include "ui/state/shift_outcomes.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string decimal(double number) {
     return text;
 }
 
-FigureGroup paths(const Snapshot& snapshot) {
+StatisticGroup paths(const Snapshot& snapshot) {
     const Counters& c = snapshot.counters;
     return {"Paths of " + std::string(paper_name(snapshot.settings.method)),
             {{"spp", "samples a pixel", std::to_string(snapshot.spp), {}, "Passes over the whole picture so far."},
@@ -53,21 +53,21 @@ FigureGroup paths(const Snapshot& snapshot) {
               "Surface vertices a base path: its mean length."}}};
 }
 
-FigureGroup rays(const Counters& c) {
-    FigureGroup group{"Rays", {{"rays", "all", count_text(c.all_rays()), {}, "Rays shot in all passes."}}};
+StatisticGroup rays(const Counters& c) {
+    StatisticGroup group{"Rays", {{"rays", "all", count_text(c.all_rays()), {}, "Rays shot in all passes."}}};
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
         const std::string_view kind = to_string(static_cast<RayKind>(i));
         if (c.rays[i] > 0)
-            group.figures.push_back({"rays." + std::string(kind), in_words(kind), count_text(c.rays[i]),
-                                     ratio(c.rays[i], c.all_rays()), ray_help[i]});
+            group.statistics.push_back({"rays." + std::string(kind), in_words(kind), count_text(c.rays[i]),
+                                        ratio(c.rays[i], c.all_rays()), ray_help[i]});
     }
     return group;
 }
 
 /// How often base paths were reused, as in [Bauszat 2017, Table 1].
-FigureGroup reuse(const Counters& c) {
+StatisticGroup reuse(const Counters& c) {
     const std::uint64_t all = c.set_paths();
-    FigureGroup group{
+    StatisticGroup group{
         "Base paths",
         {{"reused", "reused", count_text(c.reused_paths), ratio(c.reused_paths, all),
           "Base paths that were shifted to the other pixels of their sampling set, of all in sampling sets: those "
@@ -79,7 +79,7 @@ FigureGroup reuse(const Counters& c) {
          {"dark", "dark", count_text(c.dark_paths), ratio(c.dark_paths, all),
           "Base paths without any light that could be reused."}}};
     if (c.skipped_light_paths > 0)
-        group.figures.push_back(
+        group.statistics.push_back(
             {"skipped_light",
              "skipped by weight",
              count_text(c.skipped_light_paths),
@@ -88,19 +88,19 @@ FigureGroup reuse(const Counters& c) {
     return group;
 }
 
-FigureGroup shifts(const Counters& c) {
+StatisticGroup shifts(const Counters& c) {
     const std::uint64_t all = c.shift_attempts();
-    FigureGroup group{"Shifts",
-                      {{"shifts",
-                        "a camera path",
-                        decimal(ratio(all, c.camera_paths)),
-                        {},
-                        "Shifts of a base path to one other pixel, a camera path."}}};
+    StatisticGroup group{"Shifts",
+                         {{"shifts",
+                           "a camera path",
+                           decimal(ratio(all, c.camera_paths)),
+                           {},
+                           "Shifts of a base path to one other pixel, a camera path."}}};
     for (std::size_t i = 0; i < c.shifts.size(); ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
         const std::string_view name = to_string(outcome);
-        group.figures.push_back({"shifts." + std::string(name), in_words(name), count_text(c.shifts[i]),
-                                 ratio(c.shifts[i], all), outcome_help(outcome)});
+        group.statistics.push_back({"shifts." + std::string(name), in_words(name), count_text(c.shifts[i]),
+                                    ratio(c.shifts[i], all), outcome_help(outcome)});
     }
     return group;
 }
@@ -126,9 +126,9 @@ std::string count_text(std::uint64_t count) {
     return text;
 }
 
-std::vector<FigureGroup> statistics(const Snapshot& snapshot) {
+std::vector<StatisticGroup> statistics(const Snapshot& snapshot) {
     const Counters& c = snapshot.counters;
-    std::vector<FigureGroup> groups{paths(snapshot), rays(c)};
+    std::vector<StatisticGroup> groups{paths(snapshot), rays(c)};
     if (c.set_paths() > 0)
         groups.push_back(reuse(c));
     if (c.shift_attempts() > 0)
@@ -159,7 +159,7 @@ void draw_bar(ImDrawList& list, ImVec2 min, ImVec2 max, double share, ImU32 colo
     list.AddRectFilled(min, {filled, max.y}, colour);
 }
 
-void draw_figure(Controls& controls, const Figure& figure, ImU32 bar_colour) {
+void draw_statistic(Controls& controls, const Statistic& figure, ImU32 bar_colour) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = ImGui::GetTextLineHeight();
     ImGui::Dummy({width, height});
@@ -192,10 +192,10 @@ void draw_refused(Controls& controls, const Snapshot& snapshot) {
 
 void draw_contents(Controls& controls, const Snapshot& snapshot) {
     const ImU32 colour = method_colour(snapshot.settings.method);
-    for (const FigureGroup& group : statistics(snapshot)) {
+    for (const StatisticGroup& group : statistics(snapshot)) {
         heading(group.title.c_str());
-        for (const Figure& figure : group.figures)
-            draw_figure(controls, figure, colour);
+        for (const Statistic& figure : group.statistics)
+            draw_statistic(controls, figure, colour);
     }
     draw_refused(controls, snapshot);
 }

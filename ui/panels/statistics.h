@@ -10,7 +10,7 @@
 namespace tessera {
 
 /// One number of a render's counters, ready to be shown.
-struct Figure {
+struct Statistic {
     std::string id; ///< "rays.camera"
     std::string label;
     std::string value;           ///< may be empty where the share says all
@@ -18,13 +18,13 @@ struct Figure {
     std::string help;
 };
 
-struct FigureGroup {
+struct StatisticGroup {
     std::string title;
-    std::vector<Figure> figures;
+    std::vector<Statistic> statistics;
 };
 
 /// What the snapshot's counters say, in groups. What its method does not do, or what did not happen, has no group.
-std::vector<FigureGroup> statistics(const Snapshot& snapshot);
+std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
 
 /// "9999", "12.3 k", "4.56 M", "7.89 G".
 std::string count_text(std::uint64_t count);

@@ -17,7 +17,7 @@ namespace tessera {
 
 namespace {
 
-// As in canvas.frag.glsl.
+// These are the colours of canvas.frag.glsl.
 constexpr glm::vec3 zero_colour(0.10f, 0.10f, 0.11f), plus_colour(1.00f, 0.66f, 0.20f),
     minus_colour(0.26f, 0.62f, 1.00f);
 constexpr int signed_steps = 16; // to each side of zero: sRGB's curve is no line
@@ -146,7 +146,7 @@ bool has_picture(const Showing& showing, const PaneTools& tools) {
     return has(showing.pane) && (showing.subtrahend < 0 || has(showing.subtrahend));
 }
 
-/// Of gradients, or of a difference, which has a unit if both its buffers have.
+/// The legend of gradients, or of a difference, which has a unit if both its buffers have.
 Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
     const BufferInfo& about = info(buffer_of(showing.pane, state));
     if (showing.subtrahend < 0)
@@ -164,7 +164,7 @@ bool is_of_earlier_view(const Showing& showing, const ViewerState& state) {
            (has_first_hits(showing.pane) || has_first_hits(showing.subtrahend));
 }
 
-/// Without text: the picture needs none.
+/// The legend of a picture; one without text if it needs none.
 Legend legend_of(const Showing& showing, const PaneTools& tools) {
     const Buffer buffer = buffer_of(showing.pane, tools.state);
     Legend legend;
@@ -194,8 +194,8 @@ void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pan
     const Sides sides = sides_of(state, pane);
     const bool same = sides.left.subtrahend == sides.right.subtrahend &&
                       buffer_of(sides.left.pane, state) == buffer_of(sides.right.pane, state);
-    const bool left_is_seen = !sides.divided() || state.wipe > 0;
-    const bool right_is_seen = sides.divided() && state.wipe < 1;
+    const bool left_is_seen = !sides.divided() || state.layout.wipe > 0;
+    const bool right_is_seen = sides.divided() && state.layout.wipe < 1;
     drawn_ = {};
     ScreenRect room = frame.rect;
     if (left_is_seen)

@@ -29,12 +29,13 @@ struct Legend {
 };
 inline constexpr float widest_legend = 24; ///< that has entries: in sizes of the font
 
-/// Of a buffer's false colours. Its bar is for dragging.
+/// The legend of a buffer's false colours, whose bar is for dragging.
 Legend false_colour_legend(Buffer buffer, const ValueRange& range);
-/// Of +/- colours at an exposure, stops. `about` and `scale`: what the numbers are, and what they are shown times.
+/// The legend of +/- colours at an exposure in stops. `about` says what the numbers are, which are shown times
+/// `scale`.
 Legend signed_legend(const std::string& about, const std::string& unit, float scale, float exposure);
 
-/// Of the colours of the outcomes of shifts.
+/// The legend of the outcomes of shifts.
 Legend outcome_legend();
 
 /// Where a legend lies; empty: it was not drawn, or has no bar.

@@ -23,8 +23,8 @@ struct PaneTools {
 /// The strip above a pane's picture: method and buffer.
 void draw_pane_header(const std::string& id, Controls& controls, PaneState& pane);
 
-/// The line below a picture: method, why it rests, samples a pixel, seconds, rays a second, reconstruction
-/// with its solver's steps and time, or one that is under way for long.
+/// The text of the line below a picture: method, why it rests, samples a pixel, seconds, rays a second,
+/// reconstruction with its solver's steps and time, or one that is under way for long.
 std::string status_text(const ViewerState& state, int pane);
 
 /// "waiting for pane 2 (3:10 of 10:00)": another pane catches up with what this one has had. Empty: it does not
@@ -37,14 +37,14 @@ std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about)
 /// Pixel and number at the cursor in what the pane shows; empty where there is none. Of a first look, too, the
 /// pixel is one of the size that is asked for.
 std::string cursor_text(const ViewerState& state, const PaneImages& images, int pane);
-/// What these numbers are, and their unit.
+/// What the numbers at the cursor are, and their unit.
 std::string cursor_help(const Showing& showing, const ViewerState& state);
 
-/// Draws both in a line: the status gives way.
+/// Draws status and cursor in a line, in which the status gives way.
 void draw_status(const std::string& id, int pane, const ViewerState& state, const PaneImages& images,
                  Controls& controls);
 
-/// With as many of three digits as seven characters have room for: "0.0123", "-1e-05".
+/// The value with as many of three digits as seven characters have room for: "0.0123", "-1e-05".
 std::string short_number(float value);
 
 /// Writes the value of each pixel into it, in the unit that the status line shows, where pixels are large enough
@@ -55,7 +55,7 @@ bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& 
 /// is fractions of it.
 CanvasView magnified(const CanvasView& view, glm::ivec2 image_size, glm::vec2 place, int pixels);
 
-/// Edge of the magnifier, framebuffer pixels.
+/// The length of the magnifier's edges, framebuffer pixels.
 int magnifier_pixels(const PictureFrame& frame);
 
 /// Draws the magnifier's rendition over the picture, about a place of the image, with a frame around its pixel.
@@ -87,8 +87,6 @@ glm::vec2 grab_position();
 
 /// The mouse over the item just drawn, which is the picture of `frame`.
 PaneMouse read_mouse(const PictureFrame& frame);
-
-/// The line that divides two pictures in a pane, and the names of what a comparison shows.
 
 /// Whether a point of the screen is near enough to the line to take hold of it.
 bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point);

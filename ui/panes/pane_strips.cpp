@@ -1,7 +1,7 @@
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
-#include "ui/state/shift_outcomes.h"
 #include "ui/panes/pane_parts.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -92,13 +92,13 @@ bool is_done(const Snapshot& snapshot, const Pace& pace) {
            (pace.seconds_limit > 0 && snapshot.seconds >= pace.seconds_limit);
 }
 
-/// Of the request that is out; null: none yet.
+/// The pane's picture of the request that is out; null: there is none yet.
 const Snapshot* snapshot_of_request(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
     return s && s->generation == pane.generation && !s->coarse() ? s : nullptr;
 }
 
-/// Whatever the others do.
+/// Whether nothing more will come of the pane, whatever the others do.
 bool is_at_rest(const PaneState& pane, const Pace& pace) {
     const Snapshot* s = snapshot_of_request(pane);
     return pane.failed || (s && is_done(*s, pace));
@@ -206,10 +206,10 @@ std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about)
 }
 
 std::string cursor_text(const ViewerState& state, const PaneImages& images, int pane) {
-    if (!state.cursor)
+    if (!state.layout.cursor)
         return "";
-    const glm::vec2 place = state.cursor->place;
-    const Showing showing = showing_at(state, pane, state.cursor->share);
+    const glm::vec2 place = state.layout.cursor->place;
+    const Showing showing = showing_at(state, pane, state.layout.cursor->share);
     const std::optional<Rgb> value = value_at(showing, images, place);
     if (!value)
         return "";
@@ -266,7 +266,7 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
         return;
     ImGui::SetCursorScreenPos({left, at.y});
     ImGui::Dummy({std::min(width, room), height});
-    const Showing showing = showing_at(state, pane, state.cursor->share);
+    const Showing showing = showing_at(state, pane, state.layout.cursor->share);
     controls.note((id + ".value").c_str(), cursor_help(showing, state).c_str());
 }
 

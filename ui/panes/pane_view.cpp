@@ -1,5 +1,6 @@
 #include "ui/panes/pane_view.h"
 
+#include "render/inspect/inspection.h"
 #include "ui/gl/gui.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"
@@ -33,7 +34,7 @@ void draw_notice(const ScreenRect& where, const std::string& text) {
 
 // What lies to the left and to the right of a wipe's line.
 std::array<ScreenRect, 2> side_rects(const PictureFrame& frame, const ViewerState& state) {
-    const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.wipe));
+    const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.layout.wipe));
     return {{{frame.rect.min, {middle, frame.rect.max.y}}, {{middle, frame.rect.min.y}, frame.rect.max}}};
 }
 
@@ -143,10 +144,10 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
     frame.placement = state.view.place(image_size, frame.pixels);
 
     if (ImGui::IsItemHovered())
-        state.cursor = {index, frame.to_image(mouse_position()),
-                        (mouse_position().x - frame.rect.min.x) / frame.rect.size().x};
-    else if (state.cursor && state.cursor->pane == index)
-        state.cursor.reset();
+        state.layout.cursor = {index, frame.to_image(mouse_position()),
+                               (mouse_position().x - frame.rect.min.x) / frame.rect.size().x};
+    else if (state.layout.cursor && state.layout.cursor->pane == index)
+        state.layout.cursor.reset();
 }
 
 /// The pixel under the mouse is to be looked at.
@@ -168,8 +169,8 @@ PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools
     const glm::vec2 point = grab_position();
     Grip grip;
     grip.range = legends_.held_at(point, tools);
-    if (!grip.range && sides_of(tools.state, index).divided() && is_on_wipe(frame, tools.state.wipe, point))
-        grip.wipe = point.x - glm::mix(frame.rect.min.x, frame.rect.max.x, tools.state.wipe);
+    if (!grip.range && sides_of(tools.state, index).divided() && is_on_wipe(frame, tools.state.layout.wipe, point))
+        grip.wipe = point.x - glm::mix(frame.rect.min.x, frame.rect.max.x, tools.state.layout.wipe);
     return grip;
 }
 
@@ -177,7 +178,7 @@ PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools
 void PaneView::drag(const PictureFrame& frame, ViewerState& state) const {
     const float x = mouse_position().x;
     if (grip_.wipe)
-        state.wipe = std::clamp((x - *grip_.wipe - frame.rect.min.x) / frame.rect.size().x, 0.0f, 1.0f);
+        state.layout.wipe = std::clamp((x - *grip_.wipe - frame.rect.min.x) / frame.rect.size().x, 0.0f, 1.0f);
     else if (x != grip_.range->from || state.ranges.count(grip_.range->buffer) > 0)
         state.ranges[grip_.range->buffer] = grip_.range->at(x);
 }
@@ -226,7 +227,7 @@ void PaneView::draw_missing(int index, const PictureFrame& frame, const ViewerSt
     draw_notice(rects[1], missing_text(sides.right, state));
 }
 
-/// Who shares light with whom, on each side of a wipe's line.
+/// Draws who shares light with whom, on each side of a wipe's line.
 void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerState& state) {
     const Sides sides = sides_of(state, index);
     const auto draw = [&](const Showing& showing, const ScreenRect& clip) {
@@ -234,7 +235,8 @@ void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerSta
             return;
         const auto& snapshot = state.panes[static_cast<std::size_t>(showing.pane)].snapshot;
         if (state.show_tiles && snapshot)
-            draw_tiles(frame, clip, *snapshot, state.cursor ? std::optional(state.cursor->place) : std::nullopt);
+            draw_tiles(frame, clip, *snapshot,
+                       state.layout.cursor ? std::optional(state.layout.cursor->place) : std::nullopt);
         draw_inspected_paths(frame, clip, showing.pane, state);
         draw_slow_motion(frame, clip, showing.pane, state);
     };
@@ -248,16 +250,16 @@ void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerSta
 /// Which of several panes the settings and keys are for.
 void PaneView::draw_active_frame(int index, const PictureFrame& frame, const ViewerState& state) {
     const ScreenRect& rect = frame.rect;
-    if (index == state.active_pane && state.panes.size() > 1 && !state.alone)
+    if (index == state.active_pane && state.panes.size() > 1 && !state.layout.alone)
         ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
 }
 
 void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools) {
-    if (!tools.state.cursor)
+    if (!tools.state.layout.cursor)
         return;
-    const Showing showing = showing_at(tools.state, index, tools.state.cursor->share);
+    const Showing showing = showing_at(tools.state, index, tools.state.layout.cursor->share);
     const PaneImage& image = image_of(showing, tools);
-    const glm::vec2 place = tools.state.cursor->place;
+    const glm::vec2 place = tools.state.layout.cursor->place;
     if (image.empty() || !value_at(showing, tools.images, place))
         return;
     const glm::ivec2 size(image.pixels().width(), image.pixels().height());

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int characters = 7; // "-0.0123": what a pixel must have room for, in three lines
 
-/// Readable on bright pixels, too.
+/// Draws text that can be read on bright pixels, too.
 void draw_shadowed(ImDrawList& list, float font, ImVec2 at, const char* text) {
     const float edge = std::max(std::floor(font / 14), 1.0f);
     list.AddText(mono_font(), font, {at.x + edge, at.y + edge}, IM_COL32(0, 0, 0, 230), text);

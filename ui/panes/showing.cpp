@@ -76,13 +76,13 @@ Showing showing_at(const ViewerState& state, int pane, float share) {
     const int other = state.compared_with(pane);
     if (other == pane)
         return {pane};
-    if (state.flicker && pane == state.active_pane)
+    if (state.layout.flicker && pane == state.active_pane)
         return {other};
     switch (settings(state, pane).comparison.kind) {
     case Comparison::Kind::off:
         break;
     case Comparison::Kind::wipe:
-        return {share < state.wipe ? pane : other};
+        return {share < state.layout.wipe ? pane : other};
     case Comparison::Kind::difference:
         return {pane, other};
     }

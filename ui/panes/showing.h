@@ -23,18 +23,18 @@ public:
 
     bool empty() const { return texture_.empty(); }
     const RgbImage& pixels() const { return *pixels_; }
-    /// What differences are taken of: the pixels, ...
+    /// The pixels, of which differences are taken.
     const ImageTexture& numbers() const { return texture_; }
-    /// ... and what is shown by itself: the same, but for a buffer with colours of its own.
+    /// What is shown by itself: the pixels, or the colours of a buffer that has its own.
     const ImageTexture& texture() const { return colours_.empty() ? texture_ : colours_; }
     Buffer buffer() const { return buffer_; }
     bool coarse() const { return coarse_; }
-    /// Of false colours: what fits the first picture of the request, and stays while more samples come, so that
-    /// one can see the numbers fall.
+    /// The range of false colours that fits the first picture of the request. It stays while more samples come, so
+    /// that one can see the numbers fall.
     const ValueRange& range() const { return range_; }
     int uploads() const { return texture_.serial(); }
 
-    /// The value at a place given as fractions of the image. Not if empty.
+    /// The value at a place given as fractions of the image, which must not be empty.
     const Rgb& at(glm::vec2 place) const;
     /// How the shifts to the pixel there ended; null: the image is of something else.
     const ReuseCounts* outcomes_at(glm::vec2 place) const;

@@ -158,7 +158,7 @@ private:
     std::vector<int> columns_;
 };
 
-/// In the lower right corner, where no other box is.
+/// Draws a box with the text in the lower right corner, where no other box is.
 void draw_text(const ScreenRect& where, const std::string& text) {
     const float pad = std::floor(ImGui::GetFontSize() * 0.4f);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());

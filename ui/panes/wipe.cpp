@@ -78,7 +78,7 @@ void draw_comparison(const PictureFrame& frame, const std::string& id, int pane,
     if (!sides.divided()) {
         draw_label(frame, (frame.rect.min.x + frame.rect.max.x) * 0.5f, 0.5f, sides.left, state);
     } else {
-        const float x = line_x(frame, state.wipe);
+        const float x = line_x(frame, state.layout.wipe);
         draw_label(frame, x, 1, sides.left, state);
         draw_label(frame, x, 0, sides.right, state);
         draw_line(frame, x);

@@ -1,3 +1,4 @@
+#include "render/inspect/inspection.h"
 #include "ui/state/actions.h"
 #include "ui/state/words.h"
 
@@ -38,11 +39,11 @@ void next_grid(ViewerState& state) {
 
 void step_pass(ViewerState& state) {
     state.paused = true;
-    ++state.steps;
+    ++state.wishes.steps;
 }
 
 void step_ui_scale(ViewerState& state, float by) {
-    state.set_ui_scale(std::round(state.ui_scale() * 4) / 4 + by);
+    state.layout.set_ui_scale(std::round(state.layout.ui_scale() * 4) / 4 + by);
 }
 
 void next_tone(ViewerState& state) {
@@ -50,8 +51,8 @@ void next_tone(ViewerState& state) {
 }
 
 void toggle_charts(ViewerState& state) {
-    state.show_charts = !state.show_charts;
-    state.large_charts = state.large_charts && state.show_charts;
+    state.layout.show_charts = !state.layout.show_charts;
+    state.layout.large_charts = state.layout.large_charts && state.layout.show_charts;
 }
 
 void toggle_inspector(ViewerState& state) {
@@ -59,7 +60,7 @@ void toggle_inspector(ViewerState& state) {
 }
 
 void open_sample_form(ViewerState& state) {
-    SampleForm& form = state.sample_form;
+    SampleForm& form = state.layout.sample_form;
     form.seed = state.active().settings.render.seed;
     if (const auto& sample = state.inspector.sample) {
         form.pixel = sample->pixel;
@@ -112,43 +113,44 @@ using State = ViewerState;
 
 constexpr Action table[] = {
     {"File", "Open scene ...", "Chooses a Mitsuba scene, an .xml file.", ctrl(Key::o), no_shortcut,
-     [](State& s) { s.choosing = FilePurpose::scene; }, nullptr},
+     [](State& s) { s.layout.choosing = FilePurpose::scene; }, nullptr},
     {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
-     key(Key::f5), no_shortcut, [](State& s) { s.reload = true; }, nullptr},
+     key(Key::f5), no_shortcut, [](State& s) { s.wishes.reload = true; }, nullptr},
     {"File", "Open reference ...", "Chooses an EXR file to measure errors against.", ctrl(Key::r), no_shortcut,
-     [](State& s) { s.choosing = FilePurpose::reference; }, nullptr},
+     [](State& s) { s.layout.choosing = FilePurpose::reference; }, nullptr},
     {"File", "Make reference ...",
      "Renders a reference of what the panes show, in the background; after an end it goes on from its checkpoint.",
      ctrl(Key::m), no_shortcut, [](State& s) { s.reference_making.show = true; }, nullptr},
     {"File", "Load settings ...", "Chooses settings or a camera that was saved, a .json file.", ctrl(Key::l),
-     no_shortcut, [](State& s) { s.choosing = FilePurpose::settings; }, nullptr},
+     no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::settings; }, nullptr},
     {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
-     key(Key::f12), [](State& s) { s.save_picture = true; }, nullptr},
+     key(Key::f12), [](State& s) { s.wishes.save_picture = true; }, nullptr},
     {"File", "Save view",
      "Writes the active pane's buffer, a pixel for each of its pixels and in the colours on show, to a PNG file "
      "in "
      "the current folder.",
-     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.save_view = true; }, nullptr},
+     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.wishes.save_view = true; }, nullptr},
     {"File", "Save as EXR",
      "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
      "settings to an EXR file in the current folder.",
-     ctrl(Key::e), no_shortcut, [](State& s) { s.save_exr = true; }, nullptr},
+     ctrl(Key::e), no_shortcut, [](State& s) { s.wishes.save_exr = true; }, nullptr},
     {"File", "Save settings",
      "Writes panes, camera, size, display and what is inspected to a JSON file in the current folder.",
-     ctrl(Key::p), no_shortcut, [](State& s) { s.save_settings = true; }, nullptr},
+     ctrl(Key::p), no_shortcut, [](State& s) { s.wishes.save_settings = true; }, nullptr},
     {"File", "Save charts",
      "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "
      "current "
      "folder.",
-     key(Key::z), no_shortcut, [](State& s) { s.save_charts = true; }, nullptr},
-    {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.quit = true; }, nullptr},
+     key(Key::z), no_shortcut, [](State& s) { s.wishes.save_charts = true; }, nullptr},
+    {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.wishes.quit = true; },
+     nullptr},
 
     {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
      [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
     {"Render", "Step one pass", "Pauses, and adds one sample a pixel in every pane.", character('.'), no_shortcut,
      step_pass, nullptr},
     {"Render", "Restart", "Renders all panes anew from the first sample.", key(Key::r), no_shortcut,
-     [](State& s) { s.restart = true; }, nullptr},
+     [](State& s) { s.wishes.restart = true; }, nullptr},
     {"Render", "Next method", "The next method in the active pane.", key(Key::m), no_shortcut,
      [](State& s) { step_method(s, 1); }, nullptr},
     {"Render", "Previous method", "The previous method in the active pane.", shift(Key::m), no_shortcut,
@@ -243,23 +245,26 @@ constexpr Action table[] = {
     {"View", "Fit picture", "Shows the whole picture: undoes zooming and panning.", key(Key::f), no_shortcut,
      [](State& s) { s.set_view({}); }, nullptr},
     {"View", "Light theme", "Dark text on light panels, or the other way round.", key(Key::f9), no_shortcut,
-     [](State& s) { s.theme = s.theme == Theme::dark ? Theme::light : Theme::dark; },
-     [](const State& s) { return s.theme == Theme::light; }},
+     [](State& s) { s.layout.theme = s.layout.theme == Theme::dark ? Theme::light : Theme::dark; },
+     [](const State& s) { return s.layout.theme == Theme::light; }},
     {"View", "Larger text", "Text and controls a quarter larger, up to 300 %.", ctrl(Key::up), no_shortcut,
      [](State& s) { step_ui_scale(s, 0.25f); }, nullptr},
     {"View", "Smaller text", "Text and controls a quarter smaller, down to 100 %.", ctrl(Key::down), no_shortcut,
      [](State& s) { step_ui_scale(s, -0.25f); }, nullptr},
     {"View", "Text as the display says", "Text and controls at the scale of the display.", ctrl(Key::digit0),
-     no_shortcut, [](State& s) { s.text_factor = 1; }, [](const State& s) { return s.text_factor == 1; }},
+     no_shortcut, [](State& s) { s.layout.text_factor = 1; },
+     [](const State& s) { return s.layout.text_factor == 1; }},
     {"View", "Settings", "Shows or hides the settings.", key(Key::p), no_shortcut,
-     [](State& s) { s.show_panel = !s.show_panel; }, [](const State& s) { return s.show_panel; }},
+     [](State& s) { s.layout.show_panel = !s.layout.show_panel; },
+     [](const State& s) { return s.layout.show_panel; }},
     {"View", "Statistics", "Shows or hides what the active pane's render has counted: rays, reuse, shifts.",
-     key(Key::t), no_shortcut, [](State& s) { s.show_statistics = !s.show_statistics; },
-     [](const State& s) { return s.show_statistics; }},
+     key(Key::t), no_shortcut, [](State& s) { s.layout.show_statistics = !s.layout.show_statistics; },
+     [](const State& s) { return s.layout.show_statistics; }},
     {"View", "Charts", "Shows or hides how errors fall, efficiency, how shifts end, and a histogram.", key(Key::h),
-     no_shortcut, toggle_charts, [](const State& s) { return s.show_charts; }},
+     no_shortcut, toggle_charts, [](const State& s) { return s.layout.show_charts; }},
     {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
-     [](State& s) { s.show_messages = !s.show_messages; }, [](const State& s) { return s.show_messages; }},
+     [](State& s) { s.layout.show_messages = !s.layout.show_messages; },
+     [](const State& s) { return s.layout.show_messages; }},
 
     {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
      has_panes<1>},
@@ -270,7 +275,8 @@ constexpr Action table[] = {
     {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
     {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
     {"Panes", "Only the active pane", "Gives it all the room; the others go on rendering.", key(Key::o),
-     no_shortcut, [](State& s) { s.alone = !s.alone; }, [](const State& s) { return s.alone; }},
+     no_shortcut, [](State& s) { s.layout.alone = !s.layout.alone; },
+     [](const State& s) { return s.layout.alone; }},
     {"Panes", "Wipe",
      "Divides the active pane by a line that can be dragged: its own picture to the left, another pane's to the "
      "right.",
@@ -284,12 +290,13 @@ constexpr Action table[] = {
     {"Camera", "Save camera",
      "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
      "--camera.",
-     key(Key::k), no_shortcut, [](State& s) { s.save_camera = true; }, nullptr},
+     key(Key::k), no_shortcut, [](State& s) { s.wishes.save_camera = true; }, nullptr},
     {"Camera", "Copy camera as XML", "Puts fov and to_world for a Mitsuba <sensor> on the clipboard.",
-     shift(Key::k), no_shortcut, [](State& s) { s.copy_camera = true; }, nullptr},
+     shift(Key::k), no_shortcut, [](State& s) { s.wishes.copy_camera = true; }, nullptr},
 
     {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),
-     [](State& s) { s.show_help = !s.show_help; }, [](const State& s) { return s.show_help; }},
+     [](State& s) { s.layout.show_help = !s.layout.show_help; },
+     [](const State& s) { return s.layout.show_help; }},
 };
 
 } // namespace

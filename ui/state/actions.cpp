@@ -73,7 +73,7 @@ std::optional<Shortcut> shortcut_named(const std::string& text) {
 }
 
 void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
-    // With Ctrl it is a shortcut, and does not count as held: Ctrl+S must not fly back.
+    // A key with Ctrl is a shortcut, and does not count as held: Ctrl+S must not fly back.
     down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;
     if (named != Key::none)
         typed_.push_back({named, ctrl, shift, 0});
@@ -138,17 +138,18 @@ bool counts_in_text(const Shortcut& typed) {
 
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
-                     state.show_help || state.large_charts || state.reference_making.show ||
-                     state.sample_form.show || state.choosing;
+                     state.layout.show_help || state.layout.large_charts || state.reference_making.show ||
+                     state.layout.sample_form.show || state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
-    state.cancel_load = state.cancel_load || (!any && loads);
-    state.cancel_reference = state.cancel_reference || (!any && !loads && state.reference_read);
-    state.give_up_reconstructions = state.give_up_reconstructions || (!any && !loads && !state.reference_read);
-    state.show_help = false;
-    state.large_charts = false;
-    state.reference_making.show = state.sample_form.show = false;
-    state.choosing.reset();
+    state.wishes.cancel_scene = state.wishes.cancel_scene || (!any && loads);
+    state.wishes.cancel_reference = state.wishes.cancel_reference || (!any && !loads && state.reference_read);
+    state.wishes.give_up_reconstructions =
+        state.wishes.give_up_reconstructions || (!any && !loads && !state.reference_read);
+    state.layout.show_help = false;
+    state.layout.large_charts = false;
+    state.reference_making.show = state.layout.sample_form.show = false;
+    state.layout.choosing.reset();
 }
 
 } // namespace

@@ -61,7 +61,7 @@ public:
     void type(char character);
     void release_all() { down_.reset(); }
 
-    /// Held now. By place, so that W A S D lie alike on all keyboards.
+    /// Whether the key is held now, by its place, so that W A S D lie alike on all keyboards.
     bool is_down(Key physical) const { return down_[static_cast<std::size_t>(physical)]; }
 
     /// What was pressed and typed since the last take, in order.
@@ -85,7 +85,7 @@ struct Action {
     bool (*checked)(const ViewerState&); ///< null where there is nothing to be on or off
 };
 
-/// In the order of the menus.
+/// All actions, in the order of the menus.
 std::span<const Action> actions();
 
 /// How the mouse and the held keys move camera and picture, for the help page.
@@ -101,7 +101,7 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
 /// Moves the camera by the keys that are held, during `seconds`. Tells whether any is.
 bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state);
 
-/// What the actions of the table do that takes more than a line.
+// What the actions of the table do that takes more than a line.
 
 void set_buffer(ViewerState& state, Buffer buffer); ///< in all panes
 void step_method(ViewerState& state, int step);     ///< of the active pane

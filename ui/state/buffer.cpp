@@ -1,8 +1,9 @@
-#include "ui/state/shift_outcomes.h"
 #include "ui/state/buffer.h"
 
+#include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
+#include "ui/state/shift_outcomes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ float rounded_up(float value) {
     return 10 * power;
 }
 
-// Of this size: a first look's may still be there when the first whole pass is.
+/// Whether there is a reconstruction of this size: a first look's may still be there when the first whole pass is.
 bool has_reconstruction(const Snapshot& snapshot) {
     if (!snapshot.images || !snapshot.reconstruction || !has_gradients(snapshot.settings.method))
         return false;

@@ -54,8 +54,8 @@ enum class BufferFamily {
 /// What there is to know of a buffer before any image of it.
 struct BufferInfo {
     Buffer buffer;
-    const char* id;    ///< "reconstruction", ...: in log and command line
-    const char* label; ///< "Reconstruction", ...: in panels
+    const char* id;    ///< in log and command line: "reconstruction"
+    const char* label; ///< in panels: "Reconstruction"
     const char* help;  ///< what its numbers are, with their unit
     BufferFamily family;
     ColourMap map;
@@ -84,7 +84,7 @@ std::string_view paper_name(Method method);
 /// What of the snapshot the buffer's image is made from: changes exactly when another picture is to be shown.
 /// Null: there is none.
 std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buffer);
-/// The same, of what there is beside the snapshot. Null: nothing is needed, or there is none.
+/// What of the companions the buffer's image is made from beside the snapshot. Null: nothing, or it is not there.
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer);
 
 /// The buffer's image; empty if there is none, as for errors where the sizes differ. Where there is no

@@ -112,7 +112,7 @@ void CameraControl::orbit(glm::vec2 pixels, float pixels_a_half_turn) {
     const glm::vec2 angle = pixels * (glm::pi<float>() / std::max(pixels_a_half_turn, 1.0f));
     const glm::vec3 pivot = target();
     turn_about(pivot, -angle.x * handedness(), angle.y);
-    // Exactly the distance as before, whatever was rounded.
+    // The distance is exactly the one before, whatever was rounded.
     move(pivot - target());
 }
 

@@ -1,6 +1,7 @@
 #include "ui/state/change_log.h"
 
 #include "render/estimator/settings_table.h"
+#include "render/inspect/inspection.h"
 #include "ui/state/words.h"
 
 #include <cstdio>
@@ -52,13 +53,13 @@ Values describe(const ViewerState& state) {
     values["tone"] = word(words::tones, state.tone.curve);
     values["panes"] = std::to_string(state.panes.size());
     values["active"] = std::to_string(state.active_pane);
-    values["alone"] = text(state.alone);
-    values["wipe"] = text(static_cast<double>(state.wipe));
-    values["flicker"] = text(state.flicker);
-    values["theme"] = word(words::themes, state.theme);
-    values["ui scale"] = text(static_cast<double>(state.ui_scale()));
+    values["alone"] = text(state.layout.alone);
+    values["wipe"] = text(static_cast<double>(state.layout.wipe));
+    values["flicker"] = text(state.layout.flicker);
+    values["theme"] = word(words::themes, state.layout.theme);
+    values["ui scale"] = text(static_cast<double>(state.layout.ui_scale()));
     values["magnifier"] = text(state.magnifier);
-    values["charts"] = text(state.show_charts);
+    values["charts"] = text(state.layout.show_charts);
     values["tiles"] = text(state.show_tiles);
     values["inspector"] = text(state.inspector.active);
     if (const auto& sample = state.inspector.sample) {
@@ -84,9 +85,9 @@ Values describe(const ViewerState& state) {
     values["zoom"] = text(static_cast<double>(state.view.zoom()));
     values["linked"] = text(state.linked);
     values["paused"] = text(state.paused);
-    values["help"] = text(state.show_help);
-    values["panel"] = text(state.show_panel);
-    values["statistics"] = text(state.show_statistics);
+    values["help"] = text(state.layout.show_help);
+    values["panel"] = text(state.layout.show_panel);
+    values["statistics"] = text(state.layout.show_statistics);
     values["scene"] = state.scene_name;
     values["scenes shown"] = std::to_string(state.scenes_shown);
     values["loading"] = state.loading;

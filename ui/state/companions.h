@@ -4,7 +4,6 @@
 #include "recon/reconstruct.h"
 #include "render/estimator/counters.h"
 #include "render/estimator/settings.h"
-#include "render/run/first_hits.h"
 #include "render/scene/scene_checksums.h"
 
 #include <array>
@@ -16,6 +15,8 @@
 #include <vector>
 
 namespace tessera {
+
+struct FirstHits;
 
 /// The image that errors are measured against.
 struct Reference {
@@ -32,8 +33,8 @@ struct Reference {
 /// What some buffers are made of beside a pane's snapshot; null: there is none.
 struct Companions {
     std::shared_ptr<const Reference> reference;
-    std::shared_ptr<const FirstHits> first_hits; ///< of the camera and size that the panes show, ...
-    bool first_hits_are_earlier = false;         ///< ... or showed before: newer ones are on their way
+    std::shared_ptr<const FirstHits> first_hits; ///< of the camera and size that the panes show or showed before
+    bool first_hits_are_earlier = false; ///< they are of what was shown before: newer ones are on their way
 };
 
 /// How far each pixel of an image I is from a reference r; the mean of the three channels' figures.
@@ -50,7 +51,7 @@ inline bool same_size(const RgbImage& a, const RgbImage& b) {
     return a.width() == b.width() && a.height() == b.height();
 }
 
-/// Both of one size.
+/// The errors of all pixels; both images have one size.
 RgbImage error_map(ErrorKind kind, const RgbImage& image, const RgbImage& reference);
 
 /// How the luminances of an image are spread, on a logarithmic scale.
@@ -74,9 +75,9 @@ struct PictureError {
     std::size_t not_finite = 0; ///< pixels left out, in either
 };
 
-/// Against both halves of a reference that has them, where its own error cancels (measure_floor_free_error);
-/// otherwise against its image, from which no picture can be less far than that is from the truth. Empty: they
-/// differ in size, or nothing is finite.
+/// Measures against both halves of a reference that has them, where its own error cancels
+/// (measure_floor_free_error); otherwise against its image, from which no picture can be less far than that is
+/// from the truth. Empty: they differ in size, or nothing is finite.
 std::optional<PictureError> error_to(const Reference& reference, const RgbImage& picture);
 
 /// What a chart of errors to it must tell beside its points; empty: nothing.

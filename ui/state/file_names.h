@@ -26,7 +26,7 @@ struct FileEntry {
     bool operator==(const FileEntry&) const = default;
 };
 
-/// ".xml", in either case.
+/// Whether the file has the extension (".xml"), in either case.
 bool has_extension(const std::filesystem::path& file, std::string_view extension);
 
 /// What is in a folder: other folders first, then the files with the extension (".xml", in either case), both by
@@ -40,10 +40,10 @@ struct TypedPath {
     std::string beginning;        ///< of a name in it
 };
 TypedPath typed_path(const std::string& text);
-/// The same in one.
+/// The path that was typed: a name in a folder.
 std::filesystem::path typed_file(const std::string& text);
 
-/// Those whose names begin so, in either case; hidden ones only where the beginning has their dot.
+/// The entries whose names begin so, in either case; hidden ones only where the beginning has their dot.
 std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning);
 
 /// The longest beginning that all of them share: what a completion makes of what was typed. With a "/" where it is

@@ -1,5 +1,7 @@
 #include "ui/state/inspected.h"
 
+#include "render/inspect/inspection.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -16,6 +18,14 @@ void SlowMotion::start(const SampleChoice& choice) {
     sample = choice;
     if (shows_choice()) // else take() will
         rewind();
+}
+
+bool SlowMotion::shows_choice() const {
+    return tile && sample && sample->slot == slot && tile->tile.contains(sample->pixel);
+}
+
+const InspectedSet& SlowMotion::set() const {
+    return tile->sets[static_cast<std::size_t>(place().set)];
 }
 
 void SlowMotion::rewind() {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "render/inspect/inspection.h"
-#include "render/scene/scene.h"
+#include "recon/image.h"
+#include "render/estimator/settings.h"
+#include "render/scene/camera.h"
 #include "ui/gl/image_view.h"
 #include "ui/state/camera_control.h"
 
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace tessera {
+
+class ReusePlan;
+class Scene;
+struct InspectedSet;
+struct Inspection;
+struct TileInspection;
 
 /// What a render is made of: enough to take its samples again, whatever is on show by now.
 struct PassOrigin {
@@ -48,8 +55,8 @@ struct Inspector {
     /// The newest that has been found out; null: nothing yet.
     std::shared_ptr<const Inspection> inspection;
     float scene_radius = 0;       ///< of the scene that it was found out from
-    int slot = 0;                 ///< of the pane whose it is, if that still shows the request, ...
-    std::uint64_t generation = 0; ///< ... and of which request
+    std::uint64_t generation = 0; ///< of the request that it was found out from
+    int slot = 0;                 ///< of the pane whose it is, if that still shows this request
 
     int shown_row() const { return marked >= 0 ? marked : chosen; }
     void choose(const SampleChoice& choice) {
@@ -68,14 +75,6 @@ struct Inspector {
     }
 };
 
-/// What the dialog for a sample asks for.
-struct SampleForm {
-    bool show = false;
-    glm::ivec2 pixel{0};
-    int pass = 0;
-    std::uint64_t seed = 0;
-};
-
 /// One tile of a pass, whose base paths arrive one after the other.
 struct SlowMotion {
     static constexpr float least_speed = 0.25f, most_speed = 60;
@@ -92,8 +91,8 @@ struct SlowMotion {
 
     /// The newest that has been found out; null: nothing yet.
     std::shared_ptr<const TileInspection> tile;
-    int slot = 0;                 ///< of the pane whose it is, ...
-    std::uint64_t generation = 0; ///< ... and of which request
+    int slot = 0;                 ///< of the pane whose it is
+    std::uint64_t generation = 0; ///< of the request that it was found out from
 
     int current = 0;    ///< base path of the tile, over all its sets; base_count(): all have arrived
     float arrived = 0;  ///< how far that has come, [0, 1]
@@ -105,18 +104,16 @@ struct SlowMotion {
     void rewind();
     /// A tile that was asked for is there.
     void take(std::shared_ptr<const TileInspection> found, int of_slot, std::uint64_t of_generation);
-    /// Time goes by. True: it is over, and the next tile is due.
+    /// Lets time go by. True: the tile is over, and the next one is due.
     bool advance(float seconds);
-    /// One base path on, or back, and waits there.
+    /// Goes one base path on, or back, and waits there.
     void step(int by);
-    bool shows_choice() const {
-        return tile && sample && sample->slot == slot && tile->tile.contains(sample->pixel);
-    }
+    bool shows_choice() const;
     bool is_playing() const { return active && shows_choice() && !held; }
 
-    /// Once all have arrived: the last.
+    /// The place of the base path that arrives; the last one's once all have.
     Place place() const;
-    const InspectedSet& set() const { return tile->sets[static_cast<std::size_t>(place().set)]; }
+    const InspectedSet& set() const; ///< that of place()
     /// A pixel of the tile to the right of this, or of the first one in the row below; after the last the first.
     glm::ivec2 next_pixel(glm::ivec2 size) const;
 };

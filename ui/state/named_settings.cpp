@@ -109,10 +109,10 @@ constexpr Named table[] = {
      [](S& s, Text n, Text v) {
          s.set_pane_count(static_cast<int>(number(n, v, {1, most_panes})));
      }},
-    {"alone", flag<[](S& s) -> bool& { return s.alone; }>},
+    {"alone", flag<[](S& s) -> bool& { return s.layout.alone; }>},
     {"wipe",
      [](S& s, Text n, Text v) {
-         s.wipe = static_cast<float>(number(n, v, {0, 1}));
+         s.layout.wipe = static_cast<float>(number(n, v, {0, 1}));
      }},
     {"linked", flag<[](S& s) -> bool& { return s.linked; }>},
     {"paused", flag<[](S& s) -> bool& { return s.paused; }>},
@@ -143,20 +143,20 @@ constexpr Named table[] = {
          s.inspector.direction = static_cast<Inspector::Direction>(one_of(n, v, words::directions));
      }},
     {"mark_negative", flag<[](S& s) -> bool& { return s.mark_negative; }>},
-    {"theme", [](S& s, Text n, Text v) { s.theme = static_cast<Theme>(one_of(n, v, words::themes)); }},
+    {"theme", [](S& s, Text n, Text v) { s.layout.theme = static_cast<Theme>(one_of(n, v, words::themes)); }},
     {"ui_scale",
      [](S& s, Text n, Text v) {
-         s.set_ui_scale(static_cast<float>(number(n, v, {1, 3})));
+         s.layout.set_ui_scale(static_cast<float>(number(n, v, {1, 3})));
      }},
-    {"panel", flag<[](S& s) -> bool& { return s.show_panel; }>},
-    {"statistics", flag<[](S& s) -> bool& { return s.show_statistics; }>},
-    {"charts", flag<[](S& s) -> bool& { return s.show_charts; }>},
-    {"chart", [](S& s, Text n, Text v) { s.chart_kind = static_cast<ChartKind>(one_of(n, v, words::charts)); }},
-    {"large_charts", flag<[](S& s) -> bool& { return s.large_charts; }>},
+    {"panel", flag<[](S& s) -> bool& { return s.layout.show_panel; }>},
+    {"statistics", flag<[](S& s) -> bool& { return s.layout.show_statistics; }>},
+    {"charts", flag<[](S& s) -> bool& { return s.layout.show_charts; }>},
+    {"chart", [](S& s, Text n, Text v) { s.layout.chart_kind = static_cast<ChartKind>(one_of(n, v, words::charts)); }},
+    {"large_charts", flag<[](S& s) -> bool& { return s.layout.large_charts; }>},
     {"reference_spp",
      [](S& s, Text n, Text v) { s.reference_making.spp = static_cast<int>(number(n, v, ranges::reference_spp)); }},
     {"reference_method", [](S& s, Text, Text v) { s.reference_making.method = method_named(v); }},
-    {"charts_axis", [](S& s, Text n, Text v) { s.charts_by_spp = one_of(n, v, words::chart_axes) == 1; }},
+    {"charts_axis", [](S& s, Text n, Text v) { s.layout.charts_by_spp = one_of(n, v, words::chart_axes) == 1; }},
     {"alpha",
      [](S& s, Text n, Text v) {
          s.active().settings.reconstruction.alpha = static_cast<float>(number(n, v, ranges::alpha));

@@ -53,9 +53,9 @@ Preferences parse(const std::string& text) {
     p.window.maximised = json.value("maximised", false);
     p.panes = std::clamp(json.value("panes", 0), 0, most_panes);
     p.theme = json.value("theme", "dark") == "light" ? Theme::light : Theme::dark;
-    p.text_factor = std::clamp(json.value("text_factor", 1.0f), 0.25f, ViewerState::most_ui_scale);
-    p.panel_width = std::clamp(json.value("panel_width", p.panel_width), ViewerState::least_panel_width,
-                               ViewerState::most_panel_width);
+    p.text_factor = std::clamp(json.value("text_factor", 1.0f), 0.25f, Layout::most_ui_scale);
+    p.panel_width =
+        std::clamp(json.value("panel_width", p.panel_width), Layout::least_panel_width, Layout::most_panel_width);
     p.show_panel = json.value("panel", p.show_panel);
     p.show_statistics = json.value("statistics", p.show_statistics);
     p.show_charts = json.value("charts", p.show_charts);

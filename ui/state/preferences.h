@@ -1,35 +1,16 @@
 #pragma once
 
-#include "ui/gl/theme.h"
+#include "ui/state/layout.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <glm/vec2.hpp>
-
 namespace tessera {
 
-/// Where a window is on the desktop, in screen units.
-struct WindowPlace {
-    glm::ivec2 size{0};                 ///< of its contents while it is not maximised; 0: not known
-    std::optional<glm::ivec2> position; ///< likewise, of their upper left corner; empty: not known
-    bool maximised = false;
-
-    bool operator==(const WindowPlace&) const = default;
-};
-
 /// What the viewer remembers from one run to the next.
-struct Preferences {
-    WindowPlace window;
-    int panes = 0; ///< how many; 0: not known
-    Theme theme = Theme::dark;
-    float text_factor = 1;  ///< as of ViewerState
-    float panel_width = 20; ///< likewise
-    bool show_panel = true;
-    bool show_statistics = false;
-    bool show_charts = false;
+struct Preferences : LastingLayout {
+    int panes = 0;                          ///< how many; 0: not known
     std::vector<std::string> recent_scenes; ///< files, in full, the newest first
 
     bool operator==(const Preferences&) const = default;

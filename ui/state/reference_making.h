@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-struct ViewerState;
+struct Document;
 
 /// How far a reference is.
 struct ReferenceProgress {
@@ -31,25 +31,21 @@ struct ReferenceMaking {
     std::array<char, 1024> file{}; ///< empty: default_reference_file()
     bool anew = false;             ///< whatever checkpoint there is
 
-    // Wishes, cleared by who fulfils them.
-    bool start = false;
-    bool cancel = false;
-
     std::optional<ReferenceProgress> progress; ///< while it is made
 
     bool is_making() const { return progress.has_value(); }
 };
 
-/// In the current folder, named after scene, size, depth, and the camera unless it is the scene's: as tessera
-/// bench names them.
-std::filesystem::path default_reference_file(const ViewerState& state);
+/// A file in the current folder, named as `tessera bench` names references: after scene, size, depth, and the
+/// camera unless it is the scene's.
+std::filesystem::path default_reference_file(const Document& document);
 
 /// The file that the dialog asks for, in full; its name ends in .exr.
-std::filesystem::path wanted_reference_file(const ViewerState& state);
+std::filesystem::path wanted_reference_file(const Document& document);
 
-/// Of how long a reference will take if nothing else is rendered, seconds: by what a pane has taken, one of the
-/// same method if there is any. Empty: no pane has a picture.
-std::optional<double> estimated_seconds(const ViewerState& state);
+/// How many seconds a reference will take if nothing else is rendered, by what a pane has taken, one of the same
+/// method if there is any. Empty: no pane has a picture.
+std::optional<double> estimated_seconds(const Document& document);
 
 /// "45 s", "12 min", "3 h 5 min".
 std::string duration_text(double seconds);

@@ -88,7 +88,7 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
     return ranges;
 }
 
-/// What is common to all panes, but for the camera.
+/// Reads what is common to all panes, but for the camera.
 void read_display(const JsonFields& fields, ViewerState& state) {
     const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
     size.read("base", words::sizes, state.size.base);
@@ -106,7 +106,7 @@ void read_display(const JsonFields& fields, ViewerState& state) {
         state.ranges = read_ranges(fields.object("ranges"));
 }
 
-/// Where the pictures lie, and what is drawn with them.
+/// Reads where the pictures lie, and what is drawn with them.
 void read_view(const JsonFields& fields, ViewerState& state) {
     const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
     float zoom = state.view.zoom();
@@ -116,14 +116,14 @@ void read_view(const JsonFields& fields, ViewerState& state) {
     picture.read("y", {0, 1}, center.y);
     if (fields.has("picture"))
         state.set_view(ImageView(zoom, center));
-    fields.read("wipe", {0, 1}, state.wipe);
-    fields.read("alone", state.alone);
+    fields.read("wipe", {0, 1}, state.layout.wipe);
+    fields.read("alone", state.layout.alone);
     fields.read("tiles", state.show_tiles);
     fields.read("magnifier", state.magnifier);
-    int axis = state.charts_by_spp ? 1 : 0;
-    chart.read("show", words::charts, state.chart_kind);
+    int axis = state.layout.charts_by_spp ? 1 : 0;
+    chart.read("show", words::charts, state.layout.chart_kind);
     chart.read("against", words::chart_axes, axis);
-    state.charts_by_spp = axis == 1;
+    state.layout.charts_by_spp = axis == 1;
 }
 
 void read_panes(const JsonFields& fields, ViewerState& state) {
@@ -171,7 +171,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         state.space.look_as(parse_camera(text.only("space"), name));
     fields.read<std::string>("reference", [&](const std::string& reference) {
         if (!state.companions.reference || state.companions.reference->name != reference)
-            state.reference_file = reference;
+            state.wishes.open_reference = reference;
     });
     fields.has("scene"); // for who reads it
     for (std::string& line : reading.unknown())
@@ -188,7 +188,7 @@ std::string settings_json(const ViewerState& state) {
     ordered_json json{
         {"panes", panes},
         {"active", state.active_pane + 1},
-        {"alone", state.alone},
+        {"alone", state.layout.alone},
         {"linked", state.linked},
         {"size",
          {{"base", word(words::sizes, state.size.base)},
@@ -206,12 +206,12 @@ std::string settings_json(const ViewerState& state) {
           {"spp_limit", state.pace.spp_limit},
           {"seconds_limit", state.pace.seconds_limit}}},
         {"picture", {{"zoom", view.zoom()}, {"x", view.center().x}, {"y", view.center().y}}},
-        {"wipe", state.wipe},
+        {"wipe", state.layout.wipe},
         {"tiles", state.show_tiles},
         {"magnifier", state.magnifier},
         {"charts",
-         {{"show", word(words::charts, state.chart_kind)},
-          {"against", words::chart_axes[state.charts_by_spp ? 1 : 0]}}},
+         {{"show", word(words::charts, state.layout.chart_kind)},
+          {"against", words::chart_axes[state.layout.charts_by_spp ? 1 : 0]}}},
         {"scene", state.scene_name}, // for who reads it: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},

@@ -65,10 +65,10 @@ public:
 
     ScriptPlayer(std::vector<ScriptStep> steps, std::string file, Viewer& viewer, Outside outside);
 
-    /// Before a frame is begun: sends input. Throws ScriptError where a step cannot be done.
+    /// To be called before a frame is begun: sends input. Throws ScriptError where a step cannot be done.
     /// @param last_frame_seconds  how long the last one took
     void before_frame(double last_frame_seconds);
-    /// When it is drawn.
+    /// To be called when the frame is drawn.
     void after_frame();
 
     bool done() const { return next_ == steps_.size() && actions_.empty(); }

@@ -27,7 +27,8 @@ double now() {
 /// How far a pane's pictures are behind its camera.
 class CameraLag {
 public:
-    /// Before every frame. Adds to `behind` when the last one has shown the first picture of a camera.
+    /// To be called before every frame. Adds to `behind` when the last one has shown the first picture of a
+    /// camera.
     void look(const PaneState& pane, std::vector<double>& behind) {
         asked_.try_emplace(pane.generation, std::exchange(last_, now())); // by the last frame's input
         const std::uint64_t shown = pane.snapshot ? pane.snapshot->generation : 0;
@@ -117,13 +118,13 @@ void ScriptPlayer::start(const ScriptStep& step) {
     else if (step.word == "open")
         viewer_.drop({a[0]});
     else if (step.word == "reference")
-        state.reference_file = a[0];
+        state.wishes.open_reference = a[0];
     else if (step.word == "screenshot")
         add([this, file = a[0]] { picture_ = file; });
     else if (step.word == "print")
         outside_.print(a[0]);
     else if (step.word == "quit")
-        state.quit = true;
+        state.wishes.quit = true;
     else
         start_pointer(step);
     // What a step has changed is on show when the next begins.
@@ -160,7 +161,7 @@ void ScriptPlayer::start_inspect(const ScriptStep& step) {
     add_wait([this] { return viewer_.state().scene && !viewer_.inspecting(); });
 }
 
-/// Until it holds; an error of the viewer, or too long a time, is one of the script.
+/// Waits until the condition holds; an error of the viewer, or too long a time, is one of the script.
 void ScriptPlayer::add_wait(const std::function<bool()>& holds) {
     actions_.push_back([this, holds, began = now()] {
         for (const Message& message : viewer_.state().messages) {

@@ -22,7 +22,7 @@ void SessionLink::take(ViewerState& state) {
         state.add_message(Message::Kind::error, std::move(message));
 }
 
-/// Once for every request; not of a first look, whose pixels are others.
+/// Reports once for every request, and nothing of a first look, whose pixels are others.
 void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
     std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
@@ -51,14 +51,14 @@ void SessionLink::send(ViewerState& state) {
         if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
             session_.withdraw(static_cast<int>(slot));
     }
-    if (std::exchange(state.give_up_reconstructions, false))
+    if (std::exchange(state.wishes.give_up_reconstructions, false))
         give_up_reconstructions(state);
-    state.restart = false;
-    for (; state.steps > 0; --state.steps)
+    state.wishes.restart = false;
+    for (; state.wishes.steps > 0; --state.wishes.steps)
         session_.step();
 }
 
-/// Those that somebody has read of.
+/// Gives up only those that somebody has read of.
 void SessionLink::give_up_reconstructions(ViewerState& state) {
     for (const PaneState& pane : state.panes) {
         if (!state.reconstructs_long(pane))
@@ -79,10 +79,10 @@ void SessionLink::send_running(const ViewerState& state) {
     sent_pace_ = state.pace;
 }
 
-/// Whatever its size.
+/// Whether the pane has to render anew, whatever its size.
 bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) const {
     const Sent& sent = sent_of(pane);
-    return state.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
+    return state.wishes.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
            !(sent.render == pane.settings.render);
 }
 

@@ -13,9 +13,9 @@ public:
     /// `session` of most_panes panes.
     explicit SessionLink(Session& session) : session_(session) {}
 
-    /// Snapshots and messages.
+    /// Takes in snapshots and messages.
     void take(ViewerState& state);
-    /// Requests, in the frame in which the state changed. Fulfils the wishes to restart and to step.
+    /// Sends requests in the frame in which the state changed. Fulfils the wishes to restart and to step.
     void send(ViewerState& state);
 
 private:

@@ -1,9 +1,10 @@
 #include "ui/viewer/viewer.h"
 
 #include "render/io/png.h"
+#include "render/scene/scene.h"
+#include "ui/charts/charts.h"
 #include "ui/gl/gl.h"
 #include "ui/inside/inside.h"
-#include "ui/charts/charts.h"
 #include "ui/panels/panels.h"
 #include "ui/state/actions.h"
 #include "ui/state/file_names.h"
@@ -26,7 +27,7 @@ constexpr float most_panel_share = 0.5f; // of the window's width
 constexpr int frames_until_still = 3;    // Dear ImGui fits tables a frame or two later
 constexpr float longest_step = 0.1f;     // seconds that a held key moves in one frame at the most
 
-/// Panes beside each other; from three on in two rows.
+/// The place of a pane: they lie beside each other, from three on in two rows.
 ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
     const int rows = panes > 2 ? 2 : 1;
     const int columns = (panes + rows - 1) / rows;
@@ -35,7 +36,7 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
     return {glm::floor(min), glm::floor(min + cell)};
 }
 
-/// Whatever way it is named.
+/// Whether both are one scene, whatever way its file is named.
 bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
     std::error_code ignored;
     const std::filesystem::path &one = a.source.file, &other = b.source.file;
@@ -53,8 +54,8 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
-    state_.show_panel = options_.show_panel;
-    state_.reference_file = options_.reference.string();
+    state_.layout.show_panel = options_.show_panel;
+    state_.wishes.open_reference = options_.reference.string();
     take_preferences();
     if (options_.sample) {
         options_.sample->slot = state_.active().slot;
@@ -121,32 +122,33 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     std::vector<Shortcut> typed = keyboard_.take();
-    if (state_.choosing) // a dialog that nothing behind it may be done from; Esc closes it
+    if (state_.layout.choosing) // a dialog that nothing behind it may be done from; Esc closes it
         std::erase_if(typed, [](const Shortcut& s) { return s != Shortcut{Key::escape}; });
     run_shortcuts(typed, io.WantTextInput, state_);
-    const bool held_back = io.WantTextInput || state_.choosing;
-    state_.flicker = !held_back && keyboard_.is_down(Key::b);
+    const bool held_back = io.WantTextInput || state_.layout.choosing;
+    state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
     flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
 // --- drawing ---
 
 void Viewer::draw_frame() {
-    frames_due_ = std::exchange(state_.redraw, false) ? frames_until_still - 1 : std::max(frames_due_ - 1, 0);
+    frames_due_ =
+        std::exchange(state_.wishes.redraw, false) ? frames_until_still - 1 : std::max(frames_due_ - 1, 0);
     take_scene();
     link_.take(state_);
     controls_.begin_frame(ImGui::GetTime());
     read_keyboard();
 
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    state_.window_size = {display.x, display.y};
-    if (!state_.window_place.maximised)
-        state_.window_place.size = state_.window_size;
+    state_.layout.window_size = {display.x, display.y};
+    if (!state_.layout.window.maximised)
+        state_.layout.window.size = state_.layout.window_size;
     const float top = draw_menu_bar(controls_, state_);
     const float panel_width =
-        std::floor(std::min(ImGui::GetFontSize() * state_.panel_width, display.x * most_panel_share));
+        std::floor(std::min(ImGui::GetFontSize() * state_.layout.panel_width, display.x * most_panel_share));
     ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
-    if (state_.show_panel || state_.show_statistics || state_.show_charts) {
+    if (state_.layout.show_panel || state_.layout.show_statistics || state_.layout.show_charts) {
         pictures.max.x -= panel_width;
         draw_side({{pictures.max.x, top}, {display.x, pictures.max.y}});
         draw_panel_edge(pictures, controls_, state_);
@@ -164,14 +166,14 @@ void Viewer::draw_frame() {
     surroundings_job_.update(state_, options_.wake);
     reference_job_.update(state_, options_.threads, options_.wake);
     chart_job_.update(state_, options_.wake);
-    if (state_.save_charts && !state_.histograms_due) // their end brings a frame
+    if (state_.wishes.save_charts && !state_.histograms_due) // their end brings a frame
         save_charts();
     log_changes();
 }
 
-/// Settings above, statistics and charts below: all scroll, and share the room evenly.
+/// Draws settings above, statistics and charts below: all scroll, and share the room evenly.
 void Viewer::draw_side(const ScreenRect& where) {
-    const int panels = state_.show_panel + state_.show_statistics + state_.show_charts;
+    const int panels = state_.layout.show_panel + state_.layout.show_statistics + state_.layout.show_charts;
     int drawn = 0;
     const auto next = [&] {
         const auto end = [&](int n) {
@@ -182,11 +184,11 @@ void Viewer::draw_side(const ScreenRect& where) {
         ++drawn;
         return rect;
     };
-    if (state_.show_panel)
+    if (state_.layout.show_panel)
         draw_settings_panel(next(), controls_, state_);
-    if (state_.show_statistics)
+    if (state_.layout.show_statistics)
         draw_statistics_panel(next(), controls_, state_);
-    if (state_.show_charts)
+    if (state_.layout.show_charts)
         draw_charts_panel(next(), controls_, state_);
 }
 
@@ -200,10 +202,11 @@ void Viewer::draw_panes(const ScreenRect& where) {
     for (std::size_t i = state_.panes.size(); i < most_panes; ++i)
         images_[i].take(nullptr, Buffer::reconstruction, {});
     images_[the_reference].take(nullptr, Buffer::reference, wants_reference ? state_.companions : Companions{});
-    if (state_.cursor && (state_.cursor->pane >= panes || !state_.is_on_show(state_.cursor->pane)))
-        state_.cursor.reset();
+    if (state_.layout.cursor &&
+        (state_.layout.cursor->pane >= panes || !state_.is_on_show(state_.layout.cursor->pane)))
+        state_.layout.cursor.reset();
     PaneTools tools{shader_, images_, controls_, state_};
-    const int alone = state_.alone ? state_.active_pane : -1;
+    const int alone = state_.layout.alone ? state_.active_pane : -1;
     const auto each = [&](auto&& act) {
         for (int i = 0; i < panes; ++i) {
             if (alone < 0 || alone == i)
@@ -215,17 +218,17 @@ void Viewer::draw_panes(const ScreenRect& where) {
     each([&](PaneView& view, int i) { view.draw(i, tools); });
 }
 
-/// Of the panel below the pictures; 0: there is none. At most half the room that there is.
+/// The height of the panel below the pictures, at most half the room that there is; 0: there is none.
 float Viewer::bottom_height(float room) const {
     const float least = ImGui::GetFontSize() * 11;
     const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, room * 0.36f));
     const bool looks_inside = state_.slow_motion.active || state_.inspector.active;
-    const float wanted = state_.show_messages ? least : looks_inside ? large : 0;
+    const float wanted = state_.layout.show_messages ? least : looks_inside ? large : 0;
     return std::min(std::floor(wanted), room / 2);
 }
 
 void Viewer::draw_bottom(const ScreenRect& where) {
-    if (state_.show_messages)
+    if (state_.layout.show_messages)
         draw_message_panel(where, controls_, state_);
     else if (state_.slow_motion.active)
         draw_slow_motion_panel(where, controls_, state_);
@@ -234,14 +237,14 @@ void Viewer::draw_bottom(const ScreenRect& where) {
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
-    if (state_.large_charts)
+    if (state_.layout.large_charts)
         draw_large_charts(pictures, controls_, state_);
-    const glm::vec2 screen(state_.window_size);
+    const glm::vec2 screen(state_.layout.window_size);
     if (state_.reference_making.show)
         draw_reference_dialog(screen, controls_, state_);
-    if (state_.sample_form.show)
+    if (state_.layout.sample_form.show)
         draw_sample_dialog(screen, controls_, state_);
-    if (state_.show_help)
+    if (state_.layout.show_help)
         draw_help(screen, controls_, state_);
     if (load_.running())
         draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
@@ -281,9 +284,9 @@ void Viewer::log_changes() {
 
 bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
     ViewerState& state = viewer.state();
-    age_ = state.save_picture ? age_ + 1 : 0;
+    age_ = state.wishes.save_picture ? age_ + 1 : 0;
     if (age_ == frames_until_still) {
-        state.save_picture = false;
+        state.wishes.save_picture = false;
         viewer.save([file = dated_file(".png"), screen = read_screen(pixels)] {
             write_png(file, screen.size, screen.rgb);
             return file.string();

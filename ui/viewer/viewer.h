@@ -102,7 +102,7 @@ public:
     bool settled(int spp) const;
 
     /// Whether the last frame showed all that had come by its end.
-    bool all_drawn() const { return !state_.redraw && frames_due_ == 0; }
+    bool all_drawn() const { return !state_.wishes.redraw && frames_due_ == 0; }
 
 private:
     void take_scene();

@@ -17,8 +17,6 @@
 
 namespace tessera {
 
-// Viewer: what it reads and writes.
-
 namespace {
 
 constexpr const char* no_picture_yet = "There is no picture to save yet: only a first look, or none.";
@@ -58,9 +56,9 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
     if (scene)
         open(*scene);
     if (reference)
-        state_.reference_file = reference->string();
+        state_.wishes.open_reference = reference->string();
     if (settings)
-        state_.settings_file = settings->string();
+        state_.wishes.open_settings = settings->string();
     if (!files.empty() && options_.open && !scene && !reference && !settings)
         state_.add_message(Message::Kind::error, files.front().string() +
                                                      ": this is no scene; what can be dropped here is a Mitsuba "
@@ -80,21 +78,21 @@ void Viewer::load_settings(const std::filesystem::path& file) {
 // --- wishes ---
 
 void Viewer::fulfil_wishes() {
-    if (std::exchange(state_.cancel_load, false) && load_.running()) {
+    if (std::exchange(state_.wishes.cancel_scene, false) && load_.running()) {
         state_.add_message(Message::Kind::note, "Loading " + load_.origin().name + " was given up.",
                            Message::Origin::failed_load);
         load_.cancel();
         state_.loading.clear();
     }
-    if (std::exchange(state_.reload, false))
+    if (std::exchange(state_.wishes.reload, false))
         reload();
-    if (const std::string file = std::exchange(state_.open_scene, {}); !file.empty() && options_.open)
+    if (const std::string file = std::exchange(state_.wishes.open_scene, {}); !file.empty() && options_.open)
         open(file);
     // Settings wait for a scene under way, which would put its own camera and depth in their place.
-    if (!state_.settings_file.empty() && !load_.running())
-        load_settings(std::exchange(state_.settings_file, {}));
+    if (!state_.wishes.open_settings.empty() && !load_.running())
+        load_settings(std::exchange(state_.wishes.open_settings, {}));
     fulfil_saves();
-    if (std::exchange(state_.copy_camera, false) && state_.scene) {
+    if (std::exchange(state_.wishes.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
         state_.add_message(Message::Kind::note,
                            "The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
@@ -102,18 +100,18 @@ void Viewer::fulfil_wishes() {
 }
 
 void Viewer::fulfil_saves() {
-    if (std::exchange(state_.save_camera, false) && state_.scene)
+    if (std::exchange(state_.wishes.save_camera, false) && state_.scene)
         save([file = shown_.source.file, camera = state_.camera.camera()] {
             return "the camera to " + store_camera(file, camera).string();
         });
-    if (std::exchange(state_.save_settings, false))
+    if (std::exchange(state_.wishes.save_settings, false))
         save([file = dated_file("-settings.json"), text = settings_json(state_)] {
             write_text(file, text);
             return "the settings to " + file.string();
         });
-    if (std::exchange(state_.save_exr, false))
+    if (std::exchange(state_.wishes.save_exr, false))
         save_exr();
-    if (std::exchange(state_.save_view, false))
+    if (std::exchange(state_.wishes.save_view, false))
         save_view();
     if (const auto outcome = save_queue_.take())
         take(*outcome);
@@ -159,7 +157,7 @@ void Viewer::save_view() {
 }
 
 void Viewer::save_charts() {
-    state_.save_charts = false;
+    state_.wishes.save_charts = false;
     save([file = dated_file("-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
           picture = chart_picture(state_)] {
         const auto with_ending = [&](const char* ending) {
@@ -180,40 +178,28 @@ void Viewer::take_preferences() {
     const KeptPreferences kept = claim_preferences(options_.preferences);
     preferences_ = kept.preferences;
     take(kept);
-    state_.window_place = preferences_.window; // until the window tells
-    state_.theme = preferences_.theme;
-    state_.text_factor = preferences_.text_factor;
-    state_.panel_width = preferences_.panel_width;
+    state_.layout.restore(preferences_);
     if (options_.panes_as_remembered && preferences_.panes > 0)
         state_.set_pane_count(preferences_.panes);
-    state_.show_panel = preferences_.show_panel;
-    state_.show_statistics = preferences_.show_statistics;
-    state_.show_charts = preferences_.show_charts;
 }
 
-/// What the file says of itself, and the scenes that other viewers have opened.
+/// Takes in what the file says of itself, and the scenes that other viewers have opened.
 void Viewer::take(const KeptPreferences& kept) {
     if (!kept.note.empty() && kept.note != told_of_preferences_)
         state_.add_message(Message::Kind::note, kept.note);
     told_of_preferences_ = kept.note;
     preferences_.recent_scenes = kept.preferences.recent_scenes;
     state_.recent_scenes = current_preferences().recent_scenes; // more may have been opened meanwhile
-    state_.redraw = true;
+    state_.wishes.redraw = true;
 }
 
 Preferences Viewer::current_preferences() const {
-    Preferences now = preferences_;
+    Preferences now{state_.layout, 0, preferences_.recent_scenes};
+    if (state_.layout.window_size.x == 0) // nothing has been drawn
+        now.window = preferences_.window;
     for (const std::string& scene : opened_scenes_)
         now.add_recent(scene);
-    if (state_.window_size.x > 0) // it has been drawn
-        now.window = state_.window_place;
     now.panes = static_cast<int>(state_.panes.size());
-    now.theme = state_.theme;
-    now.text_factor = state_.text_factor;
-    now.panel_width = state_.panel_width;
-    now.show_panel = state_.show_panel;
-    now.show_statistics = state_.show_statistics;
-    now.show_charts = state_.show_charts;
     return now;
 }
 
@@ -225,7 +211,7 @@ void Viewer::remember() {
         std::fprintf(stderr, "%s\n", kept.note.c_str());
 }
 
-/// The disk may take its time, also to tell what other viewers have stored.
+/// Stores in the background: the disk may take its time, also to tell what other viewers have stored.
 void Viewer::remember_later() {
     if (options_.preferences.empty())
         return;

@@ -28,7 +28,7 @@ public:
         eglTerminate(display_);
     }
 
-    /// What went wrong; empty: it is current.
+    /// Makes the context current. Says what went wrong; empty: nothing did.
     std::string open() {
         display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
@@ -77,12 +77,12 @@ public:
         const DrawInto drawing(target_);
         auto last = std::chrono::steady_clock::now();
         double took = 0;
-        while (!viewer.state().quit && !(hooks.ends && hooks.ends())) {
+        while (!viewer.state().wishes.quit && !(hooks.ends && hooks.ends())) {
             const auto now = std::chrono::steady_clock::now();
             if (hooks.before)
                 hooks.before(took);
-            viewer.state().display_scale = std::max(scale_, ViewerState::least_ui_scale);
-            gui_->set_look(viewer.state().ui_scale(), viewer.state().theme);
+            viewer.state().layout.display_scale = std::max(scale_, Layout::least_ui_scale);
+            gui_->set_look(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
             last = now;
             viewer.draw_frame();

@@ -47,15 +47,15 @@ public:
     virtual void wake() = 0;
     /// What the window is called. To be called from the thread of run().
     virtual void set_title(const std::string& title) = 0;
-    /// Of the framebuffer, pixels.
+    /// The size of the framebuffer, pixels.
     virtual glm::ivec2 pixels() const = 0;
 };
 
 /// A window on the screen. Null, and why in `error`, where there is no display or no OpenGL 3.3.
 std::unique_ptr<Surface> open_window(const SurfaceOptions& options, std::string& error);
 
-/// A place in memory, by EGL without a display. Takes no input. Null, and why in `error`, where that is not
-/// offered.
+/// A place in memory to draw into, by EGL without a display. Takes no input. Null, and why in `error`, where that
+/// is not offered.
 std::unique_ptr<Surface> open_offscreen(const SurfaceOptions& options, std::string& error);
 
 } // namespace tessera

@@ -13,7 +13,6 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 
-
 namespace tessera {
 
 namespace {
@@ -212,8 +211,8 @@ void Window::wait_until_due(double next_frame_in) {
 }
 
 void Window::tell_place(ViewerState& state) const {
-    state.display_scale = std::max(wanted_scale_, ViewerState::least_ui_scale);
-    WindowPlace& place = state.window_place;
+    state.layout.display_scale = std::max(wanted_scale_, Layout::least_ui_scale);
+    WindowPlace& place = state.layout.window;
     place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
     if (place.maximised)
         return; // the rest is what it comes back to
@@ -230,7 +229,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
     last_frame_ = glfwGetTime() - frame_seconds;
     double took = 0;
     const auto ends = [&] {
-        return glfwWindowShouldClose(window_) || viewer.state().quit || (hooks.ends && hooks.ends());
+        return glfwWindowShouldClose(window_) || viewer.state().wishes.quit || (hooks.ends && hooks.ends());
     };
     while (!ends()) {
         const double before = last_frame_;
@@ -249,7 +248,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         frames_due_ = std::max(frames_due_ - 1, 0);
         last_frame_ = now;
         tell_place(viewer.state());
-        gui_->set_look(viewer.state().ui_scale(), viewer.state().theme);
+        gui_->set_look(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
         ImGui_ImplGlfw_NewFrame();
         if (hooks.before)
             hooks.before(took);

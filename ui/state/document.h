@@ -1,0 +1,135 @@
+#pragma once
+
+#include "render/load/mitsuba_xml.h"
+#include "ui/gl/image_view.h"
+#include "ui/gl/tone.h"
+#include "ui/state/camera_control.h"
+#include "ui/state/companions.h"
+#include "ui/state/inspected.h"
+#include "ui/state/pane_state.h"
+#include "ui/state/reference_making.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+class Scene;
+
+inline constexpr int most_render_pixels_an_edge = 8192;
+
+/// How many pixels the panes render.
+struct SizeChoice {
+    enum class Base { pane, scene, custom };
+    Base base = Base::pane; ///< what fits the pane, the film of the scene, or `custom`
+    float scale = 1.0f;     ///< of width and height, (0, 2]
+    glm::ivec2 custom{640, 360};
+
+    bool operator==(const SizeChoice&) const = default;
+};
+
+/// The size to ask for; at least 1x1. For SizeChoice::Base::pane it has the proportions of the film, and a width
+/// of small prime factors only, which the Fourier transform of the reconstruction is quick with.
+glm::ivec2 render_size(const SizeChoice& choice, glm::ivec2 film_size, glm::ivec2 pane_size);
+
+struct Message {
+    enum class Kind { note, error };
+    /// What it is about: a scene's messages go when another takes its place, a failed load's at the next load.
+    enum class Origin { viewer, scene, failed_load };
+    Kind kind;
+    std::string text;
+    Origin origin = Origin::viewer;
+    std::vector<SampleChoice> samples{}; ///< that it is about, which can be inspected
+    std::size_t next_sample = 0;         ///< of these: the one that its button opens
+};
+
+/// What is worked on: a scene, the panes that render it, how their pictures are seen, and what is known of them.
+struct Document {
+    std::shared_ptr<const Scene> scene; ///< null while the first is loading
+    std::string scene_name;
+    SceneSource scene_source;               ///< without a file: it is in none
+    int scenes_shown = 0;                   ///< so far, reloaded ones counted again
+    std::string loading;                    ///< what of the next scene is being loaded; empty: none is
+    std::vector<std::string> recent_scenes; ///< files, the newest first
+
+    Companions companions;               ///< what some buffers need
+    std::optional<float> reference_read; ///< the share of the next one that is read so far, [0, 1]; empty: none is
+    ReferenceMaking reference_making;
+
+    std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
+    std::vector<PaneSettings> spare_panes; ///< settings of panes taken away, the last one first
+    int active_pane = 0;
+    bool linked = true;                       ///< all panes share their settings, but for method and buffer
+    std::array<PaneChart, most_panes> charts; ///< by slot: see chart_of
+    bool histograms_due = false;              ///< those of some pictures are still being measured
+
+    CameraControl camera;
+    SizeChoice size;
+    glm::ivec2 latched_size{16, 9}; ///< request_size()
+    Pace pace;
+    bool paused = false;
+    double patience = 0.5; ///< seconds for which a reconstruction goes on untold
+
+    ImageView view;
+    Tone tone;
+    std::map<Buffer, ValueRange> ranges; ///< of false colours, where the user has set them
+    bool mark_negative = false;          ///< as NaN and infinity always are
+    bool magnifier = false;
+    bool show_tiles = false;
+
+    Inspector inspector;
+    SlowMotion slow_motion;
+    SpaceView space; ///< of the inspector, or the slow motion
+    std::vector<Message> messages;
+
+    PaneState& active() { return panes[static_cast<std::size_t>(active_pane)]; }
+    const PaneState& active() const { return panes[static_cast<std::size_t>(active_pane)]; }
+
+    /// Adds panes, with the settings of those taken away or a method that no pane has yet, or takes the last away;
+    /// the active one stays. `count` of 1 to most_panes.
+    void set_pane_count(int count);
+
+    /// The pane that the session's slot renders; null: none is.
+    const PaneState* pane_in(int slot) const;
+
+    /// What charts show of a pane. It is the slot's that renders it, and so stays when the layout changes.
+    PaneChart& chart_of(const PaneState& pane) { return charts[static_cast<std::size_t>(pane.slot)]; }
+    const PaneChart& chart_of(const PaneState& pane) const { return charts[static_cast<std::size_t>(pane.slot)]; }
+
+    /// Gives the active pane's settings to all panes, if they are linked. Each keeps its method and buffer.
+    void share_settings();
+
+    /// Whether a pane still shows the request of that generation.
+    bool shows_request(std::uint64_t generation) const;
+
+    /// What `pane` is compared with: another pane or the_reference; itself if there is neither.
+    int compared_with(int pane) const;
+
+    /// Whether the pane's reconstruction is worth telling of: others are over before they are read of.
+    bool reconstructs_long(const PaneState& pane) const {
+        return pane.reconstructing && pane.reconstructing->seconds > patience;
+    }
+
+    /// The size that all panes are to render, pixels: not what fits best at the moment, see SessionLink.
+    glm::ivec2 request_size() const { return latched_size; }
+
+    /// The picture lies so from now on, also after the slow motion, which would put it back.
+    void set_view(const ImageView& now) {
+        view = now;
+        slow_motion.view_before.reset();
+    }
+
+    /// The path inspector, and the slow motion, which begins with the tile that SlowMotionJob chooses. Both have
+    /// the mouse's left button: the other gives way.
+    void set_inspector(bool on);
+    void set_slow_motion(bool on);
+};
+
+} // namespace tessera
