@@ -120,8 +120,8 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
                         s.paused, s.layout.theme == Theme::light, s.layout.show_panel, s.layout.show_statistics,
                         s.layout.show_charts, s.layout.show_help, s.layout.show_messages);
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
-                            s.choosing ? static_cast<int>(*s.choosing) : -1, s.sample_form.show,
-                            s.reference_making.show, s.inspector.active);
+                            s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
+                            s.layout.sample_form.show, s.reference_making.show, s.inspector.active);
         const SlowMotion& motion = s.slow_motion;
         text += fmt::format("slow motion {}, held {}, at {}", motion.active, motion.held,
                             motion.held ? static_cast<float>(motion.current) + motion.arrived : 0);

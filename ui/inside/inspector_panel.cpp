@@ -1,3 +1,4 @@
+#include "render/inspect/inspection.h"
 #include "ui/gl/setting_controls.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"

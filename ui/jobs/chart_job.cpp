@@ -47,11 +47,9 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     if (!source || !(reference || wants_histogram))
         return;
     const Snapshot& s = *pane.snapshot;
-    const Method method = s.settings.method;
-    const Request request{
-        source,          reference,
-        wants_histogram, s.generation,
-        method,          has_gradients(method) ? s.reconstructed_with : ReconstructionSettings{Norm::none}};
+    Request request{source, reference, wants_histogram, s.generation, s.settings.method, s.reconstructed_with};
+    if (!has_gradients(request.method))
+        request.reconstruction = {Norm::none};
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {

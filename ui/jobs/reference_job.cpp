@@ -120,7 +120,6 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
                 std::filesystem::remove(reference_checkpoint(file));
             ThreadPool pool(threads);
             ReferenceRender render(file, subject, recipe, pool);
-            const std::stop_callback viewer_ends(stop, [&] { watch->cancel(); });
             const bool is_complete =
                 render.run([&](const ReferenceRender& r) { return watch->look(r, stop); }, stop);
             Made made{{}, render.spp(), {}};

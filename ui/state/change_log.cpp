@@ -1,5 +1,7 @@
 #include "ui/state/change_log.h"
 
+#include "render/estimator/settings_table.h"
+#include "render/inspect/inspection.h"
 #include "ui/state/viewer_settings.h"
 #include "ui/state/words.h"
 
