@@ -1,5 +1,7 @@
 #include "render/estimator/reuse_policy.h"
 
+#include "render/estimator/path_reuse.h"
+
 #include <algorithm>
 #include <cmath>
 

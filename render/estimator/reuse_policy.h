@@ -1,13 +1,15 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/path_reuse.h"
 #include "render/estimator/settings.h"
 #include "render/io/memory.h"
 
 #include <span>
 
 namespace tessera {
+
+struct BasePath;
+class PathReuse;
 
 /// Into what tiles are cut before their pixels share light, so that each path has the offsets that pay.
 ///

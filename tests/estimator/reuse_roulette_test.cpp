@@ -1,4 +1,5 @@
 // The roulette that decides on reuse, on base paths made by hand.
+#include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_policy.h"
 #include "tests/support/rooms.h"
 
