@@ -194,7 +194,7 @@ TEST(MakeReferenceTwice, ClosingTheViewerKeepsTheCheckpoint) {
     EXPECT_GT(h.state().reference_making.progress->spp_resumed, 0);
 }
 
-/// A viewer that is closed is not to live on, hidden, for the rest of a pass. This one takes many seconds.
+/// A viewer that is closed is not to live on, hidden, for the rest of a pass, which takes seconds here.
 TEST(MakeReferenceTwice, ClosingTheViewerEndsThePassUnderWay) {
     const CurrentFolder folder;
     ReferenceRecipe recipe;
@@ -203,13 +203,13 @@ TEST(MakeReferenceTwice, ClosingTheViewerEndsThePassUnderWay) {
     {
         ViewerHarness h;
         h.rest(1);
-        h.state().size.custom = {1200, 800};
+        h.state().size.custom = {640, 480};
         for (PaneState& pane : h.state().panes)
-            pane.settings.render.max_depth = 64;
+            pane.settings.render.max_depth = 12;
         h.frames(2);
         recipe.size = h.state().request_size();
-        ASSERT_EQ(recipe.size, glm::ivec2(1200, 800));
-        recipe.settings.max_depth = 64;
+        ASSERT_EQ(recipe.size, glm::ivec2(640, 480));
+        recipe.settings.max_depth = 12;
         subject = {h.state().scene_source, h.state().scene, h.state().camera.camera()};
         MakeReference::begin(h, 1 << 20);
         made = MakeReference::file(h);
