@@ -55,7 +55,7 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
         options.spp = words.spp;
     if (command.count("--time"))
         options.time = words.time;
-    options.clock = words.clock == "cpu" ? Clock::cpu : Clock::wall;
+    options.clock = words.clock == "cpu" ? ClockChoice::cpu : ClockChoice::wall;
     if (command.count("--size"))
         options.size = words.size;
     if (command.count("--recon"))

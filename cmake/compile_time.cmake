@@ -12,11 +12,9 @@ function(tessera_precompile target)
   target_precompile_headers(${target} PRIVATE ${TESSERA_COMMON_HEADERS} ${ARGN})
 endfunction()
 
-# tessera_optimise(target LEVEL), tessera_optimise_sources(LEVEL sources...): less than -O3, where the time that compiling
-# takes is worth more than the time that running does. Pictures come from the -O3 of recon and render.
+# tessera_optimise(target LEVEL): less than -O3, where the time that compiling takes is worth more than the time that
+# running does. Pictures come from the -O3 of recon and render. It is for whole targets, as g++ 12 fails where a source is
+# optimised otherwise than the precompiled header that it takes.
 function(tessera_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
-endfunction()
-function(tessera_optimise_sources level)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:${level}>)
 endfunction()

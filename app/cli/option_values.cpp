@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <system_error>
 #include <variant>
 
 #include <CLI/CLI.hpp>

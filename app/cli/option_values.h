@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/estimator/settings_table.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/settings/settings_table.h"
 
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@
 #include "app/experiment/experiment.h"
 #include "app/experiment/references.h"
 #include "recon/reconstruct.h"
-#include "render/estimator/settings.h"
+#include "render/settings/settings.h"
 #include "ui/jobs/scene_load.h"
 #include "ui/state/viewer_state.h"
 #include "ui/viewer/viewer.h"

@@ -5,8 +5,8 @@
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include "app/commands/commands.h"
 #include "render/io/png.h"
 #include "ui/gl/gl.h"
-#include "ui/state/preferences.h"
+#include "ui/settings/preferences.h"
 #include "ui/viewer/script.h"
 #include "ui/viewer/viewer.h"
 #include "ui/window/surface.h"
@@ -18,7 +18,6 @@
 namespace tessera {
 
 namespace {
-
 
 using WallClock = std::chrono::steady_clock;
 

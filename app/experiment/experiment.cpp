@@ -4,14 +4,15 @@
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
-#include "render/estimator/settings_table.h"
 #include "render/io/exr.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "app/experiment/setup.h"
 
 #include "app/cli/terminal.h"
-#include "render/estimator/settings_table.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/estimator/setting.h"
-#include "render/estimator/settings.h"
+#include "render/settings/setting.h"
+#include "render/settings/settings.h"
 
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ struct PictureSettings {
     bool operator==(const PictureSettings&) const = default;
 };
 
-/// The settings of the table that an experiment may vary (render/estimator/settings_table.h): those of the render,
+/// The settings of the table that an experiment may vary (render/settings/settings_table.h): those of the render,
 /// recon (as the command line calls the norm), alpha, size and threads. `settings` must outlive them.
 std::vector<Setting> settings_of(PictureSettings& settings);
 

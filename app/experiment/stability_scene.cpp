@@ -1,6 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
-#include "render/estimator/settings.h"
+#include "render/settings/settings.h"
 
 #include <algorithm>
 #include <cstdio>

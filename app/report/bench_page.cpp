@@ -2,8 +2,8 @@
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
 #include "recon/enumeration.h"
-#include "render/estimator/settings_table.h"
 #include "render/io/png.h"
+#include "render/settings/settings_table.h"
 
 #include <cmath>
 #include <thread>

@@ -146,7 +146,7 @@ public:
     int first_shared() const { return first_shared_; }
     int slot_count() const { return static_cast<int>(carried_.size()); }
 
-    /// What the slot brings to the base's own pixel: f / (sum of pdfs and survival), radiance.
+    /// What the slot brings to the base's own pixel: f / (sum of pdfs, times survival), radiance: c_k.
     Rgb carried(int slot) const { return carried_[static_cast<std::size_t>(slot)]; }
     bool is_alive(int slot) const { return slot <= last_alive_ && !is_black(carried(slot)); }
     bool is_alive(int first, int end) const {

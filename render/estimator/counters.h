@@ -13,9 +13,9 @@ namespace tessera {
 /// How a shift of one base path to one offset pixel ended (render/estimator/shift.h).
 enum class ShiftOutcome : std::uint8_t {
     ok,               ///< at least one light path came through
-    occluded,         ///< every new edge is blocked
-    kind_mismatch,    ///< base and offset vertex scatter in different ways: the way back would be another
-    total_reflection, ///< no refracted direction for the half vector
+    occluded,         ///< no light path came through, and a new edge of at least one is blocked
+    kind_mismatch,    ///< vertices scatter in different ways, or one edge is short: the way back would be another
+    total_reflection, ///< a perfect refraction of the base has no direction at the offset
     outside,          ///< a ray left the scene, or an offset pixel sees nothing
     no_light,         ///< the offset carries nothing: black BSDF, no emitter hit
     count

@@ -13,7 +13,7 @@ struct CopiedScatter {
     glm::vec3 to_next; ///< in the offset vertex's frame
     Rgb f_cos;
     float pdf_w;    ///< per solid angle, or a probability after a delta scatter
-    float jacobian; ///< solid angle at the offset over solid angle at the base; 1 after a delta scatter
+    float jacobian; ///< solid angle at the offset over solid angle at the base; 1 after a copied delta scatter
 };
 
 /// Copies the half vector of a reflection or, where base_to_next is on the other side, of a refraction from the

@@ -10,6 +10,11 @@ namespace tessera {
 // the other into `set`, and has it visited with `inner`: pixels of the set in there get their light from it,
 // others only lend it their base paths. (PT's is the pixel alone.)
 
+/// How sets of the method decide on which base paths are shared: G-PT's few share all.
+inline RouletteKind roulette_of(const RenderSettings& settings) {
+    return reuses_paths(settings.method) ? settings.roulette : RouletteKind::none;
+}
+
 /// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
 template <class Visit>
 void for_each_tile_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {

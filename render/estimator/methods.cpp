@@ -10,8 +10,8 @@ namespace tessera {
 
 namespace {
 
-/// Path tracing: T = {k}. The weights 1/R are then those of emitter against BSDF sampling, which every base path
-/// has already taken [Veach 1997].
+/// Path tracing: T = {k}, so R = 1, and c_k has the weights of emitter against BSDF sampling that every base path
+/// takes [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     for (int y = area.y0; y < area.y1; ++y)
@@ -27,7 +27,7 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
     for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
-        share_light(pass, pass.settings.roulette, worker);
+        share_light(pass, roulette_of(pass.settings), worker);
         for (int i = 0; i < worker.set.size(); ++i) {
             const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
             add_sample(pass, p.x, p.y, worker.set.sample(i, worker.reuse), worker, film);
@@ -46,7 +46,7 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
             const BasePath& path = worker.base.at(x, y);
             PixelSample sample{path.radiance(), Rgb(0), Rgb(0), path.very_direct};
             for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
-                share_light(pass, RouletteKind::none, worker);
+                share_light(pass, roulette_of(pass.settings), worker);
                 sample.*gradient = worker.set.radiance[1] - worker.set.radiance[0];
                 sample.reuse += worker.set.reuse[0];
             });
@@ -77,7 +77,7 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all) {
-        share_light(pass, pass.settings.roulette, worker);
+        share_light(pass, roulette_of(pass.settings), worker);
         add_tile(pass, inner, all, worker, film);
     });
 }

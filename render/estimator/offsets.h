@@ -54,8 +54,8 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
 ///   ratio = r_m = P_m(y_m) |J| / P_k(x), where y_m is the shifted path, P the density with which a pixel's
 ///   samplers
 ///           make a path, summed over strategies, and J the shift's Jacobian; no unit, 0: the shift failed
-///   value = c_m = f_m(y_m) |J| / P_k(x), radiance; with the survival of the roulette on path length
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. The base's own ratio is 1.
+///   value = c_m = f_m(y_m) |J| / P_k(x), radiance; divided by the survival of the roulette on path length
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. The base's own ratio is 1, and not in its lane, which stays 0.
 struct OffsetRow {
     FloatLanes ratio;
     Vec3Lanes value;

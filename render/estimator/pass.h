@@ -4,8 +4,8 @@
 #include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/sampling_set.h"
-#include "render/estimator/settings.h"
 #include "render/estimator/tile_grid.h"
+#include "render/settings/settings.h"
 
 #include <vector>
 
@@ -108,7 +108,7 @@ ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& work
 /// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
 /// holds what each has got.
 /// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
-///              a path that is not adds nothing anywhere [Bauszat 2017, 3.3]
+///              a path that is not shares nothing [Bauszat 2017, 3.3]
 /// @param watch is called as watch(k, decision) when the light of path k has been shared out; worker.reuse then
 ///              knows how that went
 template <class Watch>

@@ -10,8 +10,8 @@ namespace tessera {
 /// pixel m
 ///   sum over base paths k in T and their light paths x of  c_m(x) / R(x),  R(x) = sum over n in T of r_n(x)
 /// where c_m and r_m are value and ratio of x shifted to m (OffsetRow): the balance heuristic over all pixels of T
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T; differences
-/// between pixels of one T are gradients.
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T;
+/// differences between pixels of one T are gradients.
 class PathReuse {
 public:
     /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/settings.h"
 #include "render/io/memory.h"
+#include "render/settings/settings.h"
 
 #include <span>
 

@@ -57,7 +57,8 @@ struct LightConnection {
 /// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
 /// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
 /// are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. The base path alone decides on every
-/// branch, so all lanes do the same arithmetic.
+/// branch, so all lanes do the same arithmetic. In x_i and y_i, i counts from 0
+/// in this class, as vertices do: i = 0 is what METHODS.md calls x_1.
 ///
 /// The walk along the base path is in shift.cpp; how offsets are joined to a vertex or a light of the base path in
 /// shift_connections.cpp; how a scatter is done again, and a ray traced, in shift_bounces.cpp.

@@ -31,7 +31,7 @@ bool Shift::bounce(int i, int m) {
     const glm::vec3 direction = y.to_world(s->to_next);
     const glm::vec3 origin = y.position;
     const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next, RayKind::shift_bounce);
-    // From a connectable vertex, an emitter is reached by connecting (done before); else by this very ray.
+    // By a connectable step, an emitter is reached by connecting (done before); else by this very ray.
     if (!light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i))) {
         const LightPoint met =
             is_inside ? tracer_.light_of(next, -direction) : tracer_.environment_toward(direction);
@@ -123,7 +123,8 @@ bool Shift::is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const {
     return is_only_short == (is_connectable(base(i + 1).vertex) && !light_->step_is_long(i));
 }
 
-/// The scatter at x_i done again at y: both must be of one kind.
+/// The scatter at x_i done again at y: both must be of one kind, or y at least must have such a delta part (from a
+/// mirror to smooth plastic, and back).
 std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
     if (replays())
         return replay_scatter(i, m);

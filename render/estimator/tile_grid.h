@@ -2,7 +2,7 @@
 
 #include "recon/image.h"
 #include "render/estimator/reuse_policy.h"
-#include "render/estimator/settings.h"
+#include "render/settings/settings.h"
 
 #include <vector>
 

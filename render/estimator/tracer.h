@@ -1,10 +1,10 @@
 #pragma once
 
 #include "render/estimator/counters.h"
-#include "render/estimator/settings.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/light.h"
 #include "render/scene/scene.h"
+#include "render/settings/settings.h"
 #include "render/surface/bsdf.h"
 
 #include <optional>

@@ -26,9 +26,7 @@ InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2
         result.is_border.push_back(!inner.contains(p));
     worker.base.trace(pass, worker.tracer, bounds(result.pixels));
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
-    const RouletteKind kind =
-        reuses_paths(pass.settings.method) ? pass.settings.roulette : RouletteKind::none; // as in the methods
-    share_light(pass, kind, worker, onlooker);
+    share_light(pass, roulette_of(pass.settings), worker, onlooker);
     return result;
 }
 

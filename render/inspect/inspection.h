@@ -2,8 +2,8 @@
 
 #include "render/estimator/counters.h"
 #include "render/estimator/reuse_policy.h"
-#include "render/estimator/settings.h"
 #include "render/estimator/shift_onlooker.h"
+#include "render/settings/settings.h"
 
 #include <stop_token>
 #include <string_view>

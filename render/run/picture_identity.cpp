@@ -1,10 +1,10 @@
 #include "render/run/picture_identity.h"
 
-#include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 #include "render/run/render.h"
 #include "render/scene/camera.h"
+#include "render/settings/settings_table.h"
 
 #include <fstream>
 #include <iterator>
@@ -57,22 +57,6 @@ std::uint32_t checksum_of_samples(const PictureSubject& subject, const RenderSet
 }
 
 } // namespace
-
-json settings_json(const SceneSource& scene, const RenderSettings& s, glm::ivec2 size, int spp, float alpha) {
-    json settings{{"version", TESSERA_VERSION},
-                  {"scene", to_string(scene)},
-                  {"variables", scene.variables},
-                  {"camera", scene.camera.string()},
-                  {"method", short_name(s.method)},
-                  {"width", size.x},
-                  {"height", size.y},
-                  {"spp", spp},
-                  {"alpha", alpha},
-                  {"seed", s.seed}};
-    for (const Setting& setting : all_settings())
-        settings[std::string(setting.id)] = value_json(setting, s);
-    return settings;
-}
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
                              ThreadPool& pool) {

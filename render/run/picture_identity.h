@@ -1,9 +1,9 @@
 #pragma once
 
-#include "render/estimator/settings.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
+#include "render/settings/settings.h"
 
 #include <memory>
 #include <string>

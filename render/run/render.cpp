@@ -1,15 +1,16 @@
 #include "render/run/render.h"
 
 #include "render/estimator/pass.h"
-#include "render/estimator/settings_table.h"
 #include "render/io/files.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <chrono>
-#include <fmt/core.h>
 #include <span>
 #include <stdexcept>
 #include <utility>
+
+#include <fmt/core.h>
 
 namespace tessera {
 

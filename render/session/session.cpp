@@ -4,6 +4,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 

@@ -4,8 +4,8 @@
 #include "recon/reconstruct.h"
 #include "render/estimator/counters.h"
 #include "render/estimator/film.h"
-#include "render/estimator/settings.h"
 #include "render/scene/camera.h"
+#include "render/settings/settings.h"
 
 #include <cstdint>
 #include <memory>

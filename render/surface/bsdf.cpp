@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 namespace {

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <variant>
 
+#include <glm/vec2.hpp>
+
 namespace tessera {
 
 /// What a surface does to light at one point, as plain numbers. Every alternative has

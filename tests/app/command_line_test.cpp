@@ -192,10 +192,11 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
     if (child == 0) {
         if (chdir(folder_.c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
             _exit(100);
-        execl(TESSERA_BINARY, "tessera", "render", "box.xml", "-m", "pt", "--size", "64x64", "--spp", "100000000",
+        execl(TESSERA_BINARY, "tessera", "render", "box.xml", "-m", "pt", "--size", "64x64", "--spp", "3000",
               "-o", "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
         _exit(101);
     }
+    // A tenth of the passes is told of: there are as many as take some seconds on any machine.
     EXPECT_TRUE(eventually([&] {
         return fs::exists(folder_ / "log.txt") && fs::file_size(folder_ / "log.txt") > 0;
     })) << "it says nothing of its passes";
@@ -207,7 +208,7 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
     EXPECT_EQ(read_exr(folder_ / "out.exr").layers.at(0).image.width(), 64);
     const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "s.json"));
     EXPECT_EQ(stats["interrupted"], true);
-    EXPECT_LT(stats["spp"], 100000000);
+    EXPECT_LT(stats["spp"], 3000);
 }
 
 TEST_F(CommandLine, WithoutADisplayThereIsAPicture) {

@@ -69,7 +69,7 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
 
     const auto rows = csv();
     ASSERT_EQ(rows.size(), 3u);
-    EXPECT_EQ(rows[0].size(), 5 + all_figures().size());
+    EXPECT_EQ(rows[0].size(), 5 + result_columns().size());
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_EQ(rows[i].size(), rows[0].size());
     EXPECT_THAT(std::vector(rows[0].begin(), rows[0].begin() + 7),

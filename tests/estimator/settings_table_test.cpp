@@ -1,6 +1,6 @@
 // The table that command line, panel and files are made from.
 #include "recon/enumeration.h"
-#include "render/estimator/settings_table.h"
+#include "render/settings/settings_table.h"
 #include "render/trace/rays.h"
 
 #include <stdexcept>

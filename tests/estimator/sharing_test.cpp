@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

@@ -24,9 +24,9 @@ import header_names
 
 # From the inside out: a file includes only files of its own room and of those before it.
 ROOMS = """recon
-    render/io render/sampling render/surface render/trace render/scene render/mesh render/load render/estimator
+    render/io render/settings render/sampling render/surface render/trace render/scene render/mesh render/load render/estimator
     render/inspect render/run render/session
-    ui/gl ui/state ui/inside ui/charts ui/panes ui/jobs ui/panels ui/viewer ui/window
+    ui/gl ui/state ui/settings ui/inside ui/charts ui/panes ui/jobs ui/panels ui/viewer ui/window
     app/cli app/experiment app/report app/commands app""".split()
 MOST_FILES = 31
 MOST_LINES = 400

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "render/estimator/settings.h"
 #include "render/scene/scene.h"
+#include "render/settings/settings.h"
 #include "tests/support/naive.h"
 
+#include <memory>
 #include <string>
 
 namespace tessera::test {

@@ -4,8 +4,8 @@
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/gl/gui.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/actions.h"
-#include "ui/state/settings_file.h"
 
 #include <filesystem>
 #include <functional>

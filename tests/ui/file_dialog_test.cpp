@@ -3,8 +3,8 @@
 #include "render/io/exr.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/file_names.h"
-#include "ui/state/settings_file.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -125,7 +125,7 @@ TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
     };
     load("bad.json");
     EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
-    EXPECT_NE(h.state().messages.back().text.find("bad.json:2:14: method is none of"), std::string::npos)
+    EXPECT_NE(h.state().messages.back().text.find("bad.json:2:14: method is \"xyz\": must be one of pt, pr, gpt, gpr"), std::string::npos)
         << h.state().messages.back().text;
     EXPECT_EQ(h.pane(0).settings.render.tile, 8);
     h.state().layout.show_messages = false;

@@ -6,7 +6,7 @@
 #include "render/scene/scene.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/state/settings_file.h"
+#include "ui/settings/settings_file.h"
 
 #include <filesystem>
 #include <fstream>

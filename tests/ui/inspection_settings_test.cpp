@@ -3,7 +3,7 @@
 #include "render/inspect/inspection.h"
 #include "render/io/text.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/state/settings_file.h"
+#include "ui/settings/settings_file.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
-#include "ui/state/preferences.h"
+#include "ui/settings/preferences.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +13,7 @@
 #include <iterator>
 #include <utility>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -1,5 +1,7 @@
 #include "ui/state/viewer_state.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace tessera {

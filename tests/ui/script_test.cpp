@@ -1,5 +1,5 @@
+#include "ui/settings/settings_file.h"
 #include "ui/state/actions.h"
-#include "ui/state/settings_file.h"
 #include "ui/viewer/script.h"
 
 #include <sstream>

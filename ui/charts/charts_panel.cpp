@@ -1,6 +1,6 @@
 #include "recon/enumeration.h"
 #include "ui/charts/charts.h"
-#include "ui/gl/setting_controls.h"
+#include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/state/words.h"
 

@@ -8,11 +8,15 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {
+
+struct Setting;
+struct SettingChoice;
 
 /// For a window beside the pictures: it stays where it is, and scrolls.
 inline constexpr ImGuiWindowFlags side_panel_flags =
@@ -115,5 +119,13 @@ void draw_dialog(const char* title, glm::vec2 screen, float width, const std::fu
 
 /// A paragraph of less weight than what it explains.
 void dim_text(const std::string& text);
+
+/// Choices of the table of settings, as items of a control.
+std::vector<ChoiceItem> choice_items(std::span<const SettingChoice> choices);
+
+/// The control that fits the setting, with its id, label, limits and help: a slider, or a number to type where a
+/// slider could not point at each, a switch, a list. Of a size there are two, "width" and "height". Returns
+/// whether it changed the value.
+bool draw_setting(Controls& controls, const Setting& setting);
 
 } // namespace tessera

@@ -1,4 +1,5 @@
-#include "ui/gl/setting_controls.h"
+#include "render/settings/setting.h"
+#include "ui/gl/controls.h"
 
 #include <string>
 #include <variant>

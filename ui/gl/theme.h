@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/settings.h"
+#include "render/settings/settings.h"
 
 #include <imgui.h>
 

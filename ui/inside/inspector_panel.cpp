@@ -1,5 +1,5 @@
 #include "render/inspect/inspection.h"
-#include "ui/gl/setting_controls.h"
+#include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"
 #include "ui/state/words.h"

@@ -1,7 +1,6 @@
-#include "render/estimator/settings_table.h"
 #include "render/run/reference_render.h"
+#include "render/settings/settings_table.h"
 #include "ui/gl/controls.h"
-#include "ui/gl/setting_controls.h"
 #include "ui/panels/panels.h"
 #include "ui/state/buffer.h"
 
@@ -11,8 +10,8 @@
 #include <iterator>
 #include <limits>
 #include <string>
-#include <vector>
 #include <system_error>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -98,8 +97,7 @@ void draw_buttons(Controls& controls, ViewerState& state) {
     ReferenceMaking& making = state.reference_making;
     const float width = ImGui::GetFontSize() * 7;
     if (making.is_making()) {
-        if (controls.button("reference.cancel", "Cancel",
-                            "Ends it; made again, it goes on from there.", width))
+        if (controls.button("reference.cancel", "Cancel", "Ends it; made again, it goes on from there.", width))
             state.wishes.stop_making = true;
     } else if (controls.button("reference.make", "Make", "Renders it in the background; the panes go first.",
                                width)) {

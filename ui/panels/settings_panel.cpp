@@ -1,9 +1,9 @@
 #include "recon/enumeration.h"
-#include "render/estimator/settings_table.h"
-#include "ui/gl/setting_controls.h"
+#include "render/settings/settings_table.h"
+#include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
-#include "ui/state/viewer_settings.h"
+#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-#include "render/estimator/settings_table.h"
-#include "ui/gl/setting_controls.h"
+#include "render/settings/settings_table.h"
+#include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panes/pane_parts.h"

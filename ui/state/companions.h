@@ -3,8 +3,8 @@
 #include "recon/image.h"
 #include "recon/reconstruct.h"
 #include "render/estimator/counters.h"
-#include "render/estimator/settings.h"
 #include "render/scene/scene_checksums.h"
+#include "render/settings/settings.h"
 
 #include <array>
 #include <cstddef>

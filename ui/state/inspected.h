@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/settings.h"
 #include "render/scene/camera.h"
+#include "render/settings/settings.h"
 #include "ui/gl/image_view.h"
 #include "ui/state/camera_control.h"
 

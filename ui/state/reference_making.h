@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/metrics.h"
-#include "render/estimator/settings.h"
+#include "render/settings/settings.h"
 
 #include <array>
 #include <filesystem>

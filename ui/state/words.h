@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/estimator/setting.h"
 #include "render/io/json_text.h"
+#include "render/settings/setting.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,52 +22,52 @@ namespace tessera {
 
 /// What settings files, scripts, the log and lists call the values of enums, in their order.
 namespace words {
-/// SizeChoice::Base.
+/// The words of SizeChoice::Base.
 inline constexpr SettingChoice sizes[] = {
     {"pane", "fit the pane", "As many pixels as the pane has, in the film's proportions."},
     {"scene", "of the scene", "The film size of the scene file."},
     {"custom", "custom", "The width and height given below."},
 };
-/// Tone::Curve.
+/// The words of Tone::Curve.
 inline constexpr SettingChoice tones[] = {
     {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},
     {"gamma", "gamma", "Radiance to the power of 1/gamma."},
     {"filmic", "filmic", "Highlights are compressed instead of cut [Narkowicz 2015], then sRGB."},
 };
-/// Comparison::Kind.
+/// The words of Comparison::Kind.
 inline constexpr SettingChoice comparisons[] = {
     {"off", "off", "The pane shows its own picture."},
     {"wipe", "wipe", "Its own picture to the left of a line, another pane's to the right. Drag the line (V)."},
     {"difference", "difference", "Its own picture minus another pane's: orange above zero, blue below (N)."},
 };
-/// Pace::Equal.
+/// The words of Pace::Equal.
 inline constexpr SettingChoice shares[] = {
     {"time", "same time", "Passes go to the pane that has rendered for the shortest time."},
     {"spp", "same spp", "Passes go to the pane with the fewest samples a pixel."},
 };
-/// ChartKind.
+/// The words of ChartKind.
 inline constexpr SettingChoice charts[] = {
     {"error", "Error", "relMSE of each pane's picture to the reference."},
     {"efficiency", "Efficiency", "1 / (relMSE x seconds) of each pane: higher is better."},
     {"shifts", "Shifts", "How the shifts of each pane ended: which share came through, and why others did not."},
 };
-/// ViewerState::charts_by_spp.
+/// The words of Layout::charts_by_spp.
 inline constexpr SettingChoice chart_axes[] = {
     {"seconds", "against seconds", "Wall time of a pane's own passes."},
     {"spp", "against samples", "Samples a pixel."},
 };
-/// Inspector::Direction.
+/// The words of Inspector::Direction.
 inline constexpr SettingChoice directions[] = {
     {"to_pixel", "what reaches the pixel", "The base paths of its sampling set, shifted to the pixel."},
     {"from_pixel", "where its path goes", "The pixel's own base path, shifted to the others of its set."},
 };
-/// Theme, which has no list.
+/// The words of Theme, which no panel lists.
 inline constexpr SettingChoice themes[] = {{"dark", "", ""}, {"light", "", ""}};
 } // namespace words
 
-static_assert(std::size(words::off_on) == 2 && std::size(words::chart_axes) == 2); // of a bool
+static_assert(std::size(words::chart_axes) == 2); // of a bool
 
-/// Not of a bool: of an enum whose words these are.
+/// The word of an enum's value, by its position in the list.
 template <class Enum, std::size_t count>
 std::string_view word(const SettingChoice (&words)[count], Enum value) {
     return words[static_cast<std::size_t>(value)].id;

@@ -1,5 +1,5 @@
 #include "ui/gl/gui.h"
-#include "ui/state/settings_file.h"
+#include "ui/settings/settings_file.h"
 #include "ui/viewer/script.h"
 
 #include <chrono>

@@ -3,6 +3,7 @@
 #include "ui/state/viewer_state.h"
 
 #include <array>
+#include <memory>
 
 namespace tessera {
 

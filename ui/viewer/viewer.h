@@ -9,9 +9,9 @@
 #include "ui/jobs/scene_load.h"
 #include "ui/panels/file_dialog.h"
 #include "ui/panes/pane_view.h"
+#include "ui/settings/change_log.h"
+#include "ui/settings/preferences.h"
 #include "ui/state/actions.h"
-#include "ui/state/change_log.h"
-#include "ui/state/preferences.h"
 #include "ui/viewer/session_link.h"
 
 #include <array>
@@ -20,6 +20,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -41,8 +43,8 @@ struct ViewerOptions {
     std::optional<int> max_depth;    ///< otherwise the scene decides
     SizeChoice size;
     int spp_limit = 0;
-    int threads = 0;                    ///< of references that are made; as in ThreadPool
-    std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the active pane
+    int threads = 0;                             ///< of references that are made; as in ThreadPool
+    std::optional<SampleChoice> sample;          ///< to begin with in the path inspector, of the active pane
     bool panes_as_remembered = false;            ///< as many as the last time, if that is known
     std::function<void(const std::string&)> log; ///< gets a line for every change of state; may be empty
     bool log_controls = false;                   ///< also where each control lies

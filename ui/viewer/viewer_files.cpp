@@ -3,9 +3,9 @@
 #include "render/scene/camera.h"
 #include "ui/charts/charts.h"
 #include "ui/panes/showing.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/camera_control.h"
 #include "ui/state/file_names.h"
-#include "ui/state/settings_file.h"
 #include "ui/viewer/viewer.h"
 
 #include <algorithm>

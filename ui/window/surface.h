@@ -1,10 +1,12 @@
 #pragma once
 
-#include "ui/state/preferences.h"
+#include "ui/settings/preferences.h"
 
 #include <functional>
 #include <memory>
 #include <string>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 

@@ -1,14 +1,14 @@
-#include "render/estimator/settings_table.h"
-#include "ui/state/settings_file.h"
-#include "ui/state/viewer_settings.h"
+#include "render/settings/settings_table.h"
+#include "ui/settings/settings_file.h"
+#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 #include <system_error>
+#include <vector>
 
 #include <fmt/core.h>
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-#include "ui/state/preferences.h"
+#include "ui/settings/preferences.h"
 
 #include "render/io/files.h"
 #include "render/io/json_text.h"

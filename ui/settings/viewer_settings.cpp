@@ -1,6 +1,6 @@
-#include "ui/state/viewer_settings.h"
+#include "ui/settings/viewer_settings.h"
 
-#include "render/estimator/settings_table.h"
+#include "render/settings/settings_table.h"
 #include "ui/state/words.h"
 
 namespace tessera {

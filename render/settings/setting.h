@@ -35,8 +35,8 @@ struct Setting {
     /// A number without a unit, or with one that its help names.
     struct Real {
         float* value;
-        float least, most; ///< limits
-        float low, high;   ///< ends of a slider
+        float least, most;            ///< limits
+        float low, high;              ///< ends of a slider
         const char* format = nullptr; ///< as printf takes it, on a linear scale; null: on a logarithmic one
     };
     struct Seconds {

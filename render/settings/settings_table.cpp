@@ -1,4 +1,4 @@
-#include "render/estimator/settings_table.h"
+#include "render/settings/settings_table.h"
 
 #include <array>
 #include <stdexcept>
@@ -130,8 +130,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          Setting::Switch{&s.jitter}, shares, true},
         {"pattern", "Pattern", "Which pixels share their paths.", one_of(patterns, s.pattern),
          s.method == Method::pr},
-        {"roulette", "Roulette", "How it is decided which base paths are reused.", one_of(roulette_kinds, s.roulette),
-         shares},
+        {"roulette", "Roulette", "How it is decided which base paths are reused.",
+         one_of(roulette_kinds, s.roulette), shares},
         {"rr_scale", "RR scale",
          "Relative roulette: a path whose value is below this many standard deviations of the values in its tile "
          "is reused less often, in proportion (no unit).",

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/estimator/setting.h"
 #include "render/session/session.h"
+#include "render/settings/setting.h"
 #include "ui/gl/tone.h"
 #include "ui/state/viewer_state.h"
 
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-// Rows of the table of settings (render/estimator/settings_table.h) for what is the viewer's own. What they are
+// Rows of the table of settings (render/settings/settings_table.h) for what is the viewer's own. What they are
 // bound to must outlive them.
 
 /// How the panes share the cores, and when they rest.

@@ -1,8 +1,8 @@
-#include "ui/state/change_log.h"
+#include "ui/settings/change_log.h"
 
-#include "render/estimator/settings_table.h"
 #include "render/inspect/inspection.h"
-#include "ui/state/viewer_settings.h"
+#include "render/settings/settings_table.h"
+#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cstdio>

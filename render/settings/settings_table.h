@@ -1,9 +1,9 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/estimator/setting.h"
 #include "render/io/files.h"
-#include "render/estimator/settings.h"
+#include "render/settings/setting.h"
+#include "render/settings/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -16,9 +16,9 @@ namespace tessera {
 // The one table of settings: every row's name, limits, choices and help stand here and nowhere else. A row is
 // bound to a value that must outlive it.
 
-inline constexpr int most_spp = 100'000'000;     ///< samples a pixel of one picture
-inline constexpr double most_seconds = 1e7;      ///< of rendering, a third of a year
-inline constexpr int most_threads = 1024;        ///< of a renderer
+inline constexpr int most_spp = 100'000'000; ///< samples a pixel of one picture
+inline constexpr double most_seconds = 1e7;  ///< of rendering, a third of a year
+inline constexpr int most_threads = 1024;    ///< of a renderer
 
 /// All members of RenderSettings but method and seed, in the order of the panel.
 std::vector<Setting> settings_of(RenderSettings& settings);

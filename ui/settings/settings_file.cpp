@@ -1,10 +1,10 @@
-#include "ui/state/settings_file.h"
+#include "ui/settings/settings_file.h"
 
-#include "render/estimator/settings_table.h"
 #include "render/io/json_text.h"
 #include "render/io/text.h"
 #include "render/scene/camera.h"
-#include "ui/state/viewer_settings.h"
+#include "render/settings/settings_table.h"
+#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cmath>

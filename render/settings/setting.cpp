@@ -1,8 +1,9 @@
-#include "render/estimator/setting.h"
+#include "render/settings/setting.h"
 
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <system_error>
 #include <type_traits>
 
 #include <fmt/core.h>
