@@ -1,5 +1,5 @@
 #include "app/cli/terminal.h"
-#include "app/options.h"
+#include "app/commands/commands.h"
 
 #include <cstdio>
 #include <exception>

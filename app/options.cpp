@@ -1,5 +1,3 @@
-#include "app/options.h"
-
 #include "app/cli/option_values.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"

@@ -2,7 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "render/io/files.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 
 #include <string>
 #include <utility>

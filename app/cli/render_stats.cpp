@@ -1,7 +1,7 @@
 #include "app/cli/render_stats.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/option_values.h"
+#include "app/cli/terminal.h"
 #include "ui/state/viewer_state.h"
 
 #include <algorithm>

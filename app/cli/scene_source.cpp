@@ -1,6 +1,5 @@
 #include "app/cli/scene_source.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "embedded/cornell_box_xml.h"
 #include "render/run/thread_pool.h"

@@ -1,18 +1,19 @@
-// The commands of the program, one function each, with all that one can ask of them. Those with many options have
-// the words of the command line, too, as a step between it and these.
 #pragma once
 
 #include "app/cli/picture_layers.h"
 #include "app/cli/scene_source.h"
 #include "app/experiment/experiment.h"
 #include "app/experiment/references.h"
+#include "recon/image.h"
 #include "recon/reconstruct.h"
 #include "render/settings/settings.h"
 #include "ui/jobs/scene_load.h"
 #include "ui/state/viewer_state.h"
 #include "ui/viewer/viewer.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@
 #include <glm/vec2.hpp>
 
 namespace tessera {
+
+// The commands of the program, one function each, with all that one can ask of them. Those with many options have
+// the words of the command line, too, as a step between it and these.
 
 /// What run_view returns where there is neither a display nor a way to draw without one: the caller may render the
 /// same comparison headless.
@@ -184,5 +188,27 @@ int run_sweep(const ExperimentOptions& options);
 /// a folder of its own, OUTPUT/scenes/SCENE. No `options.scenes`: those that come with the program. Depths are the
 /// scenes' own. Returns an ExitCode. Throws BadInput or another std::exception before anything was rendered.
 int run_stability(ExperimentOptions options);
+
+/// Gradients from files, ready to reconstruct from.
+struct GradientInput {
+    GradientImages images;                         ///< all finite
+    std::map<std::string, std::string> attributes; ///< those that this program wrote into an EXR header
+    std::size_t repaired = 0;                      ///< values that were no numbers, now 0 or without trust
+};
+
+/// Reads one EXR file with layers primal, dx, dy and perhaps direct, or three or four files, EXR (plain RGB) or
+/// PFM: primal, dx, dy and perhaps very direct. dx may lack the last column and dy the last row, which mean
+/// nothing in any case. The EXR file may also have the variances of the three, as layers primal_variance,
+/// dx_variance and dy_variance (sums over the channels, in R). Throws BadInput or another std::exception that
+/// names the file: for sizes that do not fit, and for pixels that are not finite unless `repair` makes them 0.
+GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bool repair);
+
+/// The first pixel, row by row from the top left, that is not finite, as text: "pixel (3, 4) is (nan, 0, 1)".
+/// Empty: there is none.
+std::string text_of_bad_pixel(const RgbImage& image);
+
+/// Reads the command line and runs the command it names. Returns an ExitCode; throws std::exception whose what()
+/// is fit for the user.
+int run_command_line(int argc, char** argv);
 
 } // namespace tessera

@@ -3,7 +3,7 @@
 #include "app/commands/commands.h"
 #include "app/report/reports.h"
 #include "recon/reconstruct.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "render/run/render.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
-#include "app/commands/gradient_input.h"
-
 #include "app/cli/picture_layers.h"
 #include "app/cli/terminal.h"
+#include "app/commands/commands.h"
 #include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/pfm.h"
+#include "render/io/plain_images.h"
 
 #include <algorithm>
 #include <charconv>

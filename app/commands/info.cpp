@@ -1,8 +1,7 @@
-#include "app/cli/machine.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "render/scene/traits.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <cstddef>

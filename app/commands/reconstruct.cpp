@@ -1,10 +1,8 @@
-#include "app/cli/machine.h"
 #include "app/cli/option_values.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/commands/gradient_input.h"
 #include "render/io/json_text.h"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "ui/gl/gl.h"
 #include "ui/settings/preferences.h"
 #include "ui/viewer/script.h"

@@ -1,6 +1,5 @@
 #include "app/experiment/experiment.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"

@@ -1,6 +1,5 @@
 #include "app/experiment/measured_run.h"
 
-#include "app/cli/machine.h"
 #include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 

@@ -1,5 +1,4 @@
-#include "app/experiment/measurement.h"
-
+#include "app/experiment/measured_run.h"
 #include "recon/enumeration.h"
 
 #include <limits>

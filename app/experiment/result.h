@@ -2,7 +2,7 @@
 // from them.
 #pragma once
 
-#include "app/experiment/measurement.h"
+#include "app/experiment/measured_run.h"
 #include "app/experiment/setup.h"
 
 #include <filesystem>

@@ -1,8 +1,7 @@
-#include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
 #include "recon/enumeration.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "render/settings/settings_table.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-#include "app/cli/machine.h"
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
 #include "render/io/json_text.h"

@@ -1,9 +1,9 @@
-#include "app/cli/machine.h"
 #include "app/cli/scene_source.h"
+#include "app/cli/terminal.h"
 #include "app/experiment/speed_up.h"
 #include "app/report/reports.h"
 #include "render/io/exr.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "render/io/byte_stream.h"
 
+#include "render/io/memory.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -73,6 +75,13 @@ void ZlibReader::read(void* bytes, std::size_t size) {
         if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
             throw std::runtime_error("the compressed data are broken");
     }
+}
+
+std::uint32_t checksum(std::span<const std::byte> bytes, std::uint32_t before) {
+    if (bytes.empty())
+        return before; // zlib takes a null pointer for a new beginning
+    return static_cast<std::uint32_t>(
+        crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
 } // namespace tessera

@@ -1,7 +1,6 @@
-#include "render/load/image_files.h"
-
 #include "render/io/exr.h"
 #include "render/io/files.h"
+#include "render/load/plugins.h"
 
 #include <algorithm>
 #include <cmath>

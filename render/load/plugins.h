@@ -1,13 +1,15 @@
-// What the loader makes of each element of a scene, from its materials to its camera.
 #pragma once
 
 #include "render/load/load_context.h"
 #include "render/surface/texture.h"
 
+#include <filesystem>
 #include <iterator>
 #include <string_view>
 
 namespace tessera {
+
+// What the loader makes of each element of a scene, from its materials to its camera.
 
 /// A row of a table of plugins: the type in the file, and what reads it.
 template <class Function>
@@ -70,5 +72,10 @@ void read_integrator(LoadContext& context, const XmlElement& element);
 
 /// A <sensor> with its film: camera and size.
 void read_sensor(LoadContext& context, const XmlElement& element);
+
+/// Reads an image file as three channels: OpenEXR and Radiance files as linear floats, others (such as PNG, JPEG,
+/// TGA and BMP) as bytes, which are sRGB encoded or linear as `srgb` says. Transparency is dropped, grey repeated.
+/// Throws std::runtime_error, also for a size that the file is far too short for.
+Bitmap read_bitmap(const std::filesystem::path& file, bool srgb);
 
 } // namespace tessera

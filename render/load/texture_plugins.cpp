@@ -1,4 +1,3 @@
-#include "render/load/image_files.h"
 #include "render/load/plugins.h"
 #include "render/load/properties.h"
 

@@ -1,4 +1,4 @@
-#include "render/scene/traits.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // Measurements in the journal: they come back from their text.
-#include "app/experiment/measurement.h"
+#include "app/experiment/measured_run.h"
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 // same with one sample and another seed. Cold starts solve BUFFERS; warm starts have solved BUFFERS, and go on
 // with the n + 1 samples of both.
 
-#include "app/commands/gradient_input.h"
+#include "app/commands/commands.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
 #include "ui/charts/chart.h"

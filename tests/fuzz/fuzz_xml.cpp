@@ -1,5 +1,5 @@
-#include "render/load/image_files.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/load/plugins.h"
 #include "tests/fuzz/fuzzed_mesh.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

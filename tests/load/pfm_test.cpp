@@ -1,4 +1,4 @@
-#include "render/io/pfm.h"
+#include "render/io/plain_images.h"
 #include "tests/load/pfm_bytes.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/recon/test_images.h"

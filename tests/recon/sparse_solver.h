@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recon/edge_weights.h"
 #include "recon/poisson_problem.h"
+#include "recon/poisson_weighted.h"
 
 #include <vector>
 

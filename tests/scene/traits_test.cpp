@@ -1,4 +1,4 @@
-#include "render/scene/traits.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <utility>

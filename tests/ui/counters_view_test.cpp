@@ -4,7 +4,7 @@
 #include "tests/ui/panes_fixture.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
-#include "ui/panels/statistics.h"
+#include "ui/panels/panels.h"
 
 #include <algorithm>
 #include <cmath>

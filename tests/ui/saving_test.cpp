@@ -1,6 +1,6 @@
 // Pictures that the viewer saves: of a pane as EXR and PNG.
 
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/panes/showing.h"

@@ -1,4 +1,4 @@
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "tests/ui/osmesa_context.h"
 #include "ui/gl/gl.h"
 

@@ -1,4 +1,4 @@
-#include "ui/panels/statistics.h"
+#include "ui/panels/panels.h"
 
 #include <algorithm>
 #include <stdexcept>

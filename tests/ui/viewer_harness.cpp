@@ -1,6 +1,6 @@
 #include "tests/ui/viewer_harness.h"
 
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "tests/support/scene_builder.h"
 #include "ui/gl/gui.h"
 

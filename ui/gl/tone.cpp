@@ -1,6 +1,6 @@
 #include "ui/gl/tone.h"
 
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 
 #include <algorithm>
 #include <cmath>

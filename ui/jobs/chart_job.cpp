@@ -1,6 +1,5 @@
-#include "ui/jobs/chart_job.h"
-
 #include "render/run/thread_pool.h"
+#include "ui/jobs/jobs.h"
 #include "ui/state/companions.h"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
-#include "ui/jobs/companion_jobs.h"
-
 #include "render/run/first_hits.h"
 #include "render/run/reference_image.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
+#include "ui/jobs/jobs.h"
 #include "ui/state/companions.h"
 
 #include <algorithm>

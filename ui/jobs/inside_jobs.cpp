@@ -1,9 +1,8 @@
-#include "ui/jobs/inside_jobs.h"
-
 #include "render/inspect/inspection.h"
 #include "render/run/first_hits.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
+#include "ui/jobs/jobs.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,7 @@
-#include "ui/jobs/reference_job.h"
-
 #include "render/io/files.h"
 #include "render/run/reference_render.h"
 #include "render/run/thread_pool.h"
+#include "ui/jobs/jobs.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,9 @@
-#include "ui/panels/file_dialog.h"
-
 #include "recon/enumeration.h"
 #include "ui/gl/theme.h"
+#include "ui/panels/panels.h"
 
+#include <filesystem>
+#include <glm/vec2.hpp>
 #include <algorithm>
 #include <cfloat>
 #include <cmath>

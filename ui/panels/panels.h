@@ -1,11 +1,21 @@
 #pragma once
 
 #include "render/load/load_progress.h"
+#include "render/session/snapshot.h"
 #include "ui/gl/controls.h"
 #include "ui/gl/image_view.h"
+#include "ui/state/file_names.h"
 #include "ui/state/viewer_state.h"
 
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <imgui.h>
+
+struct ImGuiInputTextCallbackData;
 
 namespace tessera {
 
@@ -38,5 +48,54 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 /// What is being loaded and how far that is, over the pictures, and a button to give it up.
 void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
                   const LoadProgress::State& progress, double seconds);
+
+/// One number of a render's counters, ready to be shown.
+struct Statistic {
+    std::string id; ///< "rays.camera"
+    std::string label;
+    std::string value;           ///< may be empty where the share says all
+    std::optional<double> share; ///< of the group's whole, in [0, 1]
+    std::string help;
+};
+
+struct StatisticGroup {
+    std::string title;
+    std::vector<Statistic> statistics;
+};
+
+/// What the snapshot's counters say, in groups. What its method does not do, or what did not happen, has no group.
+std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
+
+/// "9999", "12.3 k", "4.56 M", "7.89 G".
+std::string count_text(std::uint64_t count);
+
+/// Chooses a file that is there: a path to be typed, which Tab completes, and the folder that it leads to, to be
+/// clicked.
+class FileDialog {
+public:
+    /// Draws it while state.layout.choosing says what for. What is chosen becomes a wish of the state.
+    void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
+
+private:
+    void begin(const ViewerState& state);
+    void draw_path(Controls& controls);
+    void draw_list(Controls& controls, float height);
+    void draw_entry(Controls& controls, const FileEntry& entry);
+    void draw_buttons(Controls& controls, ViewerState& state);
+    void set_text(const std::string& text);
+    void read_text();
+    void enter();
+    static int edit(ImGuiInputTextCallbackData* data);
+    int complete(ImGuiInputTextCallbackData& data) const;
+
+    std::optional<FilePurpose> purpose_; // of what is on show
+    std::array<char, 4096> text_{};
+    bool wants_focus_ = false, wants_cursor_last_ = false; // the text, which was put there
+    std::filesystem::path folder_;                         // that is listed
+    std::vector<FileEntry> entries_;                       // of the folder
+    std::string filter_;                                   // the beginning that was typed, not clicked
+    std::string error_;                                    // why there is nothing to choose
+    std::filesystem::path chosen_;                         // empty: nothing yet
+};
 
 } // namespace tessera

@@ -3,7 +3,7 @@
 #include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
-#include "ui/settings/viewer_settings.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/words.h"
 
 #include <cstddef>

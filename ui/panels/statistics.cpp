@@ -1,5 +1,3 @@
-#include "ui/panels/statistics.h"
-
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panels/panels.h"

@@ -1,6 +1,6 @@
 #include "ui/panes/legend.h"
 
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/state/shift_outcomes.h"

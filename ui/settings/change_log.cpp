@@ -1,8 +1,6 @@
-#include "ui/settings/change_log.h"
-
 #include "render/inspect/inspection.h"
 #include "render/settings/settings_table.h"
-#include "ui/settings/viewer_settings.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/words.h"
 
 #include <cstdio>

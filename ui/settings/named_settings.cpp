@@ -1,6 +1,5 @@
 #include "render/settings/settings_table.h"
 #include "ui/settings/settings_file.h"
-#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "render/io/text.h"
 #include "render/scene/camera.h"
 #include "render/settings/settings_table.h"
-#include "ui/settings/viewer_settings.h"
 #include "ui/state/words.h"
 
 #include <cmath>

@@ -1,10 +1,17 @@
 #pragma once
 
+#include "render/session/session.h"
+#include "render/settings/setting.h"
+#include "ui/gl/controls.h"
+#include "ui/gl/tone.h"
 #include "ui/state/viewer_state.h"
 #include "ui/state/words.h"
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace tessera {
 
@@ -36,5 +43,40 @@ void add_inspection(nlohmann::ordered_json& json, const ViewerState& state);
 
 /// Sets what such fields say, once the panes are those of the file; what they do not mention stays.
 void read_inspection(const JsonFields& fields, ViewerState& state);
+
+// Rows of the table of settings (render/settings/settings_table.h) for what is the viewer's own. What they are
+// bound to must outlive them.
+
+/// How the panes share the cores, and when they rest.
+std::vector<Setting> settings_of(Pace& pace);
+
+/// Tone curve, exposure and gamma, in this order.
+std::vector<Setting> settings_of(Tone& tone);
+
+/// How the pane shows another one's picture.
+Setting comparison_setting(Comparison::Kind& kind);
+
+/// What the number of rendered pixels follows: the pane, the scene, or a size of its own.
+Setting size_base_setting(SizeChoice::Base& base);
+/// The size where it is one of its own; the panes hold no more pixels than its limits allow.
+Setting custom_size_setting(glm::ivec2& size);
+
+/// What linked panes have in common: all of the render but its method, and the reconstruction.
+std::vector<Setting> shared_settings_of(PaneSettings& pane);
+
+/// Tells what changed from frame to frame, a line each: "pane 0 method gpr". For scripts and tests that drive the
+/// real window.
+class ChangeLog {
+public:
+    using Sink = std::function<void(const std::string&)>;
+
+    void write_state(const ViewerState& state, const Sink& sink);
+    /// "control ID x0 y0 x1 y1", in screen units, for each control that is new or has moved.
+    void write_controls(const Controls& controls, const Sink& sink);
+
+private:
+    std::map<std::string, std::string> values_;
+    std::map<std::string, ControlRect, std::less<>> rects_;
+};
 
 } // namespace tessera

@@ -1,6 +1,5 @@
-#include "ui/settings/viewer_settings.h"
-
 #include "render/settings/settings_table.h"
+#include "ui/settings/settings_file.h"
 #include "ui/state/words.h"
 
 namespace tessera {

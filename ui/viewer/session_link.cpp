@@ -1,5 +1,6 @@
-#include "ui/viewer/session_link.h"
+#include "ui/viewer/viewer.h"
 
+#include <cstdint>
 #include <algorithm>
 #include <utility>
 

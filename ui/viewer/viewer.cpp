@@ -1,6 +1,6 @@
 #include "ui/viewer/viewer.h"
 
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "render/scene/scene.h"
 #include "ui/charts/charts.h"
 #include "ui/gl/gl.h"

@@ -1,5 +1,5 @@
 #include "render/io/files.h"
-#include "render/io/png.h"
+#include "render/io/plain_images.h"
 #include "render/scene/camera.h"
 #include "ui/charts/charts.h"
 #include "ui/panes/showing.h"

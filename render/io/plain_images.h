@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -27,5 +28,13 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, float e
 
 /// The bytes that write_png would write. Throws std::runtime_error.
 std::vector<char> encode_png(const RgbImage& image, float exposure = 0);
+
+/// Portable float map, colour ("PF") or grey ("Pf", repeated in all channels), of either byte order; its rows,
+/// which go from the bottom up, come out from the top down. The size of the scale is passed over, as its sign
+/// alone has a meaning to all programs. Throws std::runtime_error that names the file.
+RgbImage read_pfm(const std::filesystem::path& path);
+
+/// Reads the bytes of such a file; the error names none.
+RgbImage parse_pfm(std::string_view bytes);
 
 } // namespace tessera
