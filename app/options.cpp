@@ -1,5 +1,5 @@
+#include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/experiment/experiment.h"

@@ -1,15 +1,18 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/settings/settings_table.h"
 
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Option.hpp>
 #include <glm/vec2.hpp>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
 
 namespace tessera {
 

@@ -2,6 +2,7 @@
 
 #include "app/cli/option_values.h"
 #include "app/cli/terminal.h"
+#include "render/scene/scene.h"
 #include "ui/state/viewer_state.h"
 
 #include <algorithm>

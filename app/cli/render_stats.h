@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/cli/opened_scene.h"
 #include "app/cli/picture_layers.h"
-#include "app/cli/scene_source.h"
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/run/picture_identity.h"
 #include "render/run/render.h"
 

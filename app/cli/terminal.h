@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/load/load_progress.h"
+#include "render/load/scene_source.h"
 
 #include <stdexcept>
 #include <stop_token>

@@ -1,15 +1,14 @@
 #pragma once
 
+#include "app/cli/opened_scene.h"
 #include "app/cli/picture_layers.h"
-#include "app/cli/scene_source.h"
 #include "app/experiment/experiment.h"
 #include "app/experiment/references.h"
 #include "recon/image.h"
 #include "recon/reconstruct.h"
 #include "render/settings/settings.h"
 #include "ui/jobs/scene_load.h"
-#include "ui/state/viewer_state.h"
-#include "ui/viewer/viewer.h"
+#include "ui/state/document.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -18,10 +17,15 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
 #include <glm/vec2.hpp>
 
+namespace CLI {
+class App;
+} // namespace CLI
+
 namespace tessera {
+
+struct SavedPicture;
 
 // The commands of the program, one function each, with all that one can ask of them. Those with many options have
 // the words of the command line, too, as a step between it and these.

@@ -1,10 +1,11 @@
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/report/reports.h"
 #include "recon/reconstruct.h"
 #include "render/io/plain_images.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/scene/scene.h"

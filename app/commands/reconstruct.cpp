@@ -1,6 +1,6 @@
+#include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
 #include "app/cli/render_stats.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/io/json_text.h"

@@ -1,8 +1,9 @@
+#include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/io/files.h"
+#include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>

@@ -1,11 +1,12 @@
 #include "render/run/render.h"
 
+#include "app/cli/opened_scene.h"
 #include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/io/json_text.h"
+#include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "render/run/first_hits.h"
 #include "render/scene/camera.h"
 #include "ui/state/buffer.h"
+#include "ui/viewer/viewer.h"
 
 #include <limits>
 #include <string>

@@ -1,9 +1,10 @@
 #include "app/experiment/experiment.h"
 
+#include "app/cli/opened_scene.h"
 #include "app/cli/render_stats.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
 #include "render/io/exr.h"
+#include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>

@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
+namespace CLI {
+class App;
+} // namespace CLI
 
 namespace tessera {
 

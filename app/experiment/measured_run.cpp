@@ -1,6 +1,6 @@
 #include "app/experiment/measured_run.h"
 
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 
 #include <algorithm>

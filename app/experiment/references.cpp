@@ -1,8 +1,9 @@
 #include "app/experiment/references.h"
 
+#include "app/cli/opened_scene.h"
 #include "app/cli/render_stats.h"
-#include "app/cli/scene_source.h"
 #include "app/cli/terminal.h"
+#include "render/scene/scene.h"
 
 #include <cstdint>
 #include <cstdio>

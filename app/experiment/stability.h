@@ -1,7 +1,7 @@
 // The stability suite: its scenes, and how it judges a setup on one of them by path tracing.
 #pragma once
 
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/experiment/result.h"
 
 #include <optional>

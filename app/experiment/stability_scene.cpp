@@ -1,5 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
+#include "render/load/mitsuba_xml.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>

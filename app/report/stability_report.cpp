@@ -1,4 +1,4 @@
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/experiment/speed_up.h"
 #include "app/report/reports.h"

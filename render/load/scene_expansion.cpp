@@ -1,6 +1,5 @@
-#include "render/load/scene_expansion.h"
-
 #include "render/io/text.h"
+#include "render/load/load_context.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,13 +1,15 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/scene/scene.h"
+#include "render/scene/camera.h"
 
 #include <stop_token>
 
 #include <glm/vec2.hpp>
 
 namespace tessera {
+
+class Scene;
 
 /// What the camera sees first through the middle of each pixel; 0 where it sees nothing.
 struct FirstHits {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/run/thread_pool.h"
-#include "render/scene/scene.h"
+#include "render/scene/camera.h"
 #include "render/settings/settings.h"
 
 #include <memory>
@@ -12,6 +12,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 namespace tessera {
+
+class Scene;
 
 /// Everything that decides the picture, as JSON: it goes into the header of every image and into the stats.
 nlohmann::json settings_json(const SceneSource& scene, RenderSettings settings, glm::ivec2 size, int spp,

@@ -4,6 +4,7 @@
 #include "render/run/checkpoint.h"
 #include "render/run/picture_identity.h"
 #include "render/scene/camera.h"
+#include "render/scene/scene.h"
 
 #include <chrono>
 #include <limits>

@@ -3,7 +3,7 @@
 #include "render/estimator/film.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/run/thread_pool.h"
-#include "render/scene/scene.h"
+#include "render/scene/camera.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace tessera {
+
+class Scene;
 
 /// A render in progress: a film and the passes it has seen.
 class Render {

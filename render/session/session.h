@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/run/thread_pool.h"
-#include "render/scene/scene.h"
+#include "render/scene/camera.h"
 #include "render/session/snapshot.h"
 
 #include <condition_variable>
@@ -17,6 +17,7 @@
 
 namespace tessera {
 
+class Scene;
 class Render;
 
 /// How the panes share the cores, and when they rest. No change of it renders anything anew.

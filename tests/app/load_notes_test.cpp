@@ -1,4 +1,4 @@
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // What the program tells of samples that were not finite, and that the viewer opens just those.
 #include "app/cli/render_stats.h"
+#include "render/scene/scene.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/rooms.h"

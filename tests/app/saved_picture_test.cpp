@@ -2,8 +2,10 @@
 #include "render/io/exr.h"
 #include "render/run/first_hits.h"
 #include "render/run/thread_pool.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 #include "ui/state/companions.h"
+#include "ui/viewer/viewer.h"
 
 #include <atomic>
 #include <filesystem>

@@ -1,8 +1,9 @@
 // `tessera stability`: its files, what it takes up again, and what it refuses.
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
 #include "render/sampling/sampling.h"
+#include "render/scene/scene.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 

@@ -2,6 +2,7 @@
 // session, on all hardware threads. Wall time: other work on the machine counts.
 
 #include "render/load/mitsuba_xml.h"
+#include "render/scene/scene.h"
 #include "render/session/session.h"
 
 #include <algorithm>

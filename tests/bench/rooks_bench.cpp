@@ -4,6 +4,7 @@
 
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 
 #include <cstdio>
 #include <cstdlib>

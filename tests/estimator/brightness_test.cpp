@@ -2,6 +2,7 @@
 // Neumann's.
 #include "recon/reconstruct.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <glm/vec2.hpp>

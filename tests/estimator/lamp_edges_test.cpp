@@ -1,6 +1,7 @@
 // The edges of lamps that the camera sees: where the film finds them, and that a grid of rays there makes less
 // noise. (That it is no bias: the judge.)
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // Light paths that reach their light by way of a surface too glossy to connect to: the shift must take them along
 // whatever else the base path carries, and whether or not the edge that it does not use is free.
+#include "render/scene/scene.h"
 #include "tests/support/one_shift.h"
 #include "tests/support/scene_builder.h"
 

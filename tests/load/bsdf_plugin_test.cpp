@@ -4,6 +4,7 @@
 #include "tests/load/temporary_folder.h"
 
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include <gtest/gtest.h>

@@ -4,6 +4,8 @@
 #include "render/load/properties.h"
 #include "render/mesh/meshes.h"
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 namespace tessera {

@@ -2,6 +2,7 @@
 #include "render/load/mitsuba_xml.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

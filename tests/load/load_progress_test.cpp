@@ -1,5 +1,5 @@
-#include "render/load/load_progress.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "tests/load/temporary_folder.h"
 
 #include <functional>

@@ -4,6 +4,8 @@
 #include "tests/load/temporary_folder.h"
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

@@ -6,6 +6,8 @@
 #include <functional>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

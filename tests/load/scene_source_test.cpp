@@ -1,4 +1,4 @@
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "render/scene/light.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Renders that go on from a checkpoint, and checkpoint files that are not what they should be.
 #include "render/run/checkpoint.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,6 +1,7 @@
 // Every pixel is rendered once a pass, whatever the tiles, patterns and the image's size: behind a wall that
 // shines alike everywhere a pixel left out would be dark, and one taken twice would be twice as bright.
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <cstdint>

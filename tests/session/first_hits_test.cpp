@@ -1,4 +1,5 @@
 #include "render/run/first_hits.h"
+#include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <cmath>

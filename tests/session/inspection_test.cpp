@@ -2,6 +2,7 @@
 #include "render/estimator/tile_grid.h"
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <cmath>

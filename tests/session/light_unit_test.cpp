@@ -1,6 +1,7 @@
 // The unit of light does not matter: with all lights 1024 times as bright, the same paths are traced, shifted and
 // kept, and the picture is 1024 times as bright, to the last bit, as floats are scaled exactly by powers of two.
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Many passes on a tiny image: the mean neither drifts nor overflows.
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <algorithm>

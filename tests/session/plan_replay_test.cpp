@@ -1,6 +1,7 @@
 // The plan of any pass, learnt again for one tile: the bits of the render's own.
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <chrono>

@@ -2,6 +2,7 @@
 #include "render/io/memory.h"
 #include "render/run/checkpoint.h"
 #include "render/run/reference_render.h"
+#include "render/scene/scene.h"
 #include "tests/load/temporary_folder.h"
 #include "tests/support/scene_builder.h"
 

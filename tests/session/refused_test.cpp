@@ -1,6 +1,7 @@
 // Light beyond what floats hold: nothing that is not finite gets into a buffer, and what was left out is counted.
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <algorithm>

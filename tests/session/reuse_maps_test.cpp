@@ -1,5 +1,6 @@
 // The maps of reuse: which share of a pixel's base paths with light the roulette left, and how shifts to it ended.
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/support/rooms.h"
 
 #include <array>

@@ -1,4 +1,5 @@
 // What the viewer relies on: the newest request wins, nothing of an old one comes back, pausing publishes.
+#include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "tests/support/scene_builder.h"
 

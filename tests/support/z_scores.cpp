@@ -1,6 +1,7 @@
 #include "tests/support/z_scores.h"
 
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "recon/metrics.h"
 #include "render/run/first_hits.h"
 #include "ui/state/buffer.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 
 #include <set>
 

@@ -2,6 +2,7 @@
 
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
+#include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/viewer/script.h"
 

@@ -3,7 +3,7 @@
 #include "tests/ui/panes_fixture.h"
 #include "ui/panes/pane_parts.h"
 #include "ui/panes/showing.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 
 #include <algorithm>
 #include <cmath>

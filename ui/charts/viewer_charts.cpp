@@ -2,10 +2,11 @@
 #include "ui/charts/charts.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
 

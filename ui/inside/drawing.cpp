@@ -1,7 +1,7 @@
 #include "ui/inside/drawing.h"
 
 #include "render/inspect/inspection.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 
 #include <algorithm>
 #include <cmath>

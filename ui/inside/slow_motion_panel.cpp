@@ -3,7 +3,7 @@
 #include "ui/gl/theme.h"
 #include "ui/inside/drawing.h"
 #include "ui/inside/inside.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 #include "ui/state/words.h"
 
 #include <algorithm>

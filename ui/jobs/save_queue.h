@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/run/thread_pool.h"
 #include "ui/jobs/background_job.h"
 
 #include <deque>
@@ -54,5 +55,41 @@ private:
     std::deque<Waiting> waiting_;
     BackgroundJob<std::monostate, Saved> job_;
 };
+
+inline SaveQueue::~SaveQueue() {
+    finish();
+}
+
+inline void SaveQueue::add(Work work, std::function<void()> on_done) {
+    waiting_.push_back({std::move(work), std::move(on_done)});
+    start_next();
+}
+
+inline void SaveQueue::start_next() {
+    if (job_.running() || waiting_.empty())
+        return;
+    Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    job_.start(
+        {},
+        [work = std::move(next.work)](std::stop_token) {
+            work_in_background();
+            return work();
+        },
+        std::move(next.on_done));
+}
+
+inline std::vector<SaveQueue::Outcome> SaveQueue::finish() {
+    std::vector<Outcome> outcomes;
+    for (; job_.running(); start_next())
+        outcomes.push_back(*job_.wait());
+    return outcomes;
+}
+
+inline std::optional<SaveQueue::Outcome> SaveQueue::take() {
+    std::optional<Outcome> outcome = job_.take();
+    start_next();
+    return outcome;
+}
 
 } // namespace tessera

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "render/load/load_progress.h"
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "ui/jobs/background_job.h"
 
 #include <chrono>

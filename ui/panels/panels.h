@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/load/load_progress.h"
+#include "render/load/scene_source.h"
 #include "render/session/snapshot.h"
 #include "ui/gl/controls.h"
 #include "ui/gl/image_view.h"

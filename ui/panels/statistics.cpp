@@ -2,7 +2,7 @@
 #include "ui/gl/tone.h"
 #include "ui/panels/panels.h"
 #include "ui/state/buffer.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 #include "ui/state/words.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "render/io/plain_images.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 #include "ui/state/words.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panes/pane_parts.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 
 #include <algorithm>
 #include <cstdio>

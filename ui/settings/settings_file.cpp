@@ -4,6 +4,7 @@
 #include "render/io/text.h"
 #include "render/scene/camera.h"
 #include "render/settings/settings_table.h"
+#include "ui/settings/json_fields.h"
 #include "ui/state/words.h"
 
 #include <cmath>

@@ -15,6 +15,8 @@
 
 namespace tessera {
 
+class JsonFields;
+
 /// What a user has set, as JSON: the panes with all their settings, camera, size, tone, pace, ranges, where the
 /// pictures lie, what the path inspector and the slow motion show (add_inspection), and where the view in
 /// space looks.

@@ -3,7 +3,7 @@
 #include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
-#include "ui/state/shift_outcomes.h"
+#include "ui/state/inspected.h"
 
 #include <algorithm>
 #include <cmath>

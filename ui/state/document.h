@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/session/session.h"
 #include "ui/gl/image_view.h"
 #include "ui/gl/tone.h"

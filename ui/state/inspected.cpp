@@ -1,9 +1,15 @@
 #include "ui/state/inspected.h"
 
 #include "render/inspect/inspection.h"
+#include "ui/state/words.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+#include <numeric>
 #include <utility>
+
+#include <fmt/core.h>
 
 namespace tessera {
 
@@ -89,6 +95,72 @@ glm::ivec2 SlowMotion::next_pixel(glm::ivec2 size) const {
     if (t.x1 < size.x)
         return {t.x1, std::max(t.y0, 0)};
     return {0, t.y1 < size.y ? t.y1 : 0};
+}
+
+namespace {
+
+struct Outcome {
+    ImU32 colour;
+    const char* help;
+};
+
+constexpr Outcome table[] = {
+    // in the order of the enumeration
+    {IM_COL32(72, 214, 140, 255), "At least one light path of the base path came through to the other pixel."},
+    {IM_COL32(255, 84, 84, 255), "Every new edge of the offset path is blocked."},
+    {IM_COL32(255, 160, 60, 255),
+     "Base and offset vertex scatter in different ways, so that the way back would be another."},
+    {IM_COL32(190, 120, 255, 255), "There is no refracted direction for the half vector."},
+    {IM_COL32(90, 160, 255, 255), "A ray left the scene, or the other pixel sees nothing."},
+    {IM_COL32(150, 150, 158, 255),
+     "The offset path carries nothing: its BSDF is black there, or it hits no light."},
+};
+static_assert(std::size(table) == shift_outcome_count);
+
+const Outcome& entry(ShiftOutcome outcome) {
+    return table[static_cast<std::size_t>(outcome)];
+}
+
+} // namespace
+
+ImU32 outcome_colour(ShiftOutcome outcome) {
+    return entry(outcome).colour;
+}
+
+const char* outcome_help(ShiftOutcome outcome) {
+    return entry(outcome).help;
+}
+
+RgbImage outcome_colours(const ReuseMaps& maps) {
+    std::array<Rgb, shift_outcome_count> colours;
+    std::transform(std::begin(table), std::end(table), colours.begin(), [](const Outcome& outcome) {
+        const auto channel = [&](int shift) { return static_cast<float>(outcome.colour >> shift & 255) / 255; };
+        return Rgb(channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT));
+    });
+    RgbImage image(maps.counts.width(), maps.counts.height());
+    std::transform(maps.counts.begin(), maps.counts.end(), image.begin(), [&](const ReuseCounts& counts) {
+        Rgb sum(0);
+        for (std::size_t i = 0; i < colours.size(); ++i)
+            sum += colours[i] * static_cast<float>(counts.shifts[i]);
+        return sum / static_cast<float>(std::max(counts.tried(), 1u));
+    });
+    return image;
+}
+
+std::string outcome_shares(const ReuseCounts& counts) {
+    std::array<std::size_t, shift_outcome_count> order;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return counts.shifts[a] > counts.shifts[b]; });
+    std::string text;
+    for (std::size_t i : order) {
+        if (counts.shifts[i] == 0)
+            break;
+        const double percent = 100.0 * counts.shifts[i] / counts.tried();
+        text += fmt::format("{}{} {:.{}f} %", text.empty() ? "" : ", ",
+                            in_words(to_string(static_cast<ShiftOutcome>(i))), percent, percent < 9.95 ? 1 : 0);
+    }
+    return text.empty() ? "no shifts" : text;
 }
 
 } // namespace tessera

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/estimator/film.h"
 #include "render/scene/camera.h"
 #include "render/settings/settings.h"
 #include "ui/gl/image_view.h"
@@ -9,7 +10,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
+
+#include <imgui.h>
 
 namespace tessera {
 
@@ -140,5 +144,16 @@ struct SpaceView {
         fits = looked = true;
     }
 };
+
+/// The colour that stands for how a shift ended, wherever that is shown.
+ImU32 outcome_colour(ShiftOutcome outcome);
+/// What it means, in a sentence.
+const char* outcome_help(ShiftOutcome outcome);
+
+/// Display colours: of each pixel the mean of its shifts' colours. Black where none was tried.
+RgbImage outcome_colours(const ReuseMaps& maps);
+
+/// How the shifts to a pixel ended, most of them first: "ok 71 %, occluded 20 %, no light 9 %".
+std::string outcome_shares(const ReuseCounts& counts);
 
 } // namespace tessera

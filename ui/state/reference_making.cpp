@@ -1,7 +1,7 @@
 #include "ui/state/reference_making.h"
 
 #include "render/io/memory.h"
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/run/reference_render.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"

@@ -1,9 +1,11 @@
-#include "app/cli/scene_source.h"
+#include "app/cli/opened_scene.h"
 
 #include "app/cli/terminal.h"
 #include "embedded/cornell_box_xml.h"
+#include "render/load/mitsuba_xml.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
+#include "render/scene/scene.h"
 #include "render/trace/intersector.h"
 
 #include <algorithm>

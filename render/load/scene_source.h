@@ -1,10 +1,30 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
+#include <map>
 #include <mutex>
 #include <string>
 
 namespace tessera {
+
+/// `-D name=value` of the command line: replaces the <default> of that name.
+using SceneVariables = std::map<std::string, std::string>;
+
+/// Where a scene is from.
+struct SceneSource {
+    std::filesystem::path file;        ///< empty: the Cornell box inside the program
+    SceneVariables variables;          ///< -D name=value
+    std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
+};
+
+/// The name to show for a scene: the path of its file, or that it is the built-in one.
+std::string to_string(const SceneSource& source);
+
+/// A name for files that are made of it: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the
+/// file's; with the values of its variables, if it was given any: "glossy-0.01". All but letters, digits, "." and
+/// "-" is "_" in these.
+std::string scene_name(const SceneSource& source);
 
 /// How far the loading of a scene is, and whether it is still wanted. The threads that load write it, any may read
 /// it.

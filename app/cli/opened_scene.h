@@ -2,7 +2,7 @@
 
 #include "render/io/files.h"
 #include "render/io/text.h"
-#include "render/load/mitsuba_xml.h"
+#include "render/load/scene_source.h"
 #include "render/run/thread_pool.h"
 #include "ui/jobs/scene_load.h"
 
