@@ -130,8 +130,10 @@ int FileDialog::complete(ImGuiInputTextCallbackData& data) const {
 void FileDialog::draw_path(Controls& controls) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     const std::string before = text_.data();
-    if (std::exchange(wants_focus_, false))
+    if (std::exchange(wants_focus_, false)) {
+        ImGui::SetWindowFocus(); // Dear ImGui 1.90.1 gives no focus to where it was not before: the list has it
         ImGui::SetKeyboardFocusHere();
+    }
     const bool entered =
         ImGui::InputText("##file.path", text_.data(), text_.size(),
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
