@@ -117,14 +117,14 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
         dy_(x, y) += sample.dy;
 }
 
-void Film::find_lamp_edges(const RgbImage& look) {
+void Film::find_lamp_edges(const RgbImage& lamps) {
     constexpr float noticeable = 0.01f; // of a squared radiance
     if (lamp_edges_.empty())
         return;
     const auto compare = [&](int x, int y, int to_x, int to_y) {
         if (to_x < 0 || to_x >= width() || to_y >= height())
             return;
-        const Rgb a = look(x, y), b = look(to_x, to_y), d = a - b;
+        const Rgb a = lamps(x, y), b = lamps(to_x, to_y), d = a - b;
         if (glm::dot(d, d) > noticeable * std::max(glm::dot(a, a), glm::dot(b, b)))
             lamp_edges_(x, y) = lamp_edges_(to_x, to_y) = 1;
     };

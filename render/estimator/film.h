@@ -86,8 +86,8 @@ public:
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
     /// Remembers the edges of lamps, if it keeps them: both sides of every step between pixels side by side of
-    /// `look`, very direct light as large as the film. Not during a pass.
-    void find_lamp_edges(const RgbImage& look);
+    /// `lamps`, very direct light as large as the film. Not during a pass.
+    void find_lamp_edges(const RgbImage& lamps);
     bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }
 
     /// Means over `passes` complete passes; of two or more passes, their variances, too.

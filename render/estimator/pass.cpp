@@ -114,11 +114,11 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath&
     path.reset(path.random, path.light_samples());
 }
 
-void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look) {
+void show_very_direct(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& picture) {
     const PixelRect area = block.clipped(pass.size);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
-            look(x, y) = light_along(pass.camera_ray(x, y, glm::vec2(0.5f)), tracer);
+            picture(x, y) = light_along(pass.camera_ray(x, y, glm::vec2(0.5f)), tracer);
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {

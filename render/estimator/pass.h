@@ -127,7 +127,7 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
 
 /// Very direct light of the block's pixels, along a ray through the middle of each.
-void look_at_lamps(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& look);
+void show_very_direct(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& picture);
 
 /// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
 /// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the

@@ -20,7 +20,7 @@ PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
 }
 
 /// Shares the light of worker.set, and looks on; closely at what `pixel` gets.
-InspectedSet look_at(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
+InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
     InspectedSet result{worker.set.pixels, {}, {}, {}};
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
@@ -85,13 +85,13 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     // Not by trace_pixel(), which empties a path that is to be refused.
     trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y), pass.pixel_angle(),
                     pass.random(pixel.x, pixel.y), worker.path);
-    result.path = look_at(worker.path);
+    result.path = inspect_path(worker.path);
     result.radiance = worker.path.radiance();
     result.very_direct = worker.path.very_direct;
     result.is_refused = !is_finite(result.radiance + result.very_direct);
     for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
         if (inner.contains(pixel) && worker.set.contains(pixel))
-            result.sets.push_back(look_at(pass, inner, pixel, worker));
+            result.sets.push_back(inspect_set(pass, inner, pixel, worker));
     });
     for (const InspectedSet& set : result.sets)
         result.is_refused = result.is_refused || is_refused(set, pixel, settings);
@@ -106,7 +106,7 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
                                                          : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
     TileInspection result{tile, index, settings, {}};
     for_each_set_of_tile(pass, pixel, worker.set,
-                         [&](PixelRect inner) { result.sets.push_back(look_at(pass, inner, {}, worker)); });
+                         [&](PixelRect inner) { result.sets.push_back(inspect_set(pass, inner, {}, worker)); });
     return result;
 }
 

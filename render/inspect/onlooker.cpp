@@ -12,7 +12,7 @@ SeenVertex seen(const Vertex& v) {
     return {v.position, v.frame.normal, kind_name(v.bsdf), v.bsdf.roughness()};
 }
 
-InspectedVertex look_at(const BasePath& path, int i, Rgb throughput) {
+InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
     const BaseVertex& x = path[i];
     InspectedVertex v{seen(x.vertex),
                       i + 1 < path.size() || x.escapes,
@@ -52,13 +52,13 @@ std::vector<InspectedStep> steps_of(const BasePath& path, int last, const Rgb& c
 
 } // namespace
 
-std::vector<InspectedVertex> look_at(const BasePath& path) {
+std::vector<InspectedVertex> inspect_path(const BasePath& path) {
     std::vector<InspectedVertex> result;
     Rgb throughput(1);
     for (int i = 0; i < path.size(); ++i) {
         if (i + 1 < path.size() || path[i].escapes)
             throughput *= path[i].throughput();
-        result.push_back(look_at(path, i, throughput));
+        result.push_back(inspect_vertex(path, i, throughput));
     }
     return result;
 }
@@ -86,7 +86,7 @@ Onlooker::~Onlooker() {
 }
 
 void Onlooker::operator()(int base, const ReuseDecision& decision) {
-    result_.bases.push_back({look_at(path(base)), path(base).radiance(), decision});
+    result_.bases.push_back({inspect_path(path(base)), path(base).radiance(), decision});
     for (int m = 0; m < worker_.set.size(); ++m)
         result_.shifts.push_back(shift(base, m, decision.scale));
 }

@@ -41,7 +41,7 @@ private:
 };
 
 /// A base path's vertices as one looks at them.
-std::vector<InspectedVertex> look_at(const BasePath& path);
+std::vector<InspectedVertex> inspect_path(const BasePath& path);
 
 /// Looks on while the light of a worker's set is shared out (share_light).
 class Onlooker {

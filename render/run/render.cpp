@@ -67,13 +67,13 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     };
     const auto done_before = std::ranges::count(done_blocks_, 1);
     if (settings_.very_direct_grid > 1 && spp_ == 0 && done_before == 0) {
-        RgbImage look(size_.x, size_.y);
+        RgbImage lamps(size_.x, size_.y);
         for_each(blocks.size(), [&](int i, Worker& worker) {
-            look_at_lamps(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, look);
+            show_very_direct(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
         });
         if (stop.stop_requested())
-            return false; // a part of the look tells nothing
-        film_.find_lamp_edges(look);
+            return false; // a part of the lamps tells nothing
+        film_.find_lamp_edges(lamps);
     }
     for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];

@@ -46,7 +46,7 @@ ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options
 
 void ViewerHarness::frame(float seconds) {
     state().layout.display_scale = scale_;
-    gui.set_look(state().layout.ui_scale(), state().layout.theme);
+    gui.set_style(state().layout.ui_scale(), state().layout.theme);
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();

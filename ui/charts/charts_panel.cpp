@@ -82,7 +82,7 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
         coloured(colours[i], plot.series[i].label.c_str());
         ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + widest + ImGui::GetFontSize());
         ImGui::TextUnformatted(figures_text(state, plot.series[i]).c_str());
-        controls.note(
+        controls.place(
             ("charts.figures" + std::to_string(i)).c_str(),
             "The newest value with its standard error where that is known, and the slope of the line over "
             "its last decade: -1 for an error that falls as noise does, 0 for its efficiency.");
@@ -93,8 +93,8 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
     ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
     ImGui::TextWrapped("%s", caveat.c_str());
     ImGui::PopStyleColor();
-    controls.note("charts.caveat", "References made here, or by tessera reference, have two halves that are "
-                                   "independent of each other: errors against both are free of their noise.");
+    controls.place("charts.caveat", "References made here, or by tessera reference, have two halves that are "
+                                    "independent of each other: errors against both are free of their noise.");
 }
 
 /// Draws a line for each outcome, with the newest share in every pane that has a plot.
@@ -117,7 +117,7 @@ void draw_shares(Controls& controls, const ViewerState& state, const Chart& char
             ImGui::Text("%.1f %%", points.empty() ? 0.0 : points.back().y);
         }
     }
-    controls.note("charts.shares", "The newest share of each outcome, a column for each pane.");
+    controls.place("charts.shares", "The newest share of each outcome, a column for each pane.");
 }
 
 /// Draws the chart that is chosen, `height` of all its plots together, and what it says in numbers.
@@ -133,10 +133,10 @@ void draw_chart(Controls& controls, const ViewerState& state, float height) {
     const float each = height / static_cast<float>(chart.plots.size());
     for (std::size_t i = 0; i < chart.plots.size(); ++i) {
         draw_plot(take_room(each), chart.plots[i], colours);
-        controls.note(("charts." + kinds[static_cast<std::size_t>(state.layout.chart_kind)].id +
-                       (i > 0 ? std::to_string(i) : ""))
-                          .c_str(),
-                      help_of(state.layout.chart_kind));
+        controls.place(("charts." + kinds[static_cast<std::size_t>(state.layout.chart_kind)].id +
+                        (i > 0 ? std::to_string(i) : ""))
+                           .c_str(),
+                       help_of(state.layout.chart_kind));
     }
     if (state.layout.chart_kind == ChartKind::shifts)
         draw_shares(controls, state, chart, colours);
@@ -174,7 +174,7 @@ void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposu
 
 void draw_histogram(Controls& controls, const ViewerState& state) {
     const ScreenRect where = take_room(ImGui::GetFontSize() * histogram_height);
-    controls.note(
+    controls.place(
         "charts.histogram",
         "How many pixels of the active pane's picture have which luminance, from 2^-12 to 2^8, on a square "
         "root scale. The bright line is what the exposure makes white.");
@@ -263,7 +263,7 @@ void draw_large_charts(const ScreenRect& where, Controls& controls, const Viewer
         draw_histogram(controls, state);
     }
     ImGui::End();
-    controls.note_rect("charts.picture", where.min, where.max);
+    controls.place_rect("charts.picture", where.min, where.max);
 }
 
 } // namespace tessera

@@ -47,7 +47,7 @@ void Controls::begin_frame(double time) {
     tooltip_pending_ = false;
 }
 
-void Controls::note(const char* id, const char* help) {
+void Controls::place(const char* id, const char* help) {
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     rects_[id] = {{min.x, min.y}, {max.x, max.y}};
     const bool explains = help != nullptr && *help != 0;
@@ -95,11 +95,11 @@ bool Controls::bare_choice(const char* id, const char* shown, std::span<const Ch
                 changed = !selected;
                 index = static_cast<int>(i);
             }
-            note((std::string(id) + "/" + items[i].id).c_str(), items[i].help.c_str());
+            place((std::string(id) + "/" + items[i].id).c_str(), items[i].help.c_str());
         }
         ImGui::EndCombo(); // the item is the combo itself again
     }
-    note(id, help);
+    place(id, help);
     return changed;
 }
 
@@ -109,7 +109,7 @@ bool Controls::slider(const char* id, const char* label_text, int& value, int le
         ImGui::SliderInt(hidden_label(id).c_str(), &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
     if (changed)
         value = std::clamp(value, least, most);
-    note(id, help);
+    place(id, help);
     return changed;
 }
 
@@ -119,7 +119,7 @@ bool Controls::slider(const char* id, const char* label_text, float& value, floa
     const float before = value;
     if (ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp))
         keep_within(value, before, least, most);
-    note(id, help);
+    place(id, help);
     return value != before;
 }
 
@@ -131,7 +131,7 @@ bool Controls::log_slider(const char* id, const char* label_text, float& value, 
                            least == 0 && value == 0 ? "off" : "%.3g",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
         keep_within(value, before, least, most);
-    note(id, help);
+    place(id, help);
     return value != before;
 }
 
@@ -181,7 +181,7 @@ bool Controls::typed_number(const char* id, const char* label_text, Value& value
     const bool stepped = changed && !ImGui::GetIO().WantTextInput;   // by its buttons
     draft = draft == draft ? std::clamp(draft, least, most) : value; // "nan" can be typed
     const bool taken = take_draft(id, draft, stepped, value);
-    note(id, help);
+    place(id, help);
     return taken;
 }
 
@@ -206,20 +206,20 @@ bool Controls::text(const char* id, const char* label_text, std::string& value, 
     draft_of(id, value).copy(buffer, sizeof buffer - 1);
     ImGui::InputTextWithHint(hidden_label(id).c_str(), hint, buffer, sizeof buffer);
     const bool taken = take_draft(id, std::string(buffer), false, value);
-    note(id, help);
+    place(id, help);
     return taken;
 }
 
 bool Controls::toggle(const char* id, const char* label_text, bool& value, const char* help) {
     label(label_text);
     const bool changed = ImGui::Checkbox(hidden_label(id).c_str(), &value);
-    note(id, help);
+    place(id, help);
     return changed;
 }
 
 bool Controls::button(const char* id, const char* label_text, const char* help, float width) {
     const bool pressed = ImGui::Button((std::string(label_text) + "##" + id).c_str(), {width, 0});
-    note(id, help);
+    place(id, help);
     return pressed;
 }
 

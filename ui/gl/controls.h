@@ -73,14 +73,14 @@ public:
 
     /// A row's label, for what is drawn without these widgets: the item after it fills the row.
     void label(const char* text) const;
-    /// Notes and explains the item just drawn: for what is drawn without these widgets. Without help only what
+    /// Says where the item just drawn is, and explains it: for what is drawn without these widgets. Without help only what
     /// explains itself, such as a menu.
-    void note(const char* id, const char* help);
+    void place(const char* id, const char* help);
 
-    /// Notes an area that is no item, without explaining it.
-    void note_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
+    /// Says where an area is that is no item, without explaining it.
+    void place_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }
 
-    /// Ids of what has been noted without help since the last frame began.
+    /// Ids of what has been placed without help since the last frame began.
     const std::set<std::string, std::less<>>& unexplained() const { return unexplained_; }
 
     /// Where controls lie, by id, in this frame or the last whole one.

@@ -91,7 +91,7 @@ Gui::~Gui() {
     ImGui::DestroyContext(context_);
 }
 
-void Gui::set_look(float scale, Theme theme) {
+void Gui::set_style(float scale, Theme theme) {
     if (sane_scale(scale) == scale_ && theme == theme_)
         return;
     scale_ = sane_scale(scale);

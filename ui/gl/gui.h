@@ -39,7 +39,7 @@ public:
 
     float scale() const { return scale_; }
     /// Text, spaces and colours of what is drawn from the next frame on.
-    void set_look(float scale, Theme theme); ///< between frames
+    void set_style(float scale, Theme theme); ///< between frames
 
     /// Begins a frame of `size` screen units, `pixels_a_unit` framebuffer pixels each, `seconds` after the last.
     /// For a drawing place without a window; a window's backend sets these itself (begin_window_frame).

@@ -56,7 +56,7 @@ void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
     bool follows = inspector.follows;
     if (ImGui::Checkbox("follow", &follows))
         inspector.follow(follows);
-    controls.note(
+    controls.place(
         "inspector.follow",
         inspector.sample && inspector.sample->pass
             ? "This sample is of a given pass, and stays. Following leaves it for the newest pass at its "

@@ -74,7 +74,7 @@ bool begin_table(const char* id, const Column (&columns)[count], float width, Co
     for (const Column& column : columns) {
         ImGui::TableNextColumn();
         ImGui::TableHeader(column.name);
-        controls.note((std::string(id) + "." + column.name).c_str(), column.help);
+        controls.place((std::string(id) + "." + column.name).c_str(), column.help);
     }
     return true;
 }
@@ -134,7 +134,7 @@ void draw_shift_row(const InspectedShift& s, int row, Inspector& inspector, Cont
     const bool lit = inspector.marked == row || inspector.chosen == row;
     if (ImGui::Selectable(short_text(s.from).c_str(), lit, ImGuiSelectableFlags_SpanAllColumns))
         inspector.chosen = inspector.chosen == row ? -1 : row;
-    controls.note(
+    controls.place(
         ("shifts.row" + std::to_string(row)).c_str(),
         "A base path, taken from its own pixel to another one. A click lists the vertices of the offset path.");
     if (ImGui::IsItemHovered())
@@ -196,9 +196,9 @@ void draw_vertex_table(const Inspector& inspector, float width, Controls& contro
                 "): " + (shift->ending.empty() ? outcome_text(*shift) : std::string(shift->ending));
     ImGui::BeginChild("vertices.part", {width, 0});
     ImGui::TextDisabled("%s", title.c_str());
-    controls.note("vertices.title",
-                  "Of all its light paths, the one that brings most is listed. A row of the shifts "
-                  "chooses, and chosen again, gives way to the base path.");
+    controls.place("vertices.title",
+                   "Of all its light paths, the one that brings most is listed. A row of the shifts "
+                   "chooses, and chosen again, gives way to the base path.");
     if (begin_table("vertices", vertex_columns, 0, controls)) {
         const std::vector<InspectedVertex>& path = base_path(inspection, pixel);
         for (std::size_t i = 0; !shift && i < path.size(); ++i)

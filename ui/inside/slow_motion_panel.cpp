@@ -37,7 +37,7 @@ void draw_controls(Controls& controls, ViewerState& state) {
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::SliderFloat("##slow.speed", &slow.speed, SlowMotion::least_speed, SlowMotion::most_speed,
                        "%.3g paths a second", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-    controls.note("slow.speed", "How many base paths arrive a second.");
+    controls.place("slow.speed", "How many base paths arrive a second.");
     ImGui::SameLine();
     if (controls.button("slow.close", "Close", "Ends the slow motion (J)."))
         slow.active = false;
@@ -137,21 +137,21 @@ void draw_story(const ViewerState& state, Controls& controls) {
     const InspectedSet& set = slow.set();
     const int k = slow.place().base;
     ImGui::TextUnformatted(tile_text(slow).c_str());
-    controls.note("slow.tile_text",
-                  "Which pixels share their base paths. White: the tile; turquoise: the pixels that "
-                  "get their light here; orange: a border that only lends its paths.");
+    controls.place("slow.tile_text",
+                   "Which pixels share their base paths. White: the tile; turquoise: the pixels that "
+                   "get their light here; orange: a border that only lends its paths.");
     ImGui::TextUnformatted(base_text(slow).c_str());
-    controls.note("slow.base_text",
-                  "The base path at hand: its pixel has a white frame; orange and crossed out: the "
-                  "roulette on reuse has ended it; grey: it carries nothing.");
+    controls.place("slow.base_text",
+                   "The base path at hand: its pixel has a white frame; orange and crossed out: the "
+                   "roulette on reuse has ended it; grey: it carries nothing.");
     draw_outcomes(set, k);
     if (!set.base(k).reuse.survives())
         return;
     ImGui::TextUnformatted(share_text(set, k).c_str());
-    controls.note("slow.share_text",
-                  "Luminance of the radiance that pixels get of this base path; weights are 1/R over "
-                  "the probability of survival, of the light path that brings most (no unit). In "
-                  "the pixels: above the light, below the weight.");
+    controls.place("slow.share_text",
+                   "Luminance of the radiance that pixels get of this base path; weights are 1/R over "
+                   "the probability of survival, of the light path that brings most (no unit). In "
+                   "the pixels: above the light, below the weight.");
 }
 
 /// Draws how many base paths of the tile have arrived, and how many are skipped.
@@ -189,9 +189,9 @@ void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerS
             const float space = std::min(room.y * 1.6f, room.x * 0.38f);
             ImGui::BeginChild("slow.story", {room.x - space - ImGui::GetStyle().ItemSpacing.x, 0});
             draw_progress(slow, ImGui::GetContentRegionAvail().x);
-            controls.note("slow.progress",
-                          "All base paths of the tile: green reused, orange skipped by the roulette, "
-                          "grey dark; faint ones are still to come.");
+            controls.place("slow.progress",
+                           "All base paths of the tile: green reused, orange skipped by the roulette, "
+                           "grey dark; faint ones are still to come.");
             ImGui::PushTextWrapPos(0);
             draw_story(state, controls);
             ImGui::PopTextWrapPos();

@@ -55,20 +55,20 @@ glm::vec2 stand_for(const std::vector<glm::vec3>& points, glm::vec3 axis, glm::v
 
 /// Shows everything from where it looks; at first from beside the camera and above it.
 void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubject& subject, SpaceView& view) {
-    Camera camera = view.looked || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
+    Camera camera = view.has_direction || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
     camera.fov = field;
     camera.fov_axis = FovAxis::smaller;
     glm::vec3 middle(0);
     for (glm::vec3 p : points)
         middle += p / static_cast<float>(points.size());
-    if (!view.looked) { // turned about what it is to show
+    if (!view.has_direction) { // turned about what it is to show
         camera.to_world[3] =
             glm::vec4(middle - subject.scene_radius * glm::normalize(glm::vec3(camera.to_world[2])), 1);
         view.camera.set_home(camera, middle, subject.scene_radius);
         view.camera.orbit({-0.3f, 0.13f}, 1);
         camera = view.camera.camera();
     }
-    view.looked = view.looked || view.surroundings;
+    view.has_direction = view.has_direction || view.surroundings;
     view.fits = false;
     const auto axis = [&](int i) { return glm::normalize(glm::vec3(camera.to_world[i])); };
     constexpr float used = 0.8f; // of the picture: names stand beside points
@@ -157,9 +157,10 @@ void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& vie
     frame.placement = {glm::vec2(0), frame.rect.size()};
     ImGui::InvisibleButton("space", {frame.rect.size().x, frame.rect.size().y},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
-    controls.note("space", "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
-                           "(yellow) and what the camera sees. A drag turns, with Shift it moves, the wheel comes "
-                           "nearer, a double click shows all.");
+    controls.place("space",
+                   "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
+                   "(yellow) and what the camera sees. A drag turns, with Shift it moves, the wheel comes "
+                   "nearer, a double click shows all.");
     if (view.fits)
         if (const std::vector<glm::vec3> extent = extent_of(subject, view); !extent.empty())
             fit(extent, frame.rect.size(), subject, view);

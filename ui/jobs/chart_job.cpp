@@ -27,7 +27,7 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     for (const PaneState& pane : state.panes) {
         Job& job = jobs_[static_cast<std::size_t>(pane.slot)];
         PaneChart& chart = state.chart_of(pane);
-        note_shifts(pane, chart);
+        add_shifts(pane, chart);
         // It is another picture's, or will be: passes go on while nobody looks.
         if (chart.histogram && !(wants_histograms && chart.histogram_generation == pane.generation)) {
             chart.histogram = nullptr;
@@ -58,7 +58,7 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
         wake);
 }
 
-void ChartJob::note_shifts(const PaneState& pane, PaneChart& chart) {
+void ChartJob::add_shifts(const PaneState& pane, PaneChart& chart) {
     if (chart.shift_generation != pane.generation)
         chart.shifts.clear();
     chart.shift_generation = pane.generation;

@@ -38,7 +38,7 @@ private:
         std::shared_ptr<const Histogram> histogram; // null where none was wanted
     };
     using Job = BackgroundJob<Request, Measured>;
-    static void note_shifts(const PaneState& pane, PaneChart& chart);
+    static void add_shifts(const PaneState& pane, PaneChart& chart);
     static void ask(Job& job, const PaneState& pane, const std::shared_ptr<const Reference>& reference,
                     bool wants_histogram, const std::function<void()>& wake);
     static Measured measure(const Snapshot& snapshot, const Request& request);

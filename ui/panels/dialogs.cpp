@@ -42,9 +42,9 @@ void draw_file(Controls& controls, ViewerState& state) {
     const std::string hint = default_reference_file(state).filename().string();
     controls.label("File");
     ImGui::InputTextWithHint("##reference.file", hint.c_str(), making.file.data(), making.file.size());
-    controls.note("reference.file",
-                  "EXR file to write; by itself one in the current folder, named after the scene, "
-                  "its size and depth, and the camera unless it is the scene's.");
+    controls.place("reference.file",
+                   "EXR file to write; by itself one in the current folder, named after the scene, "
+                   "its size and depth, and the camera unless it is the scene's.");
 }
 
 void draw_notes(Controls& controls, ViewerState& state) {
@@ -82,7 +82,7 @@ void draw_progress(Controls& controls, const ReferenceProgress& progress) {
     ImGui::ProgressBar(static_cast<float>(std::clamp(progress.share(), 0.0, 1.0)), {-FLT_MIN, 0},
                        fmt::format("{} of {} spp", progress.spp, progress.spp_wanted).c_str());
     ImGui::PopStyleColor();
-    controls.note("reference.progress", "Samples a pixel of both halves.");
+    controls.place("reference.progress", "Samples a pixel of both halves.");
     const bool known = std::isfinite(progress.seconds_left);
     dim_text(progress.is_ending ? "Ending after this pass; the checkpoint is kept."
              : known            ? "About " + duration_text(progress.seconds_left) + " left."

@@ -2,15 +2,15 @@
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
 
-#include <filesystem>
-#include <glm/vec2.hpp>
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <imgui.h>
 
 namespace tessera {
@@ -139,7 +139,7 @@ void FileDialog::draw_path(Controls& controls) {
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                              ImGuiInputTextFlags_CallbackAlways,
                          edit, this);
-    controls.note("file.path", "The file. Tab completes its name, Enter opens it.");
+    controls.place("file.path", "The file. Tab completes its name, Enter opens it.");
     if (before != text_.data())
         read_text();
     if (entered)
@@ -174,7 +174,7 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
     const bool clicked = ImGui::Selectable(
         label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
     ImGui::PopStyleColor();
-    controls.note(("file/" + entry.name).c_str(), path.string().c_str()); // a long name is cut off
+    controls.place(("file/" + entry.name).c_str(), path.string().c_str()); // a long name is cut off
     if (!clicked)
         return;
     if (entry.is_folder)

@@ -21,7 +21,7 @@ void draw_menu_item(Controls& controls, const Action& action, ViewerState& state
     const bool checked = action.checked != nullptr && action.checked(state);
     if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
         action.run(state);
-    controls.note((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
+    controls.place((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
 }
 
 void draw_recent_scenes(Controls& controls, ViewerState& state) {
@@ -33,13 +33,13 @@ void draw_recent_scenes(Controls& controls, ViewerState& state) {
         const std::string name = (path.parent_path().filename() / path.filename()).string();
         if (ImGui::MenuItem((name + "##recent" + std::to_string(i)).c_str()))
             state.wishes.open_scene = file;
-        controls.note(("menu File/recent " + std::to_string(i)).c_str(), ("Opens " + file).c_str());
+        controls.place(("menu File/recent " + std::to_string(i)).c_str(), ("Opens " + file).c_str());
     }
 }
 
 void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
     const bool open = ImGui::BeginMenu(menu);
-    controls.note((std::string("menu ") + menu).c_str(), nullptr);
+    controls.place((std::string("menu ") + menu).c_str(), nullptr);
     if (!open)
         return;
     for (const Action& action : actions()) {
@@ -69,7 +69,7 @@ bool progress_item(const char* id, const char* what, float share, const char* he
     ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
     const bool clicked = ImGui::MenuItem(text);
     ImGui::PopStyleColor();
-    controls.note(id, help);
+    controls.place(id, help);
     return clicked;
 }
 
@@ -102,14 +102,14 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     if (x > ImGui::GetCursorPosX())
         ImGui::SetCursorPosX(x);
     ImGui::TextDisabled("%s", name.c_str());
-    controls.note("scene_name", ("The scene on show: " + state.scene_name).c_str());
+    controls.place("scene_name", ("The scene on show: " + state.scene_name).c_str());
     if (count == 0)
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
     if (ImGui::MenuItem((button + "##messages").c_str()))
         state.layout.show_messages = !state.layout.show_messages;
     ImGui::PopStyleColor();
-    controls.note("messages", "Shows or hides the messages (F2).");
+    controls.place("messages", "Shows or hides the messages (F2).");
 }
 
 /// Opens the samples that a message is about, one after the other.
@@ -305,7 +305,7 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
                                               Layout::least_panel_width, Layout::most_panel_width);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         state.layout.panel_width = Layout().panel_width;
-    controls.note("panel edge", "Drag: how wide the panels are. Double click: as at first.");
+    controls.place("panel edge", "Drag: how wide the panels are. Double click: as at first.");
     ImGui::End();
 }
 

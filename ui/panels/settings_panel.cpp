@@ -63,14 +63,14 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
         state.size.scale = percent / 100.0f;
     const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
     ImGui::TextDisabled("%d x %d pixels a pane", size.x, size.y);
-    controls.note("pixels",
-                  "What is rendered now. A panel or a window of another size throws no samples away: the "
-                  "pictures are scaled, until the panes start anew.");
+    controls.place("pixels",
+                   "What is rendered now. A panel or a window of another size throws no samples away: the "
+                   "pictures are scaled, until the panes start anew.");
     if (size != fitting) {
         ImGui::TextDisabled("%d x %d when they start anew", fitting.x, fitting.y);
-        controls.note("fitting_pixels",
-                      "What fits the panes as they are: taken when the camera moves, or all of them "
-                      "are restarted (R).");
+        controls.place("fitting_pixels",
+                       "What fits the panes as they are: taken when the camera moves, or all of them "
+                       "are restarted (R).");
     }
 }
 
@@ -167,7 +167,7 @@ void draw_contents(Controls& controls, ViewerState& state) {
         state.share_settings();
     bool changed = draw_settings(controls, render_settings(state));
     const bool more = ImGui::TreeNodeEx("More", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-    controls.note("more", "What is seldom changed.");
+    controls.place("more", "What is seldom changed.");
     if (more)
         changed |= draw_settings(controls, render_settings(state), true);
     heading("Reconstruction");

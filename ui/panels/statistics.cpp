@@ -161,7 +161,7 @@ void draw_statistic(Controls& controls, const Statistic& figure, ImU32 bar_colou
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = ImGui::GetTextLineHeight();
     ImGui::Dummy({width, height});
-    controls.note(("statistics." + figure.id).c_str(), figure.help.c_str());
+    controls.place(("statistics." + figure.id).c_str(), figure.help.c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText(at, colours::dim_text, figure.label.c_str());
     draw_right_aligned(list, at.x + width * value_end, at.y, colours::text, figure.value);
@@ -183,9 +183,9 @@ void draw_refused(Controls& controls, const Snapshot& snapshot) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    controls.note("statistics.refused",
-                  "Pass and pixel count from 0. With the seed, the first of them can be traced "
-                  "again.");
+    controls.place("statistics.refused",
+                   "Pass and pixel count from 0. With the seed, the first of them can be traced "
+                   "again.");
 }
 
 void draw_contents(Controls& controls, const Snapshot& snapshot) {

@@ -134,7 +134,7 @@ LegendPlace draw_legend(const ScreenRect& picture, const std::string& id, const 
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({min.x, min.y});
     ImGui::Dummy({size.x, size.y});
-    controls.note(id.c_str(), legend.help.c_str());
+    controls.place(id.c_str(), legend.help.c_str());
     ImGui::SetCursorScreenPos(cursor);
     return place;
 }

@@ -244,13 +244,13 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
         status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
                  "second; the pass that the picture on show is reconstructed from, the steps of its solver and "
                  "their wall seconds, or a reconstruction that takes long.";
-    controls.note((id + ".status").c_str(), help.c_str());
+    controls.place((id + ".status").c_str(), help.c_str());
     if (cursor.empty())
         return;
     ImGui::SetCursorScreenPos({left, at.y});
     ImGui::Dummy({std::min(width, room), height});
     const Showing showing = showing_at(state, pane, state.layout.cursor->share);
-    controls.note((id + ".value").c_str(), cursor_help(showing, state).c_str());
+    controls.place((id + ".value").c_str(), cursor_help(showing, state).c_str());
 }
 
 } // namespace tessera

@@ -95,7 +95,7 @@ PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools
     ImGui::InvisibleButton((id + ".picture").c_str(), {size.x, size.y},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
-    tools.controls.note((id + ".picture").c_str(), nullptr);
+    tools.controls.place((id + ".picture").c_str(), nullptr);
     return frame;
 }
 

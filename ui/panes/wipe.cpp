@@ -56,9 +56,9 @@ void note_line(const PictureFrame& frame, float x, const std::string& id, Contro
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({x - reach, frame.rect.min.y});
     ImGui::Dummy({2 * reach, std::max(frame.rect.size().y, 1.0f)});
-    controls.note((id + ".wipe").c_str(),
-                  "Drag the line: this pane's own picture to its left, what it is compared "
-                  "with to its right (V: on and off).");
+    controls.place((id + ".wipe").c_str(),
+                   "Drag the line: this pane's own picture to its left, what it is compared "
+                   "with to its right (V: on and off).");
     ImGui::SetCursorScreenPos(cursor);
 }
 

@@ -219,7 +219,7 @@ std::string settings_json(const ViewerState& state) {
         {"target_distance", state.camera.distance()},
     };
     add_inspection(json, state);
-    if (state.space.looked)
+    if (state.space.has_direction)
         json["space"] = ordered_json::parse(camera_json(state.space.camera.camera()));
     if (state.companions.reference)
         json["reference"] = state.companions.reference->name;

@@ -135,13 +135,13 @@ struct Surroundings {
 struct SpaceView {
     CameraControl camera;
     bool fits = true;                                 ///< is to show the whole path, from where it looks
-    bool looked = false;                              ///< it has a direction to look in
+    bool has_direction = false;                       ///< it has a direction to look in
     std::shared_ptr<const Surroundings> surroundings; ///< null: none yet
 
     /// Is to look where another camera does, from where it then sees the whole path.
     void look_as(const Camera& other) {
         camera.put(other, 1);
-        fits = looked = true;
+        fits = has_direction = true;
     }
 };
 

@@ -83,7 +83,7 @@ public:
             if (hooks.before)
                 hooks.before(took);
             viewer.state().layout.display_scale = Layout::least_ui_scale;
-            gui_->set_look(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
+            gui_->set_style(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
             gui_->begin_frame(glm::vec2(size_), 1.0f, std::chrono::duration<float>(now - last).count());
             last = now;
             viewer.draw_frame();

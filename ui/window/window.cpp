@@ -246,7 +246,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         frames_due_ = std::max(frames_due_ - 1, 0);
         last_frame_ = now;
         tell_place(viewer.state());
-        gui_->set_look(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
+        gui_->set_style(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
         ImGui_ImplGlfw_NewFrame();
         if (hooks.before)
             hooks.before(took);
