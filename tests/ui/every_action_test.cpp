@@ -34,6 +34,7 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
      }},
     {"Smaller text", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Text as the display says", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
+    {"Step one pass", [](ViewerState& s) { s.wishes.restart = true; }}, // it may have been done before
     {"Two panes", [](ViewerState& s) { s.set_pane_count(4); }},
     {"Reset camera",
      [](ViewerState& s) {
@@ -97,6 +98,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         if (const auto prepare = preparations.find(action); prepare != preparations.end())
             prepare->second(state());
         state().slow_motion.held = true;
+        frames(2); // in which it is asked for
         settle(samples);
         scenes = state().scenes_shown;
         generation = state().active().generation;
