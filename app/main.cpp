@@ -1,8 +1,10 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
+#include "render/io/available_memory.h"
 
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include <fmt/core.h>
 
@@ -10,6 +12,12 @@
 int main(int argc, char** argv) {
     try {
         return tessera::run_command_line(argc, argv);
+    } catch (const tessera::OutOfMemory& error) {
+        fmt::print(stderr, "tessera: {}\n", error.what());
+        return tessera::exit_failure;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "tessera: there is not enough memory for this\n");
+        return tessera::exit_failure;
     } catch (const std::exception& error) {
         fmt::print(stderr, "tessera: {}\n", error.what());
         return tessera::exit_bad_input;

@@ -35,7 +35,7 @@ struct Words {
 };
 
 void add_scene(CLI::App& command, Words& words, bool required) {
-    command.add_option("scene", words.scene, "Mitsuba scene, XML")->required(required);
+    forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
 }
@@ -69,7 +69,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     add_settings(command, words);
     add_method(command, words.settings.method);
     add_setting(command, spp_setting(words.spp))->default_str(std::to_string(usual_spp));
-    command.add_option("--time", words.time, "seconds of rendering, without loading")->check(CLI::PositiveNumber);
+    limit_to_seconds(command.add_option("--time", words.time, "seconds of rendering, without loading"));
     add_clock(command, words.clock);
     add_norms(command, words.norms, "or several: one layer each (default weighted with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
@@ -90,10 +90,9 @@ void add_compare(CLI::App& app, CompareOptions& options) {
         "reference2", options.reference2,
         "an independent second one, where the first has no halves of its own: errors without its noise");
     command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
-    command
-        .add_option("--tile", options.tile,
-                    "edge of tiles, pixels: says how much their grid shows in the error (1: not at all)")
-        ->check(CLI::Range(2, 64));
+    limit(command.add_option("--tile", options.tile,
+                             "edge of tiles, pixels: says how much their grid shows in the error (1: not at all)"),
+          2, 64);
     command.add_flag("--json", options.json, "print JSON");
 }
 
@@ -122,8 +121,8 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     Setting window = size_setting(words.window);
     window.id = "window";
     add_setting(command, window)->description("WIDTHxHEIGHT of the window, pixels")->default_str("");
-    command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display")
-        ->check(CLI::PositiveNumber)
+    limit_to_seconds(
+        command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display"))
         ->capture_default_str();
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }

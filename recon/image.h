@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -60,6 +61,12 @@ public:
     const Pixel* row(int y) const { return pixels_.data() + static_cast<std::size_t>(y) * width_; }
     Pixel* data() { return pixels_.data(); }
     const Pixel* data() const { return pixels_.data(); }
+
+    /// Gives the pixels away, row by row: it is empty then.
+    std::vector<Pixel> take_pixels() {
+        width_ = height_ = 0;
+        return std::move(pixels_);
+    }
 
     auto begin() { return pixels_.begin(); }
     auto end() { return pixels_.end(); }

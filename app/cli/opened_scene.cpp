@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -62,6 +63,24 @@ std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
     for (const auto& group : groups)
         lines.push_back(line_of(group));
     return lines;
+}
+
+void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+    const auto is_same = [](const NamedFile& a, const NamedFile& b) {
+        std::error_code none;
+        if (a.file.empty() || b.file.empty() ||
+            (std::filesystem::exists(a.file, none) && !std::filesystem::is_regular_file(a.file, none)))
+            return false;
+        return std::filesystem::weakly_canonical(a.file, none) == std::filesystem::weakly_canonical(b.file, none);
+    };
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        std::vector<NamedFile> others(outputs.begin() + static_cast<std::ptrdiff_t>(i) + 1, outputs.end());
+        others.insert(others.end(), inputs.begin(), inputs.end());
+        for (const NamedFile& other : others)
+            if (is_same(outputs[i], other))
+                throw BadInput(fmt::format("{}: {} and {} are the same file", outputs[i].file.string(),
+                                           outputs[i].option, other.option));
+    }
 }
 
 void check_scene_file(const std::filesystem::path& file) {

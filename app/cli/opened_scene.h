@@ -43,6 +43,16 @@ SceneLoader loader_of(const SceneSource& source, int threads);
 /// The scene of `source` as the viewer loads it, by loader_of.
 SceneOrigin origin_of(const SceneSource& source, int threads);
 
+/// An option or argument that names a file, as it was given.
+struct NamedFile {
+    std::string option;
+    std::filesystem::path file; ///< empty: not given
+};
+
+/// Throws BadInput where an output is the same file as another, or as one that is read: one would replace the
+/// other. Devices and pipes may be named as often as one likes.
+void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
+
 /// Makes the folder and those that it lies in, where there are none. Throws BadInput.
 void make_folder(const std::filesystem::path& folder);
 

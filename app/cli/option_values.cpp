@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "render/io/files.h"
+#include "render/io/text.h"
 #include "ui/state/inspected.h"
 
 #include <algorithm>
@@ -84,6 +85,27 @@ SampleChoice parse_sample(const std::string& option, const std::string& text) {
     return {0, {numbers[0], numbers[1]}, numbers[2]};
 }
 
+CLI::Option* limit(CLI::Option* option, double least, double most) {
+    const std::string range = fmt::format("from {:g} to {:g}", least, most);
+    return option->check(
+        [=](const std::string& text) {
+            const std::optional<double> number = parse_number(text);
+            return number && *number >= least && *number <= most
+                       ? std::string()
+                       : fmt::format("\"{}\" must be a number {}", text, range);
+        },
+        range);
+}
+
+CLI::Option* forbid_empty(CLI::Option* option) {
+    return option->check(
+        [](const std::string& text) { return text.empty() ? "the name is empty" : std::string(); }, "");
+}
+
+CLI::Option* limit_to_seconds(CLI::Option* option) {
+    return limit(option, 1e-3, most_seconds);
+}
+
 namespace {
 
 /// --rr-delta for "rr_delta".
@@ -112,10 +134,20 @@ struct OptionAdder {
 
     /// Whole numbers, numbers and seconds have limits.
     CLI::Option* operator()(const auto& number) const {
-        return command.add_option(name, *number.value, help)->check(CLI::Range(number.least, number.most));
+        return limit(command.add_option(name, *number.value, help), number.least, number.most);
     }
     CLI::Option* operator()(const Setting::Natural& natural) const {
-        return command.add_option(name, *natural.value, help)->check(CLI::NonNegativeNumber); // -1 would wrap
+        return command.add_option(name, *natural.value, help)
+            ->check(
+                [](const std::string& text) { // -1 would wrap, and so would 2^64
+                    std::uint64_t value = 0;
+                    const char* const end = text.data() + text.size();
+                    const auto [rest, error] = std::from_chars(text.data(), end, value);
+                    return error == std::errc() && rest == end
+                               ? std::string()
+                               : fmt::format("\"{}\" must be a whole number from 0 to 2^64 - 1", text);
+                },
+                "from 0");
     }
     CLI::Option* operator()(const Setting::Switch& on) const {
         return command.add_flag(name + ",!--no-" + name.substr(2), *on.value, help);

@@ -33,6 +33,14 @@ std::vector<Method> parse_methods(const std::string& text);
 /// "X,Y,PASS", as given to `option`: a sample of whatever pane.
 SampleChoice parse_sample(const std::string& option, const std::string& text);
 
+/// Lets an option take only finite numbers from `least` to `most`: CLI11's own ranges let NaN pass. Returns the
+/// option.
+CLI::Option* limit(CLI::Option* option, double least, double most);
+/// Lets an option take no empty name: "$1" of a script that was given nothing is no wish for the built-in scene.
+CLI::Option* forbid_empty(CLI::Option* option);
+/// Lets an option take only seconds above 0, at most most_seconds.
+CLI::Option* limit_to_seconds(CLI::Option* option);
+
 // Options made from the table of settings. What they write to must outlive the command. Each returns the option,
 // for a command that describes it otherwise.
 

@@ -71,11 +71,39 @@ ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const Recon
     return file;
 }
 
-void write_picture(const std::filesystem::path& output, const ExrFile& file) {
-    if (extension_of(output) == ".png")
+namespace {
+
+void write_as(const std::filesystem::path& output, const std::string& extension, const ExrFile& file) {
+    if (extension == ".png")
         write_png(output, file.layers.front().image);
     else
         write_exr(output, file);
+}
+
+/// A name that no file in the temporary folder has.
+std::filesystem::path free_temporary_name(const std::string& extension) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    for (int i = 1;; ++i)
+        if (auto path = folder / fmt::format("tessera-kept-{}{}", i, extension); !std::filesystem::exists(path))
+            return path;
+}
+
+} // namespace
+
+void write_picture(const std::filesystem::path& output, const ExrFile& file) {
+    const std::string extension = extension_of(output);
+    try {
+        write_as(output, extension, file);
+    } catch (const std::exception& error) {
+        std::filesystem::path kept;
+        try {
+            kept = free_temporary_name(extension);
+            write_as(kept, extension, file);
+        } catch (const std::exception&) { // there is no place for it at all
+            throw std::runtime_error(error.what());
+        }
+        throw std::runtime_error(fmt::format("{}; the picture is kept as {}", error.what(), kept.string()));
+    }
 }
 
 } // namespace tessera

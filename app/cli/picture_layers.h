@@ -41,8 +41,9 @@ ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wa
 ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
                        ThreadPool& pool, std::vector<ReconstructionStats>& stats);
 
-/// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Throws
-/// std::runtime_error that names the file.
+/// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Where that fails, on a
+/// full disk, it is kept in the temporary folder: a render may have taken days. Throws std::runtime_error that
+/// names the file, and the one in which the picture is kept.
 void write_picture(const std::filesystem::path& output, const ExrFile& file);
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/report/reports.h"
+#include "render/io/json_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +13,14 @@
 namespace tessera {
 
 namespace {
+
+/// How a command ends: what an interrupt leaves is a part of what was asked for.
+int end_of(const ExperimentOptions& options) {
+    if (!interrupted())
+        return exit_ok;
+    fmt::print(stderr, "{}: not complete; the same command goes on from its journal\n", options.output.string());
+    return exit_failure;
+}
 
 void write_bench(const Experiment& experiment) {
     const ExperimentOptions& options = experiment.options();
@@ -31,14 +40,14 @@ int run_bench(const ExperimentOptions& options) {
     Experiment experiment(options);
     experiment.run([&] { write_bench(experiment); });
     fmt::print("{}\n", (options.output / "bench.html").string());
-    return exit_ok;
+    return end_of(options);
 }
 
 int run_sweep(const ExperimentOptions& options) {
     Experiment experiment(options);
     experiment.run([&] { write_sweep(options, experiment.results()); });
     fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n", options.output.string());
-    return exit_ok;
+    return end_of(options);
 }
 
 namespace {
@@ -66,7 +75,7 @@ void check_references(const MeasuredScene& scene) {
     for (const FolderReference* reference : scene.references()) {
         if (!reference->is_complete())
             continue;
-        const auto settings = nlohmann::json::parse(reference->image().settings, nullptr, false);
+        const auto settings = parse_json(reference->image().settings);
         if (!settings.is_object() || settings.value("method", "") != short_name(Method::pt))
             throw BadInput(fmt::format("{} was not made by PT, which alone can judge the others",
                                        reference->path().string()));
@@ -107,7 +116,7 @@ int run_stability(ExperimentOptions suite) {
         write_sheet(suite, cases[i]);
     }
     fmt::print("{}\n", (suite.output / "stability.md").string());
-    return exit_ok;
+    return end_of(suite);
 }
 
 } // namespace tessera

@@ -97,6 +97,7 @@ void check_finite(const ExrFile& file) {
 
 int run_reconstruct(const ReconstructOptions& options) {
     check_picture_name(options.output, options.layers);
+    check_outputs({{"-o", options.output}, {"--stats", options.stats}}, {}); // an input may be replaced
     check_writable(options.output);
     if (!options.stats.empty())
         check_writable(options.stats);

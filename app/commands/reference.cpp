@@ -25,7 +25,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;
-    command.add_option("scene", words.scene, "Mitsuba scene, XML")->required();
+    forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
@@ -35,8 +35,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         ->description("samples a pixel, of both halves together; one more if odd");
     add_norms(command, words.norms, "where there are gradients")
         ->default_str(std::string(to_string(recipe.reconstruction.norm)));
-    command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints")
-        ->check(CLI::NonNegativeNumber)
+    limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
+          most_seconds)
         ->capture_default_str();
     command.add_option("-o,--output", words.options.output, "EXR file to write")->required();
 }
@@ -61,6 +61,8 @@ int run_reference(const ReferenceOptions& options) {
     check(options.recipe.settings);
     if (extension_of(options.output) != ".exr")
         throw BadInput(fmt::format("{}: the name must end in .exr", options.output.string()));
+    check_outputs({{"-o", options.output}},
+                  {{"the scene", options.scene.file}, {"--camera", options.scene.camera}});
     check_writable(options.output);
     ThreadPool pool(options.threads);
     const OpenedScene opened = open_scene(options.scene, pool);

@@ -57,10 +57,25 @@ void render_passes(const RenderOptions& options, const ResolvedRender& wanted, R
     } while (done < 1 && !interrupted());
 }
 
+/// Says on stderr which layer has a pixel that is no number. Returns whether there is none.
+bool warn_of_bad_pixels(const ExrFile& file) {
+    for (const ExrLayer& layer : file.layers) {
+        const std::string bad = text_of_bad_pixel(layer.image);
+        if (bad.empty())
+            continue;
+        fmt::print(stderr, "warning: the layer \"{}\" is not finite: {}; its light is too strong for floats\n",
+                   layer.name, bad);
+        return false;
+    }
+    return true;
+}
+
 } // namespace
 
 int run_render(const RenderOptions& options) {
     check(options.settings);
+    check_outputs({{"-o", options.output}, {"--stats", options.stats}},
+                  {{"the scene", options.scene.file}, {"--camera", options.scene.camera}});
     check_writable(options.output);
     check_picture_name(options.output, options.layers);
     if (!options.stats.empty())
@@ -83,6 +98,7 @@ int run_render(const RenderOptions& options) {
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);
+    const bool is_finite = warn_of_bad_pixels(file);
     if (!options.stats.empty()) {
         nlohmann::json stats = stats_json(settings, opened, render, pool.size(), recon, interrupted());
         stats["first_refused"] = refused_json(options.scene, render);
@@ -90,7 +106,7 @@ int run_render(const RenderOptions& options) {
     }
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
-    return exit_ok;
+    return is_finite ? exit_ok : exit_failure;
 }
 
 } // namespace tessera

@@ -11,11 +11,9 @@ namespace {
 
 void add_effort(CLI::App& command, ExperimentWords& words) {
     CLI::Option* spp = add_setting(command, spp_setting(words.spp))->default_str("");
-    command
-        .add_option("--time", words.time,
-                    fmt::format("seconds of rendering each, instead of --spp (default {})",
-                                to_string(words.options.effort)))
-        ->check(CLI::PositiveNumber)
+    limit_to_seconds(command.add_option("--time", words.time,
+                                        fmt::format("seconds of rendering each, instead of --spp (default {})",
+                                                    to_string(words.options.effort))))
         ->excludes(spp);
     add_clock(command, words.clock);
 }
@@ -29,7 +27,7 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
 
 void add_experiment(CLI::App& command, ExperimentWords& words) {
     ExperimentOptions& options = words.options;
-    command.add_option("scenes", words.scenes, "Mitsuba scenes, XML")->required()->take_all();
+    forbid_empty(command.add_option("scenes", words.scenes, "Mitsuba scenes, XML"))->required()->take_all();
     add_picture_options(command, {options.settings.size, options.settings.render, options.settings.reconstruction,
                                   options.settings.threads});
     command.get_option("--size")->default_str(size_setting(options.settings.size).text());
@@ -44,8 +42,7 @@ void add_experiment(CLI::App& command, ExperimentWords& words) {
         ->allow_extra_args(false);
     add_methods(command, words.methods, "or several: gpr,pr")->capture_default_str();
     add_effort(command, words);
-    command.add_option("--seeds", options.seeds, "renders of each setup, each with another seed")
-        ->check(CLI::Range(1, 1000))
+    limit(command.add_option("--seeds", options.seeds, "renders of each setup, each with another seed"), 1, 1000)
         ->capture_default_str();
     add_norms(command, words.norms, "or several, where there are gradients")->capture_default_str();
     add_references(command, options);
@@ -88,10 +85,9 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
                                "pictures of the first seed to OUTPUT/images.\n") +
                    common_footer);
     add_experiment(command, words);
-    command
-        .add_option("--halvings", words.options.halvings,
-                    "errors are also taken after a half, a quarter, ... of the time, this often")
-        ->check(CLI::Range(0, 20))
+    limit(command.add_option("--halvings", words.options.halvings,
+                             "errors are also taken after a half, a quarter, ... of the time, this often"),
+          0, 20)
         ->capture_default_str();
 }
 

@@ -27,8 +27,7 @@ namespace {
 using nlohmann::json;
 
 std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return std::filesystem::exists(file) ? read_bytes(file) : std::string();
 }
 
 /// Adds the text to the file's end, where it is on the disk when this returns.
@@ -50,8 +49,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
     const std::string text = text_of(file_);
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
-        const json line = json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
-                                      text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+        const json line = parse_json(std::string_view(text).substr(begin, end - begin));
         if (line.is_object() && line.contains("key") && line.contains("value"))
             entries_[to_text(line["key"])] = to_text(line["value"]);
     }
@@ -61,7 +59,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
 
 json Journal::find(const json& key) const {
     const auto found = entries_.find(to_text(key));
-    return found == entries_.end() ? json() : json::parse(found->second);
+    return found == entries_.end() ? json() : parse_json(found->second);
 }
 
 void Journal::record(const json& key, const json& value) {

@@ -147,7 +147,7 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
         const std::filesystem::path file = experiment.image_file(scene.name, result.setup);
         if (!std::filesystem::exists(file))
             continue;
-        const ExrFile exr = read_exr(file);
+        const ExrFile exr = read_exr(file, {}, {""});
         const RgbImage& image = require_layer(exr, "", file);
         if (image.width() == reference.width() && image.height() == reference.height())
             pictures.push_back({fmt::format("<b>{}</b><br>{}", escaped(curve_label(experiment.options(), curve)),

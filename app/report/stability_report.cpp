@@ -262,7 +262,7 @@ void write_sheet(const ExperimentOptions& suite, const StabilityCase& c) {
     for (const Result& result : results) {
         const std::filesystem::path file = c.experiment->image_file(c.name(), result.setup);
         if (std::filesystem::exists(file)) {
-            const ExrFile exr = read_exr(file);
+            const ExrFile exr = read_exr(file, {}, {""});
             pictures.push_back({name_of(result.setup), require_layer(exr, "", file)});
         }
     }

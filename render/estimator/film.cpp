@@ -82,6 +82,13 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 
 } // namespace
 
+std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
+    const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(glm::dvec3) +
+                                (buffers.reuse ? sizeof(ReuseCounts) : 0) +
+                                (buffers.base_luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
+}
+
 Film::Film(int width, int height, const FilmBuffers& buffers)
     : primal_(width, height), very_direct_(width, height) {
     if (buffers.gradients) {

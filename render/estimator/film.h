@@ -78,6 +78,9 @@ class Film {
 public:
     Film(int width, int height, const FilmBuffers& buffers);
 
+    /// The memory that a film takes.
+    static std::uint64_t bytes(int width, int height, const FilmBuffers& buffers);
+
     int width() const { return primal_.width(); }
     int height() const { return primal_.height(); }
 

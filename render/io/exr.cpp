@@ -1,15 +1,19 @@
 #include "render/io/exr.h"
 
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -114,17 +118,35 @@ std::map<std::string, std::string> attributes_of(const Imf::Header& header) {
     return attributes;
 }
 
-ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
-    Imf::MultiPartInputFile input(path.c_str());
+/// What reading takes: the pixels, and what OpenEXR unpacks at once, which are whole rows of all channels.
+void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
+    constexpr std::uint64_t most_rows_a_chunk = 256; // of DWAB
+    std::uint64_t channels = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+        ++channels;
+    const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
+    ask_for_memory(sizeof(Rgb) * width * height * layers +
+                       2 * sizeof(float) * width * std::min(height, most_rows_a_chunk) * channels,
+                   "its pixels");
+}
+
+/// The layers, of those that there are, that `choose` picks.
+using LayerChoice = std::function<std::vector<std::string>(const std::vector<std::string>& there)>;
+
+ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, const ReadWatch& watch,
+                    const LayerChoice& choose) {
     Imf::InputPart part(input, 0);
     const Imf::Header& header = part.header();
     const Imath::Box2i window = header.dataWindow();
-    const Size size = size_of(window, std::filesystem::file_size(path));
-    ExrFile file;
-    for (const std::string& name : layer_names(header.channels()))
-        file.layers.push_back({name, RgbImage(size.width, size.height)});
-    if (file.layers.empty())
+    const Size size = size_of(window, file_bytes);
+    const std::vector<std::string> there = layer_names(header.channels());
+    if (there.empty())
         throw std::runtime_error("it has no R, G and B channels");
+    const std::vector<std::string> names = choose(there);
+    ask_for_layers(header, size, names.size());
+    ExrFile file;
+    for (const std::string& name : names)
+        file.layers.push_back({name, RgbImage(size.width, size.height)});
     Imf::FrameBuffer buffer;
     for (const ExrLayer& layer : file.layers) {
         const bool is_grey = layer.name.empty() && !header.channels().findChannel("R");
@@ -141,6 +163,26 @@ ExrFile read_layers(const std::filesystem::path& path, const ReadWatch& watch) {
     file.attributes = attributes_of(header);
     return file;
 }
+
+/// A file in memory, as OpenEXR reads it.
+class MemoryStream : public Imf::IStream {
+public:
+    explicit MemoryStream(std::string_view bytes) : Imf::IStream("a picture"), bytes_(bytes) {}
+
+    bool read(char data[], int count) override {
+        if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() - at_)
+            throw std::runtime_error("the file ends too early");
+        std::memcpy(data, bytes_.data() + at_, static_cast<std::size_t>(count));
+        at_ += static_cast<std::size_t>(count);
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t at) override { at_ = std::min<std::uint64_t>(at, bytes_.size()); }
+
+private:
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+};
 
 } // namespace
 
@@ -169,9 +211,28 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file) {
     }
 }
 
-ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch) {
+RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
+    MemoryStream stream(bytes);
+    Imf::MultiPartInputFile input(stream);
+    ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<std::string>& there) {
+        return std::vector<std::string>{there.front()}; // the plain one, if there is one
+    });
+    return std::move(file.layers.front().image);
+}
+
+ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
+                 const std::vector<std::string>& wanted) {
     try {
-        return read_layers(path, watch);
+        open_file(path); // says why it cannot be
+        Imf::MultiPartInputFile input(path.c_str());
+        return read_layers(input, std::filesystem::file_size(path), watch,
+                           [&](const std::vector<std::string>& there) {
+                               std::vector<std::string> names;
+                               for (const std::string& name : there)
+                                   if (wanted.empty() || std::ranges::find(wanted, name) != wanted.end())
+                                       names.push_back(name);
+                               return names;
+                           });
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
     }

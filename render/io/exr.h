@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
@@ -36,10 +37,16 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file);
 /// False: the file is wanted no more.
 using ReadWatch = std::function<bool(float share)>;
 
-/// Reads every layer with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part),
-/// and the header's string attributes. Throws std::runtime_error that names the file, also where `watch`, which
-/// may be empty, wants it no more.
-ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {});
+/// Reads layers with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part), and the
+/// header's string attributes. `wanted` names those that are read if they are there, all the others cost nothing;
+/// empty: all. Throws std::runtime_error that names the file, also where `watch`, which may be empty, wants it no
+/// more, and where there is no memory for it (ask_for_memory).
+ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {},
+                 const std::vector<std::string>& wanted = {});
+
+/// Reads the plain layer of a file in memory, or the first where there is none, and nothing else. Throws as
+/// read_exr does, but names nothing.
+RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch);
 
 /// The string attributes alone, without reading a pixel. Throws std::runtime_error that names the file.
 std::map<std::string, std::string> read_exr_attributes(const std::filesystem::path& path);

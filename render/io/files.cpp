@@ -3,6 +3,7 @@
 #include "render/io/memory.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
 #include <cerrno>
@@ -59,11 +60,14 @@ void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t fi
 
 std::ifstream open_file(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) // opens as a file does, and is then of endless size
-        throw std::runtime_error("it is a folder, not a file");
+    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+    if (std::filesystem::is_directory(status)) // opens as a file does, and is then of endless size
+        throw std::runtime_error("this is a folder, not a file");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw std::runtime_error("this is a device or a pipe, not a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
-        throw std::runtime_error("the file cannot be opened");
+        throw std::runtime_error(std::string("cannot open the file: ") + std::strerror(errno));
     return stream;
 }
 
@@ -118,6 +122,59 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
+/// Where links lead to, there or not; the path itself where it is none. Of other links on the way the system takes
+/// care.
+std::filesystem::path end_of_links(const std::filesystem::path& path) {
+    constexpr int most_links = 40; // as in Linux
+    std::filesystem::path end = path;
+    std::error_code none;
+    for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(end, none)); ++i) {
+        if (i == most_links)
+            throw std::filesystem::filesystem_error(
+                "cannot be written", path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
+        end = folder_of(end) / std::filesystem::read_symlink(end);
+    }
+    return end;
+}
+
+/// Whether there is something at the path that no file may take the place of.
+bool is_special(const std::filesystem::path& path) {
+    std::error_code none;
+    const std::filesystem::file_status status = std::filesystem::status(path, none);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
+}
+
+/// Writes what a file holds into something that is there already.
+void pour(const std::filesystem::path& from, const std::filesystem::path& into) {
+    const auto fail = [&] {
+        throw std::filesystem::filesystem_error("cannot be written", into, {errno, std::generic_category()});
+    };
+    const int target = ::open(into.c_str(), O_WRONLY | O_CLOEXEC);
+    if (target < 0)
+        fail();
+    std::ifstream in(from, std::ios::binary);
+    std::array<char, 1 << 16> bytes;
+    for (bool is_broken = false; !is_broken && in;) {
+        in.read(bytes.data(), bytes.size());
+        const auto count = in.gcount();
+        for (std::streamsize done = 0; done < count && !is_broken;) {
+            const ssize_t written = ::write(target, bytes.data() + done, static_cast<std::size_t>(count - done));
+            if (written >= 0)
+                done += written;
+            else if (errno != EINTR)
+                is_broken = true;
+        }
+        if (is_broken) {
+            const int error = errno;
+            ::close(target);
+            errno = error;
+            fail();
+        }
+    }
+    ::close(target);
+}
+
 void remove_leftovers(const std::filesystem::path& final_path) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder_of(final_path), ignored)) {
@@ -140,10 +197,11 @@ int write_through(const std::filesystem::path& path) {
 
 } // namespace
 
-TemporaryFile::TemporaryFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
-    remove_leftovers(final_);
+TemporaryFile::TemporaryFile(std::filesystem::path final_path)
+    : final_(end_of_links(final_path)), is_in_place_(is_special(final_)),
+      temporary_(is_in_place_ ? std::filesystem::temp_directory_path() / final_.filename() : final_) {
+    remove_leftovers(temporary_);
     static std::atomic<int> count = 0;
-    temporary_ = final_;
     temporary_ += "." + this_place() + "-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
 }
 
@@ -154,6 +212,8 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::commit() {
+    if (is_in_place_)
+        return pour(temporary_, final_);
     // The file is to be on the disk before it takes the old one's place: else a power cut could leave neither. A
     // full or broken disk may say so only now.
     if (const int error = write_through(temporary_))
@@ -183,7 +243,9 @@ void check_writable(const std::filesystem::path& path) {
     // Trying is the only test that holds for root, full disks and odd file systems alike: with the very name that
     // the file will be written under at first, which is no other run's.
     const TemporaryFile trial(path);
-    if (!std::ofstream(trial.path(), std::ios::binary))
+    const bool can_be_written = is_special(path) ? ::access(path.c_str(), W_OK) == 0
+                                                 : std::ofstream(trial.path(), std::ios::binary).good();
+    if (!can_be_written)
         throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 

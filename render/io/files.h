@@ -8,7 +8,8 @@
 
 namespace tessera {
 
-/// A file to be read from its beginning; throws std::runtime_error.
+/// A file to be read from its beginning; throws std::runtime_error that says why, also for what is no regular
+/// file: a device or a pipe may be of endless size, or keep who reads it waiting for ever.
 std::ifstream open_file(const std::filesystem::path& file);
 
 /// All of a file's bytes; throws std::runtime_error.
@@ -29,11 +30,14 @@ void check_image_size(std::int64_t width, std::int64_t height);
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes);
 
 /// A file that is written under a temporary name beside its own and takes its own name only when it is complete.
-/// So whatever happens, there is never half a file under that name.
+/// So whatever happens, there is never half a file under that name. A link is followed: it is the file at its end
+/// that is written. What is there and no regular file, a device or a pipe, cannot be half a file, and must not
+/// become one: it stays, and gets the bytes.
 class TemporaryFile {
 public:
     /// Removes what processes that were killed have left of the same file, as far as it is certain that they are
-    /// no more: those that ran since this machine has started, and in this container.
+    /// no more: those that ran since this machine has started, and in this container. Throws
+    /// std::filesystem::filesystem_error for links that lead to each other.
     explicit TemporaryFile(std::filesystem::path final_path);
     ~TemporaryFile(); ///< removes the file unless it was committed
     TemporaryFile(const TemporaryFile&) = delete;
@@ -42,11 +46,13 @@ public:
     const std::filesystem::path& path() const { return temporary_; }
 
     /// The file is on the disk when it takes its name, and under that name when this returns: whatever is written
-    /// later may rely on it, power cuts included. Throws std::filesystem::filesystem_error.
+    /// later may rely on it, power cuts included. Into a pipe it waits for who reads it. Throws
+    /// std::filesystem::filesystem_error.
     void commit();
 
 private:
     std::filesystem::path final_;
+    bool is_in_place_; // the bytes go into what is there
     std::filesystem::path temporary_;
 };
 

@@ -77,6 +77,28 @@ private:
     std::string_view text_;
 };
 
+/// Where a text, JSON or not, opens one object or array too many in others; npos: nowhere.
+std::size_t too_deep(std::string_view text) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        if (c == '"')
+            in_string = !in_string;
+        else if (in_string)
+            at += c == '\\';
+        else if ((c == '{' || c == '[') && ++depth > deepest_json)
+            return at;
+        else if (c == '}' || c == ']')
+            --depth;
+    }
+    return std::string_view::npos;
+}
+
+std::string deep_message() {
+    return fmt::format("more than {} objects and arrays lie in each other", deepest_json);
+}
+
 std::size_t line_begin(const std::string& text, std::size_t offset) {
     const std::size_t before = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
     return before == std::string::npos ? 0 : before + 1;
@@ -92,9 +114,18 @@ std::string to_text(const nlohmann::ordered_json& value, int indent) {
     return value.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+nlohmann::json parse_json(std::string_view text) {
+    if (too_deep(text) != std::string_view::npos)
+        return nullptr;
+    nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
+    return value.is_discarded() ? nlohmann::json() : value;
+}
+
 nlohmann::ordered_json JsonText::parse() const {
     if (text_.empty())
         fail_at(0, "the file is empty");
+    if (const std::size_t at = too_deep(text_); at != std::string::npos)
+        fail_at(at, deep_message());
     try {
         return nlohmann::ordered_json::parse(text_);
     } catch (const nlohmann::json::parse_error& e) {

@@ -14,6 +14,14 @@ namespace tessera {
 std::string to_text(const nlohmann::json& value, int indent = -1);
 std::string to_text(const nlohmann::ordered_json& value, int indent = -1);
 
+/// How many objects and arrays may lie in each other in what is read: more means nothing to us, and each takes a
+/// piece of the stack of whoever goes through them.
+inline constexpr int deepest_json = 100;
+
+/// What a text says that we may have written ourselves, such as a header's. Null: it is none of ours, as it is no
+/// JSON, or nested too deep.
+nlohmann::json parse_json(std::string_view text);
+
 /// A text of JSON, for messages that point into it.
 class JsonText {
 public:

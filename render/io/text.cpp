@@ -1,5 +1,7 @@
 #include "render/io/text.h"
 
+#include "render/io/files.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -105,16 +107,11 @@ std::string latin1_to_utf8(std::string_view text) {
 } // namespace
 
 std::string read_text(const std::filesystem::path& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        throw LoadError({file.string(), 0, 0}, "this is a folder, not a scene file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw LoadError({file.string(), 0, 0}, std::string("cannot open the file: ") + std::strerror(errno));
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad())
-        throw LoadError({file.string(), 0, 0}, "cannot read the file");
-    return text;
+    try {
+        return read_bytes(file);
+    } catch (const std::runtime_error& error) {
+        throw LoadError({file.string(), 0, 0}, error.what());
+    }
 }
 
 Utf8Text to_utf8(std::string bytes) {

@@ -136,7 +136,21 @@ bool share_refraction(Material& material, std::optional<DielectricMaterial>& fir
     return changed;
 }
 
-/// The BSDFs nested in a mixture, without weights.
+constexpr int most_parts = 256; // each is evaluated at every scattering
+
+/// How many BSDFs a material is made of, however they are nested; not many more than most_parts are counted.
+int count_parts(const Material& material) {
+    if (const auto* coated = std::get_if<CoatedMaterial>(&material.kind))
+        return 1 + count_parts(*coated->base);
+    const auto* mixture = std::get_if<MixtureMaterial>(&material.kind);
+    int count = mixture ? 0 : 1;
+    for (std::size_t i = 0; mixture && i < mixture->parts.size() && count <= most_parts; ++i)
+        count += count_parts(*mixture->parts[i]);
+    return count;
+}
+
+/// The BSDFs nested in a mixture, without weights. Throws LoadError for one of too many parts: by references, a
+/// few lines make millions.
 Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlElement>& nested) {
     MixtureMaterial mixture;
     std::optional<DielectricMaterial> first;
@@ -148,10 +162,15 @@ Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlEl
             p.note(element, "this refracts like the first transparent <bsdf> in '" + p.type() + "'");
         mixture.parts.push_back(std::make_shared<const Material>(std::move(part)));
     }
+    Material material{{}, mixture};
+    if (count_parts(material) > most_parts)
+        p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(most_parts) +
+                         " BSDFs, those of its parts and theirs counted each time");
     const bool all_two_sided = two_sided == nested.size();
     if (two_sided > 0 && !all_two_sided)
         p.note("'twosided' around some of the materials in '" + p.type() + "' is left out");
-    return {{}, mixture, all_two_sided};
+    material.two_sided = all_two_sided;
+    return material;
 }
 
 /// "0.3, 0.2": one weight for each of `count` materials, at most 1 together.

@@ -36,6 +36,8 @@ constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
 } // namespace
 
 Material read_bsdf(LoadContext& context, const XmlElement& element) {
+    if (const auto known = context.bsdfs.find(element.key()); known != context.bsdfs.end())
+        return known->second;
     const NestingGuard guard(context, element);
     Properties properties(element, context.notes);
     Material material{{}, DiffuseMaterial{marking_color}, true};
@@ -46,7 +48,7 @@ Material read_bsdf(LoadContext& context, const XmlElement& element) {
         properties.note("the bsdf '" + properties.type() + "' is not known; diffuse magenta stands for it");
     }
     material.name = properties.name();
-    return material;
+    return context.bsdfs.emplace(element.key(), material).first->second;
 }
 
 int material_of(LoadContext& context, const XmlElement& element) {

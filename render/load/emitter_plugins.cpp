@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -13,24 +14,29 @@ namespace tessera {
 
 namespace {
 
-void refuse_negative(Properties& p, std::string_view name, Rgb color) {
+/// A quantity of light that was read from the parameter of that name. Too much of it is cut, with a note; throws
+/// LoadError for less than none.
+Rgb checked_light(Properties& p, std::string_view name, Rgb color) {
     if (color.r < 0 || color.g < 0 || color.b < 0)
         p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
+    const Rgb cut = glm::min(color, Rgb(brightest));
+    if (cut != color)
+        p.note(*p.take(name),
+               "'" + std::string(name) + "' is cut at 1e15: brighter pictures cannot be reconstructed");
+    return cut;
 }
 
 /// A quantity of light, such as intensity.
 Rgb light_parameter(Properties& p, std::string_view name) {
-    const Rgb color = p.color(name, Rgb(1));
-    refuse_negative(p, name, color);
     p.ignore({"sampling_weight"}); // lights are chosen by their power
-    return color;
+    return checked_light(p, name, p.color(name, Rgb(1)));
 }
 
 AreaLight read_area(LoadContext& context, Properties& p) {
     AreaLight light;
     light.radiance = texture_parameter(context, p, "radiance", Rgb(1));
-    if (const Rgb* constant = std::get_if<Rgb>(&light.radiance.kind))
-        refuse_negative(p, "radiance", *constant);
+    if (Rgb* constant = std::get_if<Rgb>(&light.radiance.kind))
+        *constant = checked_light(p, "radiance", *constant);
     p.ignore({"sampling_weight"});
     return light;
 }

@@ -41,7 +41,7 @@ void FileSearch::add_folder(const XmlElement& path) {
     folders_.push_back(folder);
 }
 
-void FileJobs::add(const XmlElement& where, std::function<std::string()> read) {
+void FileJobs::add(const XmlElement& where, Read read) {
     jobs_.push_back({where, std::move(read)});
 }
 
@@ -52,12 +52,13 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
         std::optional<std::string> error;
     };
     std::vector<Outcome> outcomes(jobs_.size());
+    const std::function<bool()> wanted = [&] { return !progress.given_up(); };
     parallel_for(static_cast<int>(jobs_.size()), [&](int i) {
         if (progress.given_up())
             return;
         const auto index = static_cast<std::size_t>(i);
         try {
-            outcomes[index].note = jobs_[index].read();
+            outcomes[index].note = jobs_[index].read(wanted);
         } catch (const std::exception& e) {
             outcomes[index].error = e.what();
         }

@@ -42,9 +42,13 @@ private:
 /// The files that a scene names, read after the scene itself and all at once.
 class FileJobs {
 public:
-    /// `read` runs later, on any thread, once; it returns a note, or nothing. `where` is the parameter that names
-    /// the file: messages point at its value.
-    void add(const XmlElement& where, std::function<std::string()> read);
+    /// Reads a file and returns a note, or nothing. Ends with an exception soon after `wanted`, asked now and
+    /// then, is false.
+    using Read = std::function<std::string(const std::function<bool()>& wanted)>;
+
+    /// `read` runs later, on any thread, once. `where` is the parameter that names the file: messages point at its
+    /// value.
+    void add(const XmlElement& where, Read read);
 
     /// Runs all jobs. Throws LoadError for the first in order of the file that failed, std::runtime_error if the
     /// scene is given up on the way.
@@ -53,7 +57,7 @@ public:
 private:
     struct Job {
         XmlElement where;
-        std::function<std::string()> read;
+        Read read;
     };
     std::vector<Job> jobs_;
 };
@@ -68,7 +72,8 @@ struct LoadContext {
     FileSearch files;
 
     std::map<std::string, XmlElement> ids;
-    std::map<const void*, int> materials; ///< by XmlElement::key(), index into scene.materials
+    std::map<const void*, int> materials;  ///< by XmlElement::key(), index into scene.materials
+    std::map<const void*, Material> bsdfs; ///< by XmlElement::key(): what is referred to often is read once
     std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>> bitmaps; ///< by path and whether sRGB
     std::map<std::tuple<float, MicrofacetDistribution, float>, std::shared_ptr<const Coating>>
         coatings;  ///< by index of refraction, distribution and alpha: they take time to make

@@ -4,6 +4,7 @@
 #include "render/surface/texture.h"
 
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <string_view>
 
@@ -64,6 +65,10 @@ Texture texture_parameter(LoadContext& context, Properties& properties, std::str
 /// LoadError.
 Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
 
+/// The most light that is given off or stands in a picture file, per channel: squares of it, and sums of many of
+/// these, are floats still, as solvers and errors take them.
+inline constexpr float brightest = 1e15f;
+
 /// Stands for what this program does not know, so that it meets the eye.
 inline constexpr Rgb marking_color{1.0f, 0.0f, 1.0f};
 
@@ -73,9 +78,15 @@ void read_integrator(LoadContext& context, const XmlElement& element);
 /// A <sensor> with its film: camera and size.
 void read_sensor(LoadContext& context, const XmlElement& element);
 
-/// Reads an image file as three channels: OpenEXR and Radiance files as linear floats, others (such as PNG, JPEG,
-/// TGA and BMP) as bytes, which are sRGB encoded or linear as `srgb` says. Transparency is dropped, grey repeated.
-/// Throws std::runtime_error, also for a size that the file is far too short for.
-Bitmap read_bitmap(const std::filesystem::path& file, bool srgb);
+/// Reads a picture as three channels: OpenEXR and Radiance as linear floats, PNG, JPEG, TGA and BMP as bytes,
+/// which are sRGB encoded or linear as `srgb` says. What it holds decides, not what it is called; only TGA, which
+/// has no mark, must be called ".tga". Transparency is dropped, grey repeated. Throws std::runtime_error, also for
+/// a size that the file is far too short for, or the memory, and once `wanted`, asked now and then, wants it no
+/// more.
+Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& wanted);
+
+/// The same of a picture in memory; `extension` is that of its name.
+Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
+                    const std::function<bool()>& wanted);
 
 } // namespace tessera

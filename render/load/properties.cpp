@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
@@ -33,17 +34,17 @@ std::string snake_case(std::string_view name) {
 
 Properties::Properties(const XmlElement& plugin, std::vector<LoadNote>& notes)
     : element_(plugin), type_(plugin.required("type")), notes_(&notes) {
+    std::unordered_map<std::string, std::size_t> places; // by name: a file may give thousands
     for (const XmlElement& child : plugin.children()) {
         if (child.tag() == "default" || child.tag() == "alias") // replaced in the text, among the ids
             continue;
         Parameter parameter{child, snake_case(child.attribute("name"))};
-        const auto same = [&](const Parameter& p) { return !p.name.empty() && p.name == parameter.name; };
-        const auto earlier = std::find_if(parameters_.begin(), parameters_.end(), same);
-        if (earlier != parameters_.end()) {
-            note(child, "'" + parameter.name + "' stands here for the second time; this one counts");
-            *earlier = parameter;
-        } else {
+        const auto [place, is_new] = places.try_emplace(parameter.name, parameters_.size());
+        if (is_new || parameter.name.empty()) {
             parameters_.push_back(parameter);
+        } else {
+            note(child, "'" + parameter.name + "' stands here for the second time; this one counts");
+            parameters_[place->second] = parameter;
         }
     }
 }

@@ -97,7 +97,7 @@ void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& sha
     flip_v = p.boolean("flip_tex_coords", flip_v);
     // The vector may still grow, but not move: it belongs to the context.
     context.jobs.add(file.parameter,
-                     [&shapes, index, path = file.path, read = std::move(read), placement, flip_v] {
+                     [&shapes, index, path = file.path, read = std::move(read), placement, flip_v](const auto&) {
                          MeshPlacement placed = placement;
                          Mesh mesh = read(path, placed);
                          if (flip_v)

@@ -135,10 +135,11 @@ std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties&
     auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb}];
     if (!shared) {
         shared = std::make_shared<Bitmap>();
-        context.jobs.add(file.parameter, [target = shared, path = file.path, srgb] {
-            *target = read_bitmap(path, srgb);
-            return std::string();
-        });
+        context.jobs.add(file.parameter,
+                         [target = shared, path = file.path, srgb](const std::function<bool()>& wanted) {
+                             *target = read_bitmap(path, srgb, wanted);
+                             return std::string();
+                         });
     }
     return shared;
 }

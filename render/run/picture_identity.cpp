@@ -1,13 +1,12 @@
 #include "render/run/picture_identity.h"
 
 #include "render/io/json_text.h"
-#include "render/io/memory.h"
-#include "render/run/render.h"
 #include "render/scene/camera.h"
+#include "render/scene/scene.h"
+#include "render/scene/scene_checksums.h"
 #include "render/settings/settings_table.h"
 
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <vector>
 
 #include <fmt/core.h>
@@ -32,52 +31,31 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
     return json;
 }
 
-namespace {
-
-std::uint32_t checksum_of(const RgbImage& image, std::uint32_t before) {
-    return checksum(std::as_bytes(std::span(image.data(), image.size())), before);
-}
-
-std::uint32_t checksum_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    return checksum(std::as_bytes(std::span(text.data(), text.size())));
-}
-
-std::uint32_t checksum_of_samples(const PictureSubject& subject, const RenderSettings& settings,
-                                  ThreadPool& pool) {
-    Render small(subject.scene, subject.camera, {48, 27}, settings);
-    for (int i = 0; i < 4; ++i)
-        small.pass(pool);
-    const GradientImages images = small.take_images();
-    std::uint32_t sum = checksum_of(subject.source.file);
-    for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
-        sum = checksum_of(*image, sum);
-    return sum;
-}
-
-} // namespace
-
-std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
-                             ThreadPool& pool) {
+std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size) {
     nlohmann::json identity = settings_json(subject.source, settings, size, 0, 0);
     for (const char* other : {"spp", "alpha", "variables"})
         identity.erase(other);
-    identity["camera"] = nlohmann::json::parse(camera_json(subject.camera));
-    identity["scene"] = checksum_of_samples(subject, settings, pool);
+    identity["camera"] = parse_json(camera_json(subject.camera));
+    identity["scene"] = to_string(checksums_of(subject.scene->description(), subject.camera));
     return to_text(identity);
 }
 
 std::string identity_difference(const std::string& theirs, const std::string& mine) {
-    const nlohmann::json a = nlohmann::json::parse(theirs), b = nlohmann::json::parse(mine);
+    const nlohmann::json a = parse_json(theirs), b = parse_json(mine);
     for (const auto& [key, value] : b.items())
-        if (key != "scene" && key != "camera" && a.value(key, nlohmann::json()) != value)
+        if (a.is_object() && key != "scene" && key != "camera" && a.value(key, nlohmann::json()) != value)
             return fmt::format("{} {}, not {}", key, to_text(a.value(key, nlohmann::json())), to_text(value));
-    if (a.size() != b.size())
+    if (!a.is_object() || a.size() != b.size())
         return "another version of the program";
     if (a["camera"] != b["camera"])
         return "another camera";
-    return a["scene"] == b["scene"] ? "" : "another scene (or other samples of it)";
+    const auto mine_is = scene_checksums_from(b.at("scene").get<std::string>());
+    const auto theirs_is =
+        a.at("scene").is_string() ? scene_checksums_from(a.at("scene").get<std::string>()) : std::nullopt;
+    if (!mine_is || !theirs_is)
+        return "another version of the program";
+    const std::string parts = difference(*theirs_is, *mine_is);
+    return parts.empty() ? "" : "another scene (other " + parts + ")";
 }
 
 } // namespace tessera

@@ -26,11 +26,9 @@ struct PictureSubject {
     Camera camera; ///< the scene's, or another
 };
 
-/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and a
-/// checksum of the scene's file and of a few samples of a small picture: so it knows meshes, textures and the
-/// program itself by what they do, wherever the files lie.
-std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size,
-                             ThreadPool& pool);
+/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and the
+/// checksums of all that was loaded of the scene, wherever its files lie.
+std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size);
 
 /// How `theirs` differs from `mine`: "another scene", "another camera", "width 640, not 320"; empty: it does not.
 std::string identity_difference(const std::string& theirs, const std::string& mine);

@@ -68,13 +68,13 @@ bool is_reference(const std::filesystem::path& path) {
 }
 
 ReferenceImage read_reference(const std::filesystem::path& path) {
-    ExrFile file = read_exr(path);
+    ExrFile file = read_exr(path, {}, {"", half_names[0], half_names[1]});
     ReferenceImage reference;
     for (std::size_t i = 0; i < 2; ++i)
         reference.halves[i] = require_layer(file, half_names[i], path);
     reference.mean = require_layer(file, "", path);
     try {
-        reference.seeds = nlohmann::json::parse(file.attributes[reference_attribute]).at("seeds");
+        reference.seeds = parse_json(file.attributes[reference_attribute]).at("seeds");
     } catch (const nlohmann::json::exception&) {
         throw std::runtime_error(
             fmt::format("{}: is no reference: its header does not say which seeds it has", path.string()));

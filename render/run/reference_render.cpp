@@ -49,7 +49,7 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
                                  const ReferenceRecipe& recipe, ThreadPool& pool)
     : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe),
       pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
-      identity_(picture_identity(subject_, recipe.settings, recipe.size, pool)) {
+      identity_(picture_identity(subject_, recipe.settings, recipe.size)) {
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();
 }

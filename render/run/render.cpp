@@ -1,6 +1,7 @@
 #include "render/run/render.h"
 
 #include "render/estimator/pass.h"
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/settings/settings_table.h"
 
@@ -21,9 +22,11 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             s.very_direct_grid > 1};
 }
 
-/// Before any memory is asked for. Throws std::runtime_error.
-glm::ivec2 checked(glm::ivec2 size) {
+/// Throws std::runtime_error for a size that no image has, or no memory.
+glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
     check_image_size(size.x, size.y);
+    ask_for_memory(Film::bytes(size.x, size.y, buffers_of(settings)),
+                   fmt::format("{}x{} pixels of {}", size.x, size.y, short_name(settings.method)));
     return size;
 }
 
@@ -31,7 +34,7 @@ glm::ivec2 checked(glm::ivec2 size) {
 
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
                const RenderSettings& settings)
-    : scene_(std::move(scene)), camera_(camera), size_(checked(size)), settings_(settings),
+    : scene_(std::move(scene)), camera_(camera), size_(checked(size, settings)), settings_(settings),
       film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_),
       newest_plan_(std::make_shared<const ReusePlan>(plan_)) {
     check(settings);

@@ -17,7 +17,8 @@ class Scene;
 /// A render in progress: a film and the passes it has seen.
 class Render {
 public:
-    /// Throws std::runtime_error for a size, std::invalid_argument for settings outside their limits.
+    /// Throws std::runtime_error for a size, OutOfMemory where its film cannot be had, std::invalid_argument for
+    /// settings outside their limits.
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
            const RenderSettings& settings);
 

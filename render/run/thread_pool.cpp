@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <ctime>
 #include <exception>
+#include <stdexcept>
+#include <string>
 
 #include <sys/resource.h>
 
@@ -61,11 +63,22 @@ struct ThreadPool::Loop {
 
 ThreadPool::ThreadPool(int threads, Priority priority) {
     const int wanted = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    for (int worker = 1; worker < wanted; ++worker)
-        threads_.emplace_back([=, this] { work(worker, priority); });
+    try {
+        for (int worker = 1; worker < wanted; ++worker)
+            threads_.emplace_back([=, this] { work(worker, priority); });
+    } catch (const std::exception&) { // too many for the system, or for the memory that their stacks take
+        const int started = size();
+        end_threads();
+        throw std::runtime_error("the system starts no more than " + std::to_string(started) + " threads of the " +
+                                 std::to_string(wanted) + " asked for");
+    }
 }
 
 ThreadPool::~ThreadPool() {
+    end_threads();
+}
+
+void ThreadPool::end_threads() {
     {
         const std::lock_guard lock(mutex_);
         quit_ = true;

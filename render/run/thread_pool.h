@@ -30,7 +30,8 @@ public:
     /// Whether the pool's own threads give way to others (work_in_background).
     enum class Priority { normal, background };
 
-    /// `threads` >= 1 threads work on a loop, the caller among them; 0: one a hardware thread.
+    /// `threads` >= 1 threads work on a loop, the caller among them; 0: one a hardware thread. Throws
+    /// std::runtime_error where the system starts fewer.
     explicit ThreadPool(int threads = 0, Priority priority = Priority::normal);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -53,6 +54,7 @@ public:
 private:
     struct Loop;
     void work(int worker, Priority priority);
+    void end_threads();
 
     std::mutex callers_;       // held by the caller whose loop runs
     mutable std::mutex mutex_; // guards what follows

@@ -122,14 +122,7 @@ Camera parse_camera(const std::string& json_text, const std::string& name) {
 }
 
 Camera read_camera(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw LoadError({file.string(), 0, 0}, "this is a folder, not a camera file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw LoadError({file.string(), 0, 0},
-                        std::string("cannot open the camera file: ") + std::strerror(errno));
-    return parse_camera({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, file.string());
+    return parse_camera(read_text(file), file.string());
 }
 
 std::string camera_json(const Camera& camera) {
@@ -147,13 +140,7 @@ std::string camera_json(const Camera& camera) {
 }
 
 void write_camera(const std::filesystem::path& file, const Camera& camera) {
-    TemporaryFile temporary(file);
-    std::ofstream stream(temporary.path(), std::ios::binary);
-    stream << camera_json(camera);
-    stream.close();
-    if (!stream)
-        throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-    temporary.commit();
+    write_text(file, camera_json(camera));
 }
 
 std::string camera_xml(const Camera& camera) {

@@ -47,31 +47,37 @@ double cone_solid_angle(const PointLight& light) {
 
 } // namespace
 
-LightTable::LightTable(const SceneDescription& description, float radius)
+LightTable::LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors)
     : pdf_a_(description.area_lights.size(), 0.0f), points_(description.point_lights),
       directionals_(description.directional_lights) {
-    std::vector<double> power;
-    add_triangles(description, power);
+    std::vector<double> weights; // of the sources
+    powers_.resize(description.area_lights.size(), 0.0);
+    add_triangles(description, factors, weights);
     const auto add = [&](Source source, double watts) {
-        if (!(watts > 0))
+        const double weight = watts * (factors.empty() ? 1.0 : factors[powers_.size()]);
+        powers_.push_back(watts);
+        if (!(weight > 0))
             return;
         sources_.push_back(source);
-        power.push_back(watts);
+        weights.push_back(weight);
     };
     const double disk = double(pi) * radius * radius; // what light from infinity falls through
     for (std::size_t i = 0; i < points_.size(); ++i)
         add(Point{i, 0}, cone_solid_angle(points_[i]) * luminance(points_[i].intensity));
     for (std::size_t i = 0; i < directionals_.size(); ++i)
         add(Directional{i, 0}, disk * luminance(directionals_[i].irradiance));
-    if (!description.environment.empty()) {
+    if (!description.environment.empty() && (factors.empty() || factors[powers_.size()] > 0)) {
         environment_ = std::make_shared<const Environment>(description.environment);
         add(Infinite{}, disk * environment_->flux());
+    } else {
+        powers_.push_back(0);
     }
 
-    choice_ = AliasTable(power);
-    const double total = std::accumulate(power.begin(), power.end(), 0.0);
+    choice_ = AliasTable(weights);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (std::size_t i = 0; i < pdf_a_.size() && total > 0; ++i)
-        pdf_a_[i] = static_cast<float>(double(pi) * luminance(description.area_lights[i].radiance.mean()) / total);
+        pdf_a_[i] = static_cast<float>((factors.empty() ? 1.0 : factors[i]) * double(pi) *
+                                       luminance(description.area_lights[i].radiance.mean()) / total);
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const float probability = choice_.probability(i);
         if (auto* triangle = std::get_if<LightTriangle>(&sources_[i]))
@@ -85,7 +91,8 @@ LightTable::LightTable(const SceneDescription& description, float radius)
     }
 }
 
-void LightTable::add_triangles(const SceneDescription& description, std::vector<double>& power) {
+void LightTable::add_triangles(const SceneDescription& description, const std::vector<double>& factors,
+                               std::vector<double>& weights) {
     // Per area, every triangle of a light is as likely as its mean radiance is bright.
     std::vector<Rgb> mean;
     for (const AreaLight& light : description.area_lights)
@@ -104,7 +111,10 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
             triangle.edge1 = mesh.positions[t.y] - triangle.corner;
             triangle.edge2 = mesh.positions[t.z] - triangle.corner;
             const double area2 = glm::length(glm::cross(glm::dvec3(triangle.edge1), glm::dvec3(triangle.edge2)));
-            if (!(area2 * luminance(mean[light]) > 0))
+            const double watts = double(pi) * 0.5 * area2 * luminance(mean[light]);
+            const double weight = watts * (factors.empty() ? 1.0 : factors[light]);
+            powers_[light] += watts > 0 ? watts : 0;
+            if (!(weight > 0))
                 continue; // no area, no light
             triangle.normal = front_normal(mesh, t);
             triangle.radiance = mean[light];
@@ -115,7 +125,7 @@ void LightTable::add_triangles(const SceneDescription& description, std::vector<
                 triangle.index = i;
             }
             sources_.emplace_back(triangle);
-            power.push_back(double(pi) * 0.5 * area2 * luminance(mean[light]));
+            weights.push_back(weight);
             has_triangles_ = true;
             for (const glm::vec3 p :
                  {triangle.corner, triangle.corner + triangle.edge1, triangle.corner + triangle.edge2}) {

@@ -123,8 +123,13 @@ class LightTable {
 public:
     LightTable() = default;
     /// Keeps pointers into the description. `radius` is that of a sphere around the scene: light from infinity has
-    /// power in proportion to its disk.
-    LightTable(const SceneDescription& description, float radius);
+    /// power in proportion to its disk. Each light is chosen in proportion to its power times its factor, in the
+    /// order of powers(); no factors: to its power. A light of factor 0 is not there.
+    LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors = {});
+
+    /// Of each light, whether or not it has a factor: area lights, then points, directional lights, and the
+    /// environment, in the order of the description.
+    const std::vector<double>& powers() const { return powers_; }
 
     bool empty() const { return sources_.empty(); }
     std::size_t size() const { return sources_.size(); } ///< emitting triangles and other lights
@@ -168,11 +173,13 @@ private:
     struct Infinite {};
     using Source = std::variant<LightTriangle, Point, Directional, Infinite>;
 
-    void add_triangles(const SceneDescription& description, std::vector<double>& power);
+    void add_triangles(const SceneDescription& description, const std::vector<double>& factors,
+                       std::vector<double>& weights);
     LightPoint sample_other(const Source& source, const Random& random, int vertex) const;
 
     AliasTable choice_;
     std::vector<Source> sources_;
+    std::vector<double> powers_;
     std::vector<float> pdf_a_;
     std::vector<PointLight> points_;
     std::vector<DirectionalLight> directionals_;

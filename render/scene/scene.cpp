@@ -1,5 +1,7 @@
 #include "render/scene/scene.h"
 
+#include "render/scene/light_choice.h"
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -56,6 +58,8 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     const auto start = std::chrono::steady_clock::now();
     intersector_ = Intersector(description_.shapes, opacities_of(description_));
     bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (const std::vector<double> factors = learn_light_factors(*this); !factors.empty())
+        lights_ = LightTable(description_, radius_, factors);
     for (const Shape& shape : description_.shapes)
         records_.push_back(make_record(shape, description_, lights_));
 }

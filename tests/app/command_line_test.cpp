@@ -5,6 +5,7 @@
 #include "tests/app/program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -58,6 +59,19 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--size 16x16x16", "--size 16x16x16"},
         {render + "--spp -3", "--spp"},
         {render + "--spp 0", "--spp"},
+        {render + "--time nan", "--time: \"nan\" must be a number from 0.001"},
+        {render + "--time inf", "--time"},
+        {render + "--alpha nan", "--alpha"},
+        {render + "--rr-delta nan", "--rr-delta"},
+        {render + "--seed 18446744073709551616", "--seed"},
+        {render + "--seed -1", "--seed"},
+        {render + "--stats out.exr", "out.exr: -o and --stats are the same file"},
+        {"render box.xml --size 16x16 --spp 1 -o ./box.xml", "box.xml: -o and the scene are the same file"},
+        {"render '' --size 16x16 --spp 1 -o out.exr", "the name is empty"},
+        {"render /dev/zero --size 16x16 --spp 1 -o out.exr", "/dev/zero: this is a device or a pipe, not a file"},
+        {"reference box.xml --checkpoint nan -o out.exr", "--checkpoint"},
+        {"sweep box.xml --seeds nan --reference refs -o out", "--seeds"},
+        {"view --seconds nan", "--seconds"},
         {render + "--time -1", "--time"},
         {"view box.xml --window 0x5", "--window 0x5"},
         {"render box.xml --spp 1 --size 16x16 --seed -1 -o out.exr", "--seed"},
@@ -66,7 +80,6 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--tile 17", "--tile"},
         {render + "--q-min 0", "--q-min"},
         {render + "--rr-delta -1", "--rr-delta"},
-        {render + "--rr-delta nan", "rr_delta is nan"},
         {render + "--max-depth 0", "--max-depth"},
         {render + "--alpha 0", "--alpha"},
         {render + "--recon l3", "l3"},
@@ -107,6 +120,51 @@ TEST_F(CommandLine, NamesNeedNotBeUtf8) {
     }
     std::ifstream stats(folder_ / "out.json");
     EXPECT_EQ(nlohmann::json::parse(stats)["settings"]["scene"], "sc\xef\xbf\xbdne.xml");
+}
+
+TEST_F(CommandLine, WhatDoesNotFitIntoMemoryIsRefusedWithFigures) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers take all address space";
+#endif
+    const auto limited = [&](const std::string& arguments) {
+        return run(folder_,
+                   "--version >/dev/null; ulimit -v 2000000; '" + std::string(TESSERA_BINARY) + "' " + arguments);
+    };
+    const Outcome film = limited("render box.xml --size 8192x8192 --spp 1 -o out.exr");
+    EXPECT_EQ(film.exit_code, 1);
+    EXPECT_NE(film.output.find("8192x8192 pixels of gpr need "), std::string::npos) << film.output;
+    EXPECT_NE(film.output.find(" GiB of memory, and "), std::string::npos) << film.output;
+    const Outcome threads = limited("render box.xml --size 16x16 --spp 1 --threads 1024 -o out.exr");
+    EXPECT_EQ(threads.exit_code, 2) << "no abort: " << threads.output;
+    EXPECT_NE(threads.output.find("of the 1024 asked for"), std::string::npos) << threads.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out.exr"));
+}
+
+TEST_F(CommandLine, AFullDiskDoesNotLoseThePicture) {
+    if (!fs::exists("/dev/full"))
+        GTEST_SKIP() << "there is no /dev/full";
+    fs::create_symlink("/dev/full", folder_ / "full.png"); // takes nothing
+    const Outcome o = run(folder_, "render box.xml --size 16x16 --spp 1 -o full.png");
+    EXPECT_NE(o.exit_code, 0);
+    const std::string mark = "the picture is kept as ";
+    const std::size_t at = o.output.find(mark);
+    ASSERT_NE(at, std::string::npos) << o.output;
+    const fs::path kept = o.output.substr(at + mark.size(), o.output.find('\n', at) - at - mark.size());
+    EXPECT_GT(fs::file_size(kept), 100u);
+    fs::remove(kept);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "full.png"));
+}
+
+TEST_F(CommandLine, LightThatIsTooStrongIsCut) {
+    write("bright.xml", "<scene version='3.0.0'><shape type='cube'/><emitter type='constant'><rgb name='radiance' "
+                        "value='3e38'/></emitter></scene>");
+    const Outcome o =
+        run(folder_, "render bright.xml --size 32x18 --spp 2 --recon l2,l1,mixed,weighted -o out.exr");
+    EXPECT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_NE(o.output.find("'radiance' is cut at 1e15"), std::string::npos) << o.output;
+    for (const ExrLayer& layer : read_exr(folder_ / "out.exr").layers)
+        for (const Rgb& pixel : layer.image)
+            ASSERT_TRUE(std::isfinite(pixel.r + pixel.g + pixel.b)) << layer.name;
 }
 
 TEST_F(CommandLine, WritesAPngWhereTheNameSaysSo) {
@@ -192,8 +250,8 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
     if (child == 0) {
         if (chdir(folder_.c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
             _exit(100);
-        execl(TESSERA_BINARY, "tessera", "render", "box.xml", "-m", "pt", "--size", "64x64", "--spp", "3000",
-              "-o", "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
+        execl(TESSERA_BINARY, "tessera", "render", "box.xml", "-m", "pt", "--size", "64x64", "--spp", "3000", "-o",
+              "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
         _exit(101);
     }
     // A tenth of the passes is told of: there are as many as take some seconds on any machine.

@@ -220,7 +220,7 @@ TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
         {"missing.pfm dx.pfm dy.pfm", "missing.pfm"},
         {"p.pfm text.pfm dy.pfm", "text.pfm: it is not a PFM file"},
         {"cut.pfm dx.pfm dy.pfm", "cut.pfm: it has"},
-        {"folder.pfm dx.pfm dy.pfm", "folder.pfm: it is a folder"},
+        {"folder.pfm dx.pfm dy.pfm", "folder.pfm: this is a folder"},
         {"p.tiff dx.pfm dy.pfm", "p.tiff: the name must end in .exr or .pfm"},
         {"p.pfm small.pfm dy.pfm", "p.pfm is 13x9, small.pfm is 3x2"},
         {"p.pfm dx.pfm narrow.pfm", "p.pfm is 13x9, narrow.pfm is 12x9"},

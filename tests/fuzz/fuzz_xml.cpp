@@ -9,7 +9,7 @@
 namespace tessera {
 
 /// Stands for the reader of image files, which a scene in memory has none of.
-Bitmap read_bitmap(const std::filesystem::path&, bool) {
+Bitmap read_bitmap(const std::filesystem::path&, bool, const std::function<bool()>&) {
     std::abort();
 }
 

@@ -4,11 +4,13 @@
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/load/plugins.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace tessera {
@@ -109,8 +111,8 @@ TEST_F(BrokenFile, EmptyAndForeign) {
     EXPECT_NE(error_of_shape("serialized", "empty").find("the file ends too early"), std::string::npos);
     EXPECT_NE(error_of_shape("ply", "foreign").find("does not begin with 'ply'"), std::string::npos);
     EXPECT_NE(error_of_shape("serialized", "foreign").find("not a file of serialized"), std::string::npos);
-    EXPECT_NE(error_of_texture("empty").find("not a readable image"), std::string::npos);
-    EXPECT_NE(error_of_texture("foreign").find("not a readable image"), std::string::npos);
+    EXPECT_NE(error_of_texture("empty").find("it is no OpenEXR"), std::string::npos);
+    EXPECT_NE(error_of_texture("foreign").find("it is no OpenEXR"), std::string::npos);
     // OBJ has no mark at its beginning, and any line may be a word of some dialect.
     EXPECT_EQ(error_of_shape("obj", "empty"), "no error");
 }
@@ -133,12 +135,50 @@ TEST_F(BrokenFile, TruncatedImages) {
     }
 }
 
+TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
+    const RgbImage image(9, 2, Rgb(0.5f, 1, 0.25f));
+    write_exr(folder.path() / "exr.png", {{{"", image}}, {}});
+    write_png(folder.path() / "png.exr", image, 0);
+    for (const char* name : {"exr.png", "png.exr"})
+        EXPECT_EQ(error_of_texture(name), "no error") << name;
+    const std::string softimage = std::string("\x53\x80\xf6\x34", 4) + std::string(84, '\0') + "PICT" +
+                                  std::string("\0\1\0\1\0\0\0\0\0\0\0\0", 12) + std::string(16, '\7');
+    for (const char* name : {"a.pic", "a.png", "a.hdr"}) {
+        folder.write(name, softimage);
+        EXPECT_THAT(error_of_texture(name),
+                    testing::HasSubstr("it is no OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
+    }
+}
+
+TEST_F(BrokenFile, RadianceRunsFitTheirRows) {
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 16\n" + std::string("\2\2\0\20", 4);
+    const std::string row = "\x90\x80\x90\x40\x90\x20\x90\x81"; // 16 times each channel
+    folder.write("fine.hdr", head + row);
+    EXPECT_EQ(error_of_texture("fine.hdr"), "no error");
+    EXPECT_EQ(read_bitmap(folder.path() / "fine.hdr", true, [] { return true; }).floats.at(15),
+              Rgb(1, 0.5f, 0.25f));
+    for (const std::string& broken : {head + std::string("\0", 1), head + "\x91" + row, head + row.substr(0, 5),
+                                      head.substr(0, 40), std::string("#?RADIANCE\n\n-Y 1 +X 1\nabcd")}) {
+        folder.write("broken.hdr", broken);
+        EXPECT_THAT(error_of_texture("broken.hdr"), testing::HasSubstr("cannot load 'broken.hdr'"));
+    }
+}
+
+TEST_F(BrokenFile, APictureThatIsWantedNoMoreIsGivenUp) {
+    const RgbImage image(64, 64, Rgb(0.5f));
+    write_exr(folder.path() / "a.exr", {{{"", image}}, {}});
+    write_png(folder.path() / "a.png", image, 0);
+    folder.write("a.hdr", "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd");
+    for (const char* name : {"a.exr", "a.png", "a.hdr"})
+        EXPECT_THROW(read_bitmap(folder.path() / name, true, [] { return false; }), std::exception) << name;
+}
+
 TEST_F(BrokenFile, AbsurdImages) {
     const auto expect = [&](const char* file, const std::string& bytes, const std::string& message) {
         folder.write(file, bytes);
         EXPECT_NE(error_of_texture(file).find(message), std::string::npos) << error_of_texture(file);
     };
-    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': not a readable image");
+    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': it is no readable picture");
     expect("b.png", png_header(17000, 17000), "an image of 17000 by 17000 pixels is too large");
     expect("c.png", png_header(16000, 16000), "the file is too short for 16000 by 16000 pixels");
     expect("a.exr", exr_header(1000000, 1000000), "cannot load 'a.exr'");

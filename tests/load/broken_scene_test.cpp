@@ -243,7 +243,7 @@ TEST(BrokenScenes, Files) {
     const auto path = [&](const char* name) { return (folder.path() / name).string(); };
     EXPECT_EQ(error_of_file(folder.path() / "none.xml"),
               path("none.xml") + ": cannot open the file: No such file or directory");
-    EXPECT_EQ(error_of_file(folder.path()), folder.path().string() + ": this is a folder, not a scene file");
+    EXPECT_EQ(error_of_file(folder.path()), folder.path().string() + ": this is a folder, not a file");
 
     folder.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                             "property float z\nend_header\n0.0 0.0 0.0\n1.0 1.0\n");
@@ -270,7 +270,7 @@ TEST(BrokenScenes, Files) {
     expect(shape("obj", "far.obj"), "2:50: cannot load 'far.obj': the position of vertex 0 is not finite");
     expect(folder.write("s.xml", scene_with("<bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
                                             "<string name='filename' value='no-image.png'/></texture></bsdf>")),
-           "2:95: cannot load 'no-image.png': not a readable image");
+           "2:95: cannot load 'no-image.png': it is no OpenEXR");
 }
 
 TEST(BrokenScenes, TheFirstOfSeveralIsReported) {

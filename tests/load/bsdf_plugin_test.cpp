@@ -3,6 +3,7 @@
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -89,10 +90,10 @@ TEST(BsdfPlugins, Relief) {
 
 TEST(BsdfPlugins, AHeightMapOfGamma1IsLinear) {
     const TemporaryFolder folder;
-    folder.write("h.ppm", "P6\n1 1\n255\n333");
+    folder.write("h.tga", tga_row("333"));
     const auto file =
         folder.write("s.xml", "<scene version='0.6.0'><bsdf type='bumpmap'><texture name='map' type='bitmap'>"
-                              "<string name='filename' value='h.ppm'/><float name='gamma' value='1.0'/></texture>"
+                              "<string name='filename' value='h.tga'/><float name='gamma' value='1.0'/></texture>"
                               "<bsdf type='twosided' id='inner'><bsdf type='diffuse'/></bsdf></bsdf>"
                               "<shape type='cube'><ref id='inner'/></shape></scene>");
     const LoadedScene loaded = load_mitsuba_xml(file);
@@ -167,6 +168,43 @@ TEST(BsdfPlugins, Blend) {
     const std::string inner = "<bsdf type='diffuse'><texture type='checkerboard' name='reflectance'/></bsdf>";
     EXPECT_TRUE(read(around("blendbsdf", inner + diffuse)).material.is_textured());
     EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + inner))).material.is_textured());
+}
+
+/// A scene whose BSDF "bN" blends "bN-1" with itself, and so on.
+std::string blends(int levels) {
+    std::string text = "<bsdf type='diffuse' id='b0'><float name='unheard_of' value='1'/></bsdf>";
+    for (int i = 1; i <= levels; ++i) {
+        const std::string ref = "<ref id='b" + std::to_string(i - 1) + "'/>";
+        text += "<bsdf type='blendbsdf' id='b" + std::to_string(i) + "'>" + ref + ref + "</bsdf>";
+    }
+    return "<scene version='3.0.0'>" + text + "<shape type='cube'><ref id='b" + std::to_string(levels) +
+           "'/></shape></scene>";
+}
+
+TEST(BsdfPlugins, WhatIsReferredToIsReadOnce) {
+    const LoadedScene scene = parse_mitsuba_xml(blends(6), "s.xml");
+    EXPECT_EQ(std::ranges::count(scene.notes, "'unheard_of' of bsdf 'diffuse' is not used", &LoadNote::text), 1);
+}
+
+TEST(BsdfPlugins, ABlendOfMillionsIsRefused) {
+    for (const int levels : {9, 60})
+        try {
+            parse_mitsuba_xml(blends(levels), "s.xml");
+            FAIL() << levels;
+        } catch (const LoadError& error) {
+            EXPECT_NE(std::string(error.what()).find("'blendbsdf' is made of more than 256 BSDFs"),
+                      std::string::npos)
+                << error.what();
+        }
+}
+
+TEST(BsdfPlugins, ParametersAreFoundHoweverManyThereAre) {
+    std::string bsdf = "<bsdf type='diffuse'>";
+    for (int i = 0; i < 300000; ++i) // a look along all for each would take minutes
+        bsdf += "<float name='p" + std::to_string(i) + "' value='1'/>";
+    const Read r =
+        read(bsdf + "<rgb name='reflectance' value='0.25'/><rgb name='reflectance' value='0.75'/></bsdf>");
+    EXPECT_EQ(std::get<Rgb>(std::get<DiffuseMaterial>(r.material.kind).reflectance.kind), Rgb(0.75f));
 }
 
 TEST(BsdfPlugins, WhatABlendDropsHasItsNote) {

@@ -53,6 +53,25 @@ TEST(JsonText, OnlyKeepsPlaces) {
     EXPECT_EQ(only.find("null"), text.find("null"));
 }
 
+TEST(JsonText, WhatIsNestedTooDeepIsRefused) {
+    const std::string fine = std::string(100, '[') + std::string(100, ']'),
+                      in_quotes = '"' + std::string(500, '[') + '"';
+    EXPECT_NO_THROW(JsonText(fine, name).parse());
+    EXPECT_NO_THROW(JsonText(in_quotes, name).parse());
+    EXPECT_TRUE(parse_json(fine).is_array());
+    const std::string deep = "\n" + std::string(100, '[') + "{\"a\": 1}" + std::string(100, ']');
+    try {
+        JsonText(deep, name).parse();
+        FAIL();
+    } catch (const LoadError& error) {
+        EXPECT_EQ(std::string(error.what()).find("file.json:2:101: more than 100 objects and arrays"), 0u)
+            << error.what();
+    }
+    EXPECT_TRUE(parse_json(deep).is_null());
+    EXPECT_TRUE(parse_json(std::string(1 << 20, '[')).is_null());
+    EXPECT_TRUE(parse_json("{\"a\":").is_null());
+}
+
 TEST(JsonText, MessagesHaveLineAndColumn) {
     const JsonText json(text, name);
     try {

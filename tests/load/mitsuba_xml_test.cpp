@@ -278,16 +278,16 @@ TEST(MitsubaXml, FilesAreFoundBesideTheScene) {
     const TemporaryFolder folder;
     folder.write("a/models/one two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     // A 2 x 1 image: red, blue.
-    folder.write("a/t.ppm", std::string("P6 2 1 255\n") + "\xff" + std::string(4, '\0') + "\xff");
+    folder.write("a/t.tga", tga_row(std::string("\0\0\xff\xff\0\0", 6)));
     const auto scene = folder.write(
         "a/scene.xml",
         "<scene version='3.0.0'><shape type='obj'><string name='filename' value='models/one two.obj'/>"
         "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
-        "value='t.ppm'/></texture></bsdf></shape>"
+        "value='t.tga'/></texture></bsdf></shape>"
         "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
-        "value='./t.ppm'/><string name='filter_type' value='nearest'/></texture></bsdf>"
+        "value='./t.tga'/><string name='filter_type' value='nearest'/></texture></bsdf>"
         "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
-        "value='t.ppm'/><boolean name='raw' value='true'/></texture></bsdf></scene>");
+        "value='t.tga'/><boolean name='raw' value='true'/></texture></bsdf></scene>");
     const LoadedScene loaded = load_mitsuba_xml(scene);
     const Mesh& mesh = loaded.description.shapes.at(0).mesh;
     EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}})); // v counts from the top

@@ -1,9 +1,16 @@
 #include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 namespace tessera::test {
@@ -57,6 +64,55 @@ TEST(TemporaryFile, LeavesWhatAnotherMachineOrContainerWrites) {
         folder.write(name, "another's");
     { const TemporaryFile file(folder.path() / "a.exr"); }
     EXPECT_EQ(names_in(folder), others);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(TemporaryFile, LinksAreFollowed) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "far");
+    std::filesystem::create_symlink("far/a.txt", folder.path() / "there");
+    std::filesystem::create_symlink("there", folder.path() / "here");
+    for (const char* text : {"new", "newer"}) {
+        check_writable(folder.path() / "here");
+        write_text(folder.path() / "here", text);
+        EXPECT_EQ(text_of(folder.path() / "far/a.txt"), text);
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "here"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "there"));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"far", "here", "there"}));
+    std::filesystem::create_symlink("b", folder.path() / "a");
+    std::filesystem::create_symlink("a", folder.path() / "b");
+    EXPECT_THROW(write_text(folder.path() / "a", "lost"), std::exception);
+    EXPECT_THROW(check_writable(folder.path() / "a"), std::exception);
+}
+
+TEST(TemporaryFile, DevicesAndPipesStay) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("/dev/null", folder.path() / "null");
+    check_writable(folder.path() / "null");
+    write_text(folder.path() / "null", "nothing");
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    const std::filesystem::path pipe = folder.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0666), 0);
+    check_writable(pipe);                  // without a reader
+    const std::string whole(1 << 20, 'x'); // more than a pipe holds
+    std::string read;
+    std::thread reader([&] { read = text_of(pipe); });
+    write_text(pipe, whole);
+    reader.join();
+    EXPECT_TRUE(read == whole);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(TemporaryFile, WhatIsNoFileIsNotRead) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(mkfifo((folder.path() / "pipe").c_str(), 0666), 0);
+    for (const std::filesystem::path& path : {folder.path() / "pipe", std::filesystem::path("/dev/zero")})
+        EXPECT_THROW(read_bytes(path), std::runtime_error);
 }
 
 TEST(TemporaryFile, LookingWhetherAFileCanBeWrittenTouchesNoOther) {

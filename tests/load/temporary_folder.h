@@ -11,6 +11,17 @@
 
 namespace tessera {
 
+/// A TGA picture of one row, as 24 bits: blue, green and red of each pixel.
+inline std::string tga_row(const std::string& pixels) {
+    std::string header(18, '\0');
+    header[2] = 2; // true colour, without runs
+    header[12] = static_cast<char>(pixels.size() / 3);
+    header[14] = 1;
+    header[16] = 24;
+    header[17] = 0x20; // from the top
+    return header + pixels;
+}
+
 /// A folder that goes away with its owner.
 class TemporaryFolder {
 public:

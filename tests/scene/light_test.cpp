@@ -1,9 +1,13 @@
 #include "render/scene/light.h"
+#include "render/scene/light_choice.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -93,7 +97,7 @@ TEST(LightTable, EverySampleIsWeighedByItsPdf) {
     EXPECT_GT(sums[LightPoint::Kind::surface], 1); // the z-tests judge this one
 }
 
-TEST(LightTable, PowerDecidesAndUnlitTrianglesAreLeftOut) {
+TEST(LightTable, PowerDecidesWithoutFactorsAndUnlitTrianglesAreLeftOut) {
     SceneBuilder b;
     const int black = b.diffuse(Rgb(0));
     b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(9)));
@@ -101,10 +105,80 @@ TEST(LightTable, PowerDecidesAndUnlitTrianglesAreLeftOut) {
     b.quad({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(0)));
     b.quad({0, 0, 3}, {1, 0, 0}, {2, 0, 0}, black, b.light(Rgb(5))); // no area
     const auto scene = b.build();
-    EXPECT_EQ(scene->lights().size(), 4u); // triangles of two quads
-    EXPECT_FLOAT_EQ(scene->lights().pdf_a(0), 0.9f);
-    EXPECT_FLOAT_EQ(scene->lights().pdf_a(1), 0.1f);
-    EXPECT_EQ(scene->lights().pdf_a(2), 0);
+    const LightTable table(scene->description(), scene->radius());
+    EXPECT_EQ(table.size(), 4u); // triangles of two quads
+    EXPECT_FLOAT_EQ(table.pdf_a(0), 0.9f);
+    EXPECT_FLOAT_EQ(table.pdf_a(1), 0.1f);
+    EXPECT_EQ(table.pdf_a(2), 0);
+    EXPECT_EQ(LightTable(scene->description(), scene->radius(), {1, 0, 1, 1}).size(), 2u);
+    EXPECT_FLOAT_EQ(LightTable(scene->description(), scene->radius(), {1, 9, 1, 1}).pdf_a(1), 0.5f);
+}
+
+/// How often each light is chosen, in the order of LightTable::powers().
+std::vector<double> shares_of(const Scene& scene) {
+    const std::vector<double>& power = scene.lights().powers();
+    const std::vector<double> factors = learn_light_factors(scene);
+    std::vector<double> shares(power.size());
+    std::transform(power.begin(), power.end(), factors.begin(), shares.begin(), std::multiplies<>());
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& share : shares)
+        share /= sum;
+    return shares;
+}
+
+/// A floor, 60 units wide, that two spots and the sky light.
+std::shared_ptr<const Scene> spots_under_the_sky() {
+    SceneBuilder b;
+    b.quad({-30, 0, -30}, {0, 0, 60}, {60, 0, 0}, b.diffuse(Rgb(0.7f)));
+    for (const float x : {-2.0f, 2.0f})
+        b.point({{x, 5, 0}, Rgb(60), {0, -1, 0}, 25, 20});
+    b.environment({Rgb(0.1f)}, 1);
+    b.camera({0, 4, 8}, {0, 0, 0}, 45);
+    return b.build();
+}
+
+TEST(LightChoice, TheSkyDoesNotTakeAllSamplesFromTheSpots) {
+    const auto scene = spots_under_the_sky();
+    const std::vector<double> power = scene->lights().powers();
+    ASSERT_EQ(power.size(), 3u);
+    EXPECT_GT(power[2], 50 * (power[0] + power[1])) << "by power they would go under";
+    const std::vector<double> shares = shares_of(*scene);
+    EXPECT_GT(shares[0], 0.3);
+    EXPECT_GT(shares[1], 0.3);
+    EXPECT_GT(shares[2], 0.1) << "it may light what no path has seen";
+    EXPECT_EQ(learn_light_factors(*scene), learn_light_factors(*spots_under_the_sky()));
+}
+
+TEST(LightChoice, ALampThatNobodySeesGetsFewSamples) {
+    SceneBuilder b;
+    b.room({0, 0, 0, 0, b.diffuse(Rgb(0.5f))});
+    b.quad({-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0, b.light(Rgb(1)));
+    b.point({{0, 50, 0}, Rgb(1000)}); // above the ceiling
+    b.camera({0, 0, 3}, {0, 0, 0}, 40);
+    const std::vector<double> shares = shares_of(*b.build());
+    EXPECT_GT(shares[0], 0.8);
+    EXPECT_GT(shares[1], 0.1);
+}
+
+/// The mean of the table's estimates of the light at a point is the same for any factors.
+TEST(LightChoice, FactorsDoNotChangeTheMean) {
+    const auto scene = all_kinds();
+    const auto estimate = [&](const std::vector<double>& factors) {
+        const LightTable table(scene->description(), scene->radius(), factors);
+        double sum = 0;
+        constexpr int count = 400000;
+        for (int i = 0; i < count; ++i) {
+            LightPoint point;
+            if (!table.sample({0.2f, 0.1f, 0.3f}, Random(7, static_cast<std::uint32_t>(i), 0), 0, point))
+                continue;
+            if (const auto ray = point.seen_from({0.2f, 0.1f, 0.3f}); ray && ray->direction.y > 0)
+                sum += luminance(ray->radiance) * ray->direction.y / ray->pdf_w;
+        }
+        return sum / count;
+    };
+    const double by_power = estimate({}), learnt = estimate(learn_light_factors(*scene));
+    EXPECT_NEAR(learnt / by_power, 1, 0.02);
+    EXPECT_NEAR(estimate({3, 40, 0.2, 1, 5, 0.5}) / by_power, 1, 0.02);
 }
 
 TEST(LightTable, RaysThatMissAllLightsAreKnown) {

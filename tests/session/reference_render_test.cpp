@@ -176,6 +176,33 @@ TEST_F(References, AnotherCameraIsAnotherPicture) {
 }
 
 /// What a version of the program keeps may be of another size than what the next one keeps.
+/// The mesh is out of sight of all of its samples: only what was loaded tells.
+TEST_F(References, AMeshChangedOutOfSightIsAnotherScene) {
+    const auto room = [](float far) {
+        SceneBuilder builder;
+        builder.quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, builder.diffuse(Rgb(0.5f)));
+        builder.quad({-1, -1, far}, {2, 0, 0}, {0, 2, 0}, builder.diffuse(Rgb(0.5f)));
+        builder.camera({0, 0, 3}, {0, 0, 0}, 40);
+        return builder.build();
+    };
+    ReferenceRecipe short_recipe = recipe;
+    short_recipe.spp = 4;
+    const auto begin_with = [&](float far) {
+        const auto changed = room(far);
+        return std::make_unique<ReferenceRender>(
+            file("m.exr"), PictureSubject{{"scene.xml", {}, {}}, changed, changed->camera()}, short_recipe, pool);
+    };
+    int calls = 0;
+    EXPECT_FALSE(begin_with(50)->run([&](const ReferenceRender&) { return ++calls < 3; }));
+    EXPECT_EQ(begin_with(50)->spp_resumed(), 2);
+    try {
+        begin_with(51);
+        FAIL() << "goes on in another scene";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is of another scene (other geometry)"));
+    }
+}
+
 TEST_F(References, AnotherVersionsCheckpointIsRefused) {
     run_to("a.exr", 4);
     const fs::path checkpoint = reference_checkpoint(file("a.exr"));

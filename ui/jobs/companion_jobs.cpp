@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds between_news(100);
 
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
-    const ExrFile exr = read_exr(file, watch);
+    const ExrFile exr = read_exr(file, watch, {"", "half1", "half2"});
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < halves.size(); ++i)
         if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))

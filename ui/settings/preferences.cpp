@@ -31,17 +31,11 @@ std::optional<std::string> text_of(const fs::path& file) {
     std::error_code ignored;
     if (fs::symlink_status(file, ignored).type() == fs::file_type::not_found)
         return std::nullopt;
-    if (const fs::file_status target = fs::status(file, ignored);
-        fs::exists(target) && !fs::is_regular_file(target))
-        throw std::runtime_error("it is a folder, or a device");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw std::system_error(errno, std::generic_category());
-    return std::string(std::istreambuf_iterator<char>(stream), {});
+    return read_bytes(file);
 }
 
-Preferences parse(const std::string& text) {
-    const ordered_json json = ordered_json::parse(text);
+Preferences parse(const std::string& text, const std::string& name) {
+    const ordered_json json = JsonText(text, name).parse();
     Preferences p;
     const auto window = json.value("window", std::vector<int>{0, 0});
     if (window.size() == 2 && std::min(window[0], window[1]) >= 64 &&
@@ -71,7 +65,7 @@ Preferences read(const fs::path& file, std::string& note, Condition& condition) 
     try {
         const std::optional<std::string> text = text_of(file);
         condition = Condition::broken;
-        Preferences preferences = text ? parse(*text) : Preferences{};
+        Preferences preferences = text ? parse(*text, file.filename().string()) : Preferences{};
         condition = Condition::fine;
         return preferences;
     } catch (const std::exception& error) {

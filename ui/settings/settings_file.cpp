@@ -233,11 +233,7 @@ void apply_settings_json(ViewerState& state, const std::string& text, const std:
 }
 
 void apply_settings_file(ViewerState& state, const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream)
-        throw LoadError({file.string(), 0, 0}, "cannot be read");
-    apply_settings_json(state, text, file.string());
+    apply_settings_json(state, read_text(file), file.string());
 }
 
 namespace {

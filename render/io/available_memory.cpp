@@ -1,0 +1,102 @@
+#include "render/io/available_memory.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
+
+/// The first number of the line that begins with `name`, of a file of the system; `unknown` where there is none,
+/// or where it says "max".
+std::uint64_t number_in(const std::filesystem::path& file, std::string_view name = "") {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        if (!line.starts_with(name))
+            continue;
+        const std::size_t digits = line.find_first_of("0123456789", name.size());
+        return digits == line.npos ? unknown : std::strtoull(line.c_str() + digits, nullptr, 10);
+    }
+    return unknown;
+}
+
+std::uint64_t left_of(std::uint64_t limit, std::uint64_t used) {
+    if (limit == unknown || used == unknown)
+        return unknown;
+    return limit - std::min(limit, used);
+}
+
+std::uint64_t left_of_machine() {
+    const std::uint64_t kib = number_in("/proc/meminfo", "MemAvailable:");
+    return kib == unknown ? unknown : kib * 1024;
+}
+
+/// What the control group of this process and those around it leave it. Pages of files that it could give back do
+/// not count as used.
+std::uint64_t left_of_control_groups() {
+    std::uint64_t left = unknown;
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        const bool is_unified = line.starts_with("0::");
+        const std::size_t end = line.rfind(':');
+        if (!is_unified && line.find(":memory:") == line.npos)
+            continue;
+        const std::filesystem::path root = is_unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+        const char* const limit = is_unified ? "memory.max" : "memory.limit_in_bytes";
+        const char* const used = is_unified ? "memory.current" : "memory.usage_in_bytes";
+        for (std::filesystem::path group = line.substr(end + 1);; group = group.parent_path()) {
+            const std::filesystem::path folder = root / group.relative_path();
+            const std::uint64_t files =
+                number_in(folder / "memory.stat", is_unified ? "inactive_file" : "total_inactive_file");
+            const std::uint64_t taken = number_in(folder / used);
+            left = std::min(
+                left, left_of(number_in(folder / limit), taken - std::min(taken, files == unknown ? 0 : files)));
+            if (group == group.parent_path())
+                break;
+        }
+    }
+    return left;
+}
+
+std::uint64_t left_of_address_space() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return unknown;
+    const std::uint64_t pages = number_in("/proc/self/statm");
+    return left_of(limit.rlim_cur,
+                   pages == unknown ? unknown : pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
+}
+
+} // namespace
+
+std::uint64_t available_memory() {
+    return std::min({left_of_machine(), left_of_control_groups(), left_of_address_space()});
+}
+
+std::string memory_text(std::uint64_t bytes) {
+    constexpr double mib = 1 << 20, gib = 1 << 30;
+    const auto size = static_cast<double>(bytes);
+    return size < gib ? fmt::format("{:.0f} MiB", size / mib) : fmt::format("{:.1f} GiB", size / gib);
+}
+
+void ask_for_memory(std::uint64_t bytes, const std::string& what) {
+    if (bytes < (1 << 20))
+        return; // nobody runs out of that: and asking takes a while
+    const std::uint64_t available = available_memory();
+    if (bytes > available)
+        throw OutOfMemory(fmt::format("{} need {} of memory, and {} are free", what, memory_text(bytes),
+                                      memory_text(available)));
+}
+
+} // namespace tessera
