@@ -211,6 +211,10 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file) {
     }
 }
 
+bool is_exr(std::string_view bytes) {
+    return bytes.starts_with("\x76\x2f\x31\x01");
+}
+
 RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
     MemoryStream stream(bytes);
     Imf::MultiPartInputFile input(stream);
@@ -240,6 +244,7 @@ ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
 
 std::map<std::string, std::string> read_exr_attributes(const std::filesystem::path& path) {
     try {
+        open_file(path);
         return attributes_of(Imf::MultiPartInputFile(path.c_str()).header(0));
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot read " + path.string() + ": " + error.what());

@@ -44,6 +44,9 @@ using ReadWatch = std::function<bool(float share)>;
 ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {},
                  const std::vector<std::string>& wanted = {});
 
+/// Whether the bytes begin as an OpenEXR file does.
+bool is_exr(std::string_view bytes);
+
 /// Reads the plain layer of a file in memory, or the first where there is none, and nothing else. Throws as
 /// read_exr does, but names nothing.
 RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch);

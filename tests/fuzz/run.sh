@@ -44,7 +44,8 @@ corpus=$folder/corpus/$1
 mkdir -p "$corpus"
 set -- "$1" "$2" "$corpus" "$here/seeds/$1"
 [ "$1" != xml ] || set -- "$@" "$root/assets" "-dict=$here/xml.dict"
-[ "$1" != picture ] || set -- "$@" -max_len=2048 # of which a byte may stand for 16384 pixels
+# A byte of a picture may stand for 16384 pixels. OpenEXR takes up to 2 GiB, untouched, where an attribute says so.
+[ "$1" != picture ] || set -- "$@" -max_len=2048 -malloc_limit_mb=2048
 target=$1
 seconds=$2
 shift 2

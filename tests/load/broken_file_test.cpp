@@ -2,6 +2,7 @@
 
 #include "render/io/exr.h"
 #include "render/io/files.h"
+#include "render/io/memory.h"
 #include "render/io/plain_images.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/load/plugins.h"
@@ -66,10 +67,15 @@ std::string ply(const std::string& vertices, int vertex_count, const std::string
 /// The header of a PNG of that size, without any data.
 std::string png_header(std::uint32_t width, std::uint32_t height) {
     std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-    for (const std::uint32_t number : {width, height})
+    const auto append = [&](std::uint32_t number) {
         for (int shift = 24; shift >= 0; shift -= 8)
             header += static_cast<char>(number >> shift & 0xff);
-    return header + std::string("\x08\x02\0\0\0\0\0\0\0", 9) + std::string("\0\0\0\0IDAT\0\0\0\0", 12);
+    };
+    append(width);
+    append(height);
+    header += std::string("\x08\x02\0\0\0", 5);
+    append(checksum(std::as_bytes(std::span(header)).subspan(12))); // of the chunk's type and data
+    return header + std::string("\0\0\0\0IDAT\0\0\0\0", 12);
 }
 
 /// The header of an OpenEXR file with that data window.

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+/// Whether the bytes begin as a picture of that format does. TGA has no mark.
+bool is_png(std::string_view bytes);
+bool is_jpeg(std::string_view bytes);
+bool is_bmp(std::string_view bytes);
+
+/// A picture of three bytes a pixel, red, green and blue, rows from the top.
+struct ByteImage {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+// Pictures in memory, by libpng, libjpeg-turbo and stb_image. Grey is repeated, of 16 bits the upper 8 are taken,
+// transparency is dropped, and what the file says of gamma and colour spaces is not heeded: that is the scene's to
+// say. All throw std::runtime_error that says what is wrong, for sizes beyond check_image_size, OutOfMemory, and
+// once `wanted`, asked now and then, wants the picture no more.
+ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted);
+ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted);
+/// Both have runs of equal pixels or none.
+ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted);
+
+} // namespace tessera
