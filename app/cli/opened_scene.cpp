@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -60,9 +61,16 @@ std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
         groups[found->second].push_back(&note);
     }
     std::vector<std::string> lines;
-    for (const auto& group : groups)
-        lines.push_back(line_of(group));
+    for (const bool is_error : {true, false})
+        for (const auto& group : groups)
+            if (group.front()->is_error == is_error)
+                lines.push_back((is_error ? std::string(error_mark) : "") + line_of(group));
     return lines;
+}
+
+void print_notes(const std::vector<LoadNote>& notes) {
+    for (const std::string& line : group_notes(notes))
+        fmt::print(stderr, "{}{}\n", line.starts_with(error_mark) ? "" : "note: ", line);
 }
 
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
@@ -97,7 +105,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     LoadedScene loaded =
         source.file.empty()
             ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for, progress)
-            : load_mitsuba_xml(source.file, source.variables, parallel_for, progress);
+            : load_mitsuba_xml(source.file, source.variables, parallel_for, progress, source.strict);
     loaded.description.camera = camera.value_or(loaded.description.camera);
     OpenedScene opened;
     opened.notes = std::move(loaded.notes);
@@ -137,7 +145,7 @@ SceneLoader loader_of(const SceneSource& source, int threads) {
 }
 
 SceneOrigin origin_of(const SceneSource& source, int threads) {
-    return {to_string(source), {source.file, source.variables, {}}, loader_of(source, threads)};
+    return {to_string(source), {source.file, source.variables, {}, source.strict}, loader_of(source, threads)};
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -101,6 +101,7 @@ struct ReferenceWords {
     std::string scene, camera, norms;
     glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
+    bool strict = false;
     ReferenceOptions options; ///< all that is not above
 };
 

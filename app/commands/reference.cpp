@@ -28,6 +28,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
+    command.add_flag("--strict", words.strict,
+                     "a texture or mesh whose file is not there ends the load, instead of being left out");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
     command.get_option("--seed")->description("of the first half; the second has the next");
     add_method(command, recipe.settings.method);
@@ -43,7 +45,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
 
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words) {
     ReferenceOptions options = words.options;
-    options.scene = {words.scene, parse_variables(words.definitions), words.camera};
+    options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict};
     if (command.count("--max-depth"))
         options.max_depth = options.recipe.settings.max_depth;
     if (command.count("--size"))
@@ -66,8 +68,7 @@ int run_reference(const ReferenceOptions& options) {
     check_writable(options.output);
     ThreadPool pool(options.threads);
     const OpenedScene opened = open_scene(options.scene, pool);
-    for (const std::string& note : group_notes(opened.notes))
-        fmt::print(stderr, "note: {}\n", note);
+    print_notes(opened.notes);
     ReferenceRecipe recipe = options.recipe;
     recipe.size = options.size.value_or(opened.scene->size());
     recipe.settings.max_depth = options.max_depth.value_or(std::min(opened.scene->max_depth(), most_edges));

@@ -82,8 +82,7 @@ int run_render(const RenderOptions& options) {
         check_writable(options.stats);
     ThreadPool pool(options.threads);
     const OpenedScene opened = open_scene(options.scene, pool);
-    for (const std::string& note : group_notes(opened.notes))
-        fmt::print(stderr, "note: {}\n", note);
+    print_notes(opened.notes);
 
     const ResolvedRender wanted = resolve(options, *opened.scene);
     Render render(opened.scene, opened.scene->camera(), wanted.size, wanted.settings);

@@ -54,7 +54,7 @@ Experiment::Experiment(const ExperimentOptions& options)
     for (const Setup& setup : setups_)
         check(setup.settings.render);
     for (const std::filesystem::path& file : options.scenes)
-        scenes_.emplace_back(SceneSource{file, options.variables, {}}, setups_, options.references,
+        scenes_.emplace_back(SceneSource{file, options.variables, {}, true}, setups_, options.references,
                              options.recipe);
     check_names(scenes_);
     for (const MeasuredScene& scene : scenes_) {
@@ -82,8 +82,7 @@ void Experiment::run(const std::function<void()>& report) {
 void Experiment::run_scene(MeasuredScene& scene, const std::function<void()>& report) {
     ThreadPool& usual = pool(options_.settings.threads);
     const OpenedScene opened = open_scene(scene.source(), usual);
-    for (const std::string& note : group_notes(opened.notes))
-        fmt::print(stderr, "note: {}\n", note);
+    print_notes(opened.notes);
     if (!scene.make_references(opened.scene, usual))
         return;
     triangles_ = opened.scene->triangle_count();

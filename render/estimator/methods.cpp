@@ -14,9 +14,10 @@ namespace {
 /// takes [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
+    const glm::vec2 subpixel = pass.subpixel_at({area.x0, area.y0});
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, worker.path);
+            trace_pixel(pass, worker.tracer, x, y, subpixel, worker.path);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
@@ -25,7 +26,8 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 /// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
 /// generalized path reusing [Bauszat 2017, 3.1].
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    worker.base.trace(pass, worker.tracer, block.clipped(pass.size));
+    const PixelRect area = block.clipped(pass.size);
+    worker.base.trace(pass, worker.tracer, area, {area.x0, area.y0});
     for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
         share_light(pass, roulette_of(pass.settings), worker);
         for (int i = 0; i < worker.set.size(); ++i) {
@@ -40,7 +42,7 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
@@ -75,7 +77,7 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
 /// gradients are the differences of these shares: sum of (c_n - c_m) / R.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size));
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all) {
         share_light(pass, roulette_of(pass.settings), worker);
         add_tile(pass, inner, all, worker, film);

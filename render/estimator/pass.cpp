@@ -41,11 +41,26 @@ PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
 
 namespace {
 
+float fraction(double a) {
+    return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f);
+}
+
 /// The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
 glm::vec2 subpixel_of(std::uint64_t seed, int index) {
     const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(0, Draw::direction);
-    const auto in_unit = [](double a) { return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f); };
-    return {in_unit(start.x + index * 0.7548776662466927), in_unit(start.y + index * 0.5698402909980532)};
+    return {fraction(start.x + index * 0.7548776662466927), fraction(start.y + index * 0.5698402909980532)};
+}
+
+constexpr int usual_block_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
+
+/// Blocks are whole tiles. Methods that have none have nothing to do with that setting.
+int block_edge(const RenderSettings& settings) {
+    return reuses_paths(settings.method) ? settings.tile * std::max(1, usual_block_edge / settings.tile)
+                                         : usual_block_edge;
+}
+
+glm::ivec2 block_origin(const Pass& pass) {
+    return reuses_paths(pass.settings.method) ? pass.grid.origin : glm::ivec2(0);
 }
 
 Rgb light_along(const Ray& ray, const Tracer& tracer) {
@@ -60,44 +75,43 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       projection_(camera, size_), subpixel_(subpixel_of(settings_.seed, index_)) {}
 
+glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
+    // Of the four numbers of the R4 sequence, two for the column and two for the row.
+    const glm::dvec2 block = (pixel - block_origin(*this)) / block_edge(settings);
+    return {fraction(subpixel_.x + block.x * 0.8566748838545029 + block.y * 0.6287067210378087),
+            fraction(subpixel_.y + block.x * 0.7338918566271260 + block.y * 0.5385972572236101)};
+}
+
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     const int n = settings.very_direct_grid;
+    const glm::vec2 in_cell = subpixel_at({x, y});
     Rgb sum(0);
     for (int i = 0; i < n * n; ++i)
-        sum +=
-            light_along(camera_ray(x, y, (glm::vec2(i % n, i / n) + subpixel_) / static_cast<float>(n)), tracer);
+        sum += light_along(camera_ray(x, y, (glm::vec2(i % n, i / n) + in_cell) / static_cast<float>(n)), tracer);
     return sum / static_cast<float>(n * n);
 }
 
-void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect) {
+void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside) {
+    const glm::vec2 subpixel = pass.subpixel_at(inside);
     rect_ = rect;
     const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     if (paths_.size() < count)
         paths_.resize(count);
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x)
-            trace_pixel(pass, tracer, x, y, paths_[index(x, y)]);
+            trace_pixel(pass, tracer, x, y, subpixel, paths_[index(x, y)]);
 }
-
-namespace {
-
-int block_edge(int tile) {
-    constexpr int usual_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
-    return tile * std::max(1, usual_edge / tile);
-}
-
-} // namespace
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
-    const int edge = block_edge(settings.tile);
+    const int edge = block_edge(settings);
     const glm::ivec2 most =
         (size + settings.tile + edge - 1) / edge; // the first begin up to a tile before the image
     return static_cast<std::size_t>(most.x) * static_cast<std::size_t>(most.y);
 }
 
 std::vector<PixelRect> blocks_of(const Pass& pass) {
-    const int edge = block_edge(pass.settings.tile);
-    const glm::ivec2 origin = pass.grid.origin;
+    const int edge = block_edge(pass.settings);
+    const glm::ivec2 origin = block_origin(pass);
     std::vector<PixelRect> blocks;
     for (int y = origin.y; y < pass.size.y; y += edge)
         for (int x = origin.x; x < pass.size.x; x += edge)
@@ -106,8 +120,8 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     return blocks;
 }
 
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path) {
-    trace_base_path(tracer, pass.camera_ray(x, y), pass.pixel_angle(), pass.random(x, y), path);
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, glm::vec2 subpixel, BasePath& path) {
+    trace_base_path(tracer, pass.camera_ray(x, y, subpixel), pass.pixel_angle(), pass.random(x, y), path);
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, y, x});

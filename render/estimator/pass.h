@@ -58,14 +58,17 @@ public:
     const int index;
     const TileGrid grid;
 
-    /// The camera ray of a pixel. All pixels of a pass are sampled at the same position within the pixel, so that
-    /// the values of the box filter cancel in gradients [Bauszat 2017, 3.2]; the positions of the passes are a
-    /// low-discrepancy sequence.
-    Ray camera_ray(int x, int y) const { return camera_ray(x, y, subpixel_); }
-    /// The ray through another position within the pixel, in [0, 1]^2.
+    /// Where within their pixels, [0, 1)^2, all base paths begin whose light is shared within the block that a
+    /// pixel is in, those of the block's border among them: so the values of the box filter cancel in gradients
+    /// [Bauszat 2017, 3.2]. The positions of a block are a low-discrepancy sequence over the passes; each block's
+    /// is rotated by another vector, as an edge along which all pixels had the same few positions would be too
+    /// bright, or too dark, all along.
+    glm::vec2 subpixel_at(glm::ivec2 pixel) const;
+
+    /// The camera ray through a position within a pixel.
     Ray camera_ray(int x, int y, glm::vec2 subpixel) const { return projection_.ray(glm::vec2(x, y) + subpixel); }
 
-    /// Very direct light of a pixel by a grid of camera rays, each where camera_ray() is in its cell.
+    /// Very direct light of a pixel by a grid of camera rays, each where the pixel's base path is in its cell.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
     float pixel_angle() const { return projection_.pixel_angle(); }
@@ -83,7 +86,8 @@ private:
 /// The base paths of a rectangle of pixels.
 class BaseBlock {
 public:
-    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect);
+    /// For the light that pixels of the block of `inside` get, and no others.
+    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside);
     const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
 
 private:
@@ -122,9 +126,9 @@ std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings);
 /// cut off at the image's border, nowhere else.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
-/// Traces the path of one sample of this pass. One that is not finite is refused, counted, and left empty: it
-/// would spoil all pixels that share it.
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, BasePath& path);
+/// Traces the path of one sample of this pass, from that position in its pixel. One that is not finite is refused,
+/// counted, and left empty: it would spoil all pixels that share it.
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, glm::vec2 subpixel, BasePath& path);
 
 /// Very direct light of the block's pixels, along a ray through the middle of each.
 void show_very_direct(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& picture);

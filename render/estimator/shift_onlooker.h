@@ -14,9 +14,9 @@ struct OffsetStep {
     bool is_delta = false;
     float jacobian = 1; ///< what turns pdf_w over the base's into `ratio`'s growth: solid angle at the offset over
                         ///< solid angle at the base; where random numbers are replayed, the quotient of the pdfs
-    float ratio = 0; ///< so far: pdf of the offset, with all Jacobians, over that of the base; no unit
-    Rgb value{0};    ///< so far: f of the offset with all Jacobians over the base's pdf; at the end of a light
-                     ///< path with its light, radiance
+    float ratio = 0;    ///< so far: pdf of the offset, with all Jacobians, over that of the base; no unit
+    Rgb value{0};       ///< so far: f of the offset with all Jacobians over the base's pdf; at the end of a light
+                        ///< path with its light, radiance
 };
 
 /// Is told what shifts do, step by step: the path inspector's way in. Renders have none.

@@ -24,7 +24,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     InspectedSet result{worker.set.pixels, {}, {}, {}};
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
-    worker.base.trace(pass, worker.tracer, bounds(result.pixels));
+    worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0});
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
     share_light(pass, roulette_of(pass.settings), worker, onlooker);
     return result;
@@ -83,7 +83,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Worker worker(scene, settings);
     Inspection result{pixel, size, index, settings.method, {}, Rgb(0), Rgb(0), false, {}};
     // Not by trace_pixel(), which empties a path that is to be refused.
-    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y), pass.pixel_angle(),
+    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y, pass.subpixel_at(pixel)), pass.pixel_angle(),
                     pass.random(pixel.x, pixel.y), worker.path);
     result.path = inspect_path(worker.path);
     result.radiance = worker.path.radiance();
@@ -121,7 +121,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
         const Pass earlier(scene, camera, size, settings, plan, i); // no base path depends on the plan
         for (int y = seen.y0; y < seen.y1; ++y)
             for (int x = seen.x0; x < seen.x1; ++x) {
-                trace_pixel(earlier, worker.tracer, x, y, worker.path);
+                trace_pixel(earlier, worker.tracer, x, y, earlier.subpixel_at({x, y}), worker.path);
                 plan.learn(x, y, worker.reuse.shared_luminance(worker.path));
             }
     }

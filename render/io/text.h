@@ -24,6 +24,7 @@ struct FilePosition {
 struct LoadNote {
     FilePosition where;
     std::string text;
+    bool is_error = false; ///< something that the scene needs is missing: its picture is not what was meant
 };
 
 /// Loading failed. what() is complete: "file:line:column: what is wrong", then the line itself with a caret.

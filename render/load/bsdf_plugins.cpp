@@ -13,6 +13,7 @@ namespace {
 
 // A plugin adds its row here, its reader, and its alternative to Material::kind where it needs one.
 constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
+    {"null", read_null},
     {"diffuse", read_diffuse},
     {"roughdiffuse", read_rough_diffuse},
     {"conductor", read_conductor},

@@ -7,6 +7,7 @@ namespace tessera {
 
 // There is one reader for each plugin <bsdf type="...">. They name nothing: that is left to read_bsdf(). All throw
 // LoadError.
+Material read_null(LoadContext& context, Properties& p);
 Material read_diffuse(LoadContext& context, Properties& p);
 Material read_rough_diffuse(LoadContext& context, Properties& p);
 Material read_conductor(LoadContext& context, Properties& p);

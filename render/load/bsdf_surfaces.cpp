@@ -43,6 +43,12 @@ Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
 
 } // namespace
 
+/// Nothing at all: rays go through. (It stands around media, which are not rendered, and the note for these says
+/// so.)
+Material read_null(LoadContext&, Properties&) {
+    return {{}, DiffuseMaterial{Rgb(0)}, true, Texture(Rgb(0))};
+}
+
 Material read_diffuse(LoadContext& context, Properties& p) {
     DiffuseMaterial diffuse;
     diffuse.reflectance = reflectance_parameter(context, p, diffuse_name(p), Rgb(0.5f));

@@ -39,18 +39,18 @@ Rgb triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
-Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& samples) {
+Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& samples, SpectrumOf what) {
     for (std::size_t i = 1; i < samples.size(); ++i)
         if (!(samples[i].x > samples[i - 1].x))
             element.fail("the wavelengths of a spectrum must increase", "value");
-    const Rgb color = rgb_of_spectrum(samples);
+    const Rgb color = rgb_of_spectrum(samples, what);
     if (!(color.r + color.g + color.b <= std::numeric_limits<float>::max()))
         element.fail("the spectrum's numbers are too large", "value");
     return color;
 }
 
 /// "400:0.2, 500:0.3"
-Rgb color_of_list(const XmlElement& element, std::string text) {
+Rgb color_of_list(const XmlElement& element, std::string text, SpectrumOf what) {
     std::replace(text.begin(), text.end(), ':', ' ');
     const auto values = parse_numbers(text);
     if (!values || values->empty() || values->size() % 2 != 0)
@@ -58,7 +58,7 @@ Rgb color_of_list(const XmlElement& element, std::string text) {
     std::vector<glm::vec2> samples;
     for (std::size_t i = 0; i < values->size(); i += 2)
         samples.emplace_back((*values)[i], (*values)[i + 1]);
-    return color_of_samples(element, samples);
+    return color_of_samples(element, samples, what);
 }
 
 Rgb color_of_black_body(const XmlElement& element, float kelvin, float scale) {
@@ -83,7 +83,7 @@ Rgb black_body(const XmlElement& element) {
 }
 
 /// wavelengths="400, 500" (or lambda_min and lambda_max) and values="0.2, 0.3" of Mitsuba 3.
-Rgb color_of_arrays(Properties& p) {
+Rgb color_of_arrays(Properties& p, SpectrumOf what) {
     const auto values = parse_numbers(p.text("values", ""));
     auto wavelengths = parse_numbers(p.text("wavelengths", ""));
     if (p.type() == "regular" && values && wavelengths) {
@@ -98,11 +98,15 @@ Rgb color_of_arrays(Properties& p) {
     std::vector<glm::vec2> samples;
     for (std::size_t i = 0; i < values->size(); ++i)
         samples.emplace_back((*wavelengths)[i], (*values)[i]);
-    return color_of_samples(p.element(), samples);
+    return color_of_samples(p.element(), samples, what);
+}
+
+bool is_of_version_0(const XmlElement& element) {
+    return element.document().root().attribute("version").starts_with("0.");
 }
 
 /// The colour of a plugin <spectrum type="..."> of Mitsuba 3.
-Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes) {
+Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
     Properties p(element, notes);
     Rgb color = fallback;
     if (p.type() == "uniform") {
@@ -113,7 +117,7 @@ Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNot
         color = color_of_black_body(element, p.number("temperature", 5000), p.number("scale", 1));
         p.note("the spectrum is replaced by its linear sRGB colour");
     } else if (p.type() == "irregular" || p.type() == "regular") {
-        color = color_of_arrays(p);
+        color = color_of_arrays(p, what);
         p.note("the spectrum is replaced by its linear sRGB colour");
     } else {
         p.note("the spectrum '" + p.type() + "' is not known; a default is used instead");
@@ -131,12 +135,12 @@ bool is_color(const XmlElement& element) {
     return std::find(std::begin(tags), std::end(tags), element.tag()) != std::end(tags);
 }
 
-Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes) {
+Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
     if (!is_color(element))
         element.fail("'" + element.attribute("name") + "' must be a colour, not <" + std::string(element.tag()) +
                      ">");
     if (element.tag() == "spectrum" && element.has("type"))
-        return spectrum_plugin(element, fallback, notes);
+        return spectrum_plugin(element, fallback, notes, what);
     if (element.tag() == "spectrum" && !element.has("value") && element.has("filename")) {
         notes.push_back({element.position(), "spectra in files are not read; a default is used instead"});
         return fallback;
@@ -148,9 +152,12 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
     const std::string text = element.required("value");
     if (element.tag() == "spectrum" && text.find(':') != std::string::npos) {
         notes.push_back({element.position(), "the spectrum is replaced by its linear sRGB colour"});
-        return color_of_list(element, text);
+        return color_of_list(element, text, what);
     }
     const Rgb value = triple(element);
+    // One number is the same at all wavelengths. Mitsuba 0.6 takes it for grey all the same.
+    if (element.tag() == "spectrum" && what == SpectrumOf::emission && !is_of_version_0(element))
+        return value * rgb_of_spectrum({{360, 1}, {830, 1}}, what);
     return element.tag() == "srgb" ? srgb_to_linear(value) : value;
 }
 

@@ -142,7 +142,9 @@ void add_scene_emitter(LoadContext& context, const XmlElement& element) {
         plugin->read(context, properties);
         properties.report_unused();
     } else if (find_plugin(plugins_in_shapes, properties.type())) {
-        properties.note("the emitter '" + properties.type() + "' stands outside of a shape; it gives no light");
+        if (!element.has("id") || !context.referred.contains(element.attribute("id"))) // else it is a shape's
+            properties.note("the emitter '" + properties.type() +
+                            "' stands outside of a shape; it gives no light");
     } else {
         properties.note("the emitter '" + properties.type() + "' is not known; it gives no light");
     }

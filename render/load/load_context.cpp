@@ -1,5 +1,7 @@
 #include "render/load/load_context.h"
 
+#include <algorithm>
+#include <cctype>
 #include <exception>
 #include <optional>
 #include <system_error>
@@ -7,6 +9,46 @@
 namespace tessera {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// A path that is there and differs at most in the case of letters; empty: there is none.
+fs::path in_any_case(const fs::path& path) {
+    std::error_code error;
+    if (fs::exists(path, error))
+        return path;
+    fs::path found = path.is_absolute() ? path.root_path() : fs::path(".");
+    for (const fs::path& part : path.relative_path()) {
+        fs::path next = found / part;
+        if (!fs::exists(next, error)) {
+            next.clear();
+            for (const auto& entry : fs::directory_iterator(found, error))
+                if (lower_case(entry.path().filename().string()) == lower_case(part.string()))
+                    next = next.empty() ? entry.path() : std::min(next, entry.path());
+        }
+        if (next.empty())
+            return {};
+        found = next;
+    }
+    return found;
+}
+
+} // namespace
+
+bool FileSearch::has(const XmlElement& element, const char* attribute) const {
+    try {
+        find_existing(element, attribute);
+        return true;
+    } catch (const LoadError&) {
+        return false;
+    }
+}
 
 fs::path FileSearch::find_existing(const XmlElement& element, const char* attribute) const {
     const std::string name = element.required(attribute);
@@ -22,6 +64,9 @@ fs::path FileSearch::find_existing(const XmlElement& element, const char* attrib
     for (const fs::path& candidate : candidates)
         if (fs::exists(candidate, error))
             return candidate;
+    for (const fs::path& candidate : candidates)
+        if (fs::path found = in_any_case(candidate); !found.empty())
+            return found;
     element.fail("there is no file '" + candidates.front().string() + "'", attribute);
 }
 
@@ -99,11 +144,15 @@ std::vector<XmlElement> LoadContext::take_nested(Properties& properties, std::st
     return result;
 }
 
-LoadContext::File LoadContext::take_file(Properties& properties) const {
+std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, std::string_view instead) {
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
-    return {*parameter, files.find(*parameter, "value")};
+    if (strict || files.has(*parameter, "value"))
+        return File{*parameter, files.find(*parameter, "value")};
+    notes.push_back({parameter->position("value"),
+                     "there is no file '" + parameter->required("value") + "': " + std::string(instead), true});
+    return {};
 }
 
 NestingGuard::NestingGuard(LoadContext& context, const XmlElement& element) : context_(context) {

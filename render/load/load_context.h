@@ -11,6 +11,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,8 +28,11 @@ public:
     /// `scene` is where files are named; null: a scene in memory, which has no files.
     explicit FileSearch(const XmlDocument* scene = nullptr) : scene_(scene) {}
 
-    /// The path to the file that an element's attribute names. Throws LoadError when there is none.
+    /// The path to the file that an element's attribute names; where there is none of that name, to one that is
+    /// called so but for the case of letters, as on other systems. Throws LoadError when there is none.
     std::filesystem::path find(const XmlElement& element, const char* attribute) const;
+    /// Whether find() finds anything.
+    bool has(const XmlElement& element, const char* attribute) const;
 
     /// Adds the folder that a <path> names. Throws LoadError when there is none.
     void add_folder(const XmlElement& path);
@@ -69,9 +74,11 @@ struct LoadContext {
     FileJobs jobs;
 
     bool old_syntax = false; ///< Mitsuba 0.x: some defaults differ
+    bool strict = false;     ///< a file that is not there ends the load
     FileSearch files;
 
     std::map<std::string, XmlElement> ids;
+    std::set<std::string> referred;        ///< ids that some <ref> names
     std::map<const void*, int> materials;  ///< by XmlElement::key(), index into scene.materials
     std::map<const void*, Material> bsdfs; ///< by XmlElement::key(): what is referred to often is read once
     std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>> bitmaps; ///< by path and whether sRGB
@@ -87,12 +94,14 @@ struct LoadContext {
     /// The nested plugins with that tag, references to such included.
     std::vector<XmlElement> take_nested(Properties& properties, std::string_view tag) const;
 
-    /// The file that the parameter "filename" names, and the parameter. Throws LoadError when there is none.
+    /// The file that the parameter "filename" names, and the parameter. Empty: there is none of that name, and a
+    /// note says that `instead`, "grey stands for it". Throws LoadError where nothing is named, and where it is
+    /// strict.
     struct File {
         XmlElement parameter;
         std::filesystem::path path;
     };
-    File take_file(Properties& properties) const;
+    std::optional<File> take_file(Properties& properties, std::string_view instead);
 };
 
 /// One more level of nested plugins; throws LoadError at a depth that only a circle of references reaches.

@@ -26,6 +26,8 @@ private:
 void collect_ids(LoadContext& context, const XmlDocument& document) {
     const std::vector<XmlElement> elements = document.elements();
     for (const XmlElement& element : elements) {
+        if (element.tag() == "ref")
+            context.referred.insert(element.attribute("id"));
         if (!element.has("id") || element.tag() == "ref" || element.tag() == "alias")
             continue;
         const std::string id = element.attribute("id");
@@ -115,12 +117,14 @@ void note_encodings(const std::vector<const XmlDocument*>& documents, std::vecto
 }
 
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
-                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* told) {
+                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* told,
+                 bool strict) {
     const Stopwatch parsing;
     LoadProgress nobodys;
     LoadProgress& progress = told ? *told : nobodys;
     progress.begin(LoadProgress::Stage::xml);
     LoadContext context;
+    context.strict = strict;
     XmlDocument document(std::move(text), name, std::move(folder));
     context.files = FileSearch(&document);
     expand_scene(document, variables, context.files, context.notes);
@@ -146,13 +150,13 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
 } // namespace
 
 LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVariables& variables,
-                             const ParallelFor& parallel_for, LoadProgress* progress) {
-    return load(read_text(file), file.string(), file.parent_path(), variables, parallel_for, progress);
+                             const ParallelFor& parallel_for, LoadProgress* progress, bool strict) {
+    return load(read_text(file), file.string(), file.parent_path(), variables, parallel_for, progress, strict);
 }
 
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables,
                               const ParallelFor& parallel_for, LoadProgress* progress) {
-    return load(std::string(xml), name, {}, variables, parallel_for, progress);
+    return load(std::string(xml), name, {}, variables, parallel_for, progress, true);
 }
 
 } // namespace tessera

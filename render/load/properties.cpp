@@ -106,9 +106,13 @@ std::string Properties::text(std::string_view parameter, const std::string& fall
     return element->required("value");
 }
 
+SpectrumOf Properties::spectrum_of() const {
+    return element_.tag() == "emitter" ? SpectrumOf::emission : SpectrumOf::reflectance;
+}
+
 Rgb Properties::color(std::string_view parameter, Rgb fallback) {
     const auto element = take(parameter);
-    return element ? read_color(*element, fallback, *notes_) : fallback;
+    return element ? read_color(*element, fallback, *notes_, spectrum_of()) : fallback;
 }
 
 glm::mat4 Properties::transform(std::string_view parameter) {

@@ -18,6 +18,11 @@
 
 namespace tessera {
 
+/// What a spectrum is one of. That of a surface is seen in the light of D65, the white of sRGB: one that is the
+/// same at all wavelengths is grey. That of a light is its own colour, as in Mitsuba 3: equal energy at all
+/// wavelengths is a little reddish.
+enum class SpectrumOf { reflectance, emission };
+
 /// A plugin's element, such as <bsdf type="...">, with its parameters. Remembers which were asked for: the others
 /// end as notes, so that nothing in a file is passed over in silence.
 ///
@@ -39,6 +44,7 @@ public:
     bool boolean(std::string_view parameter, bool fallback);
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
+    SpectrumOf spectrum_of() const; ///< what spectra among the parameters are: those of an emitter are of light
     glm::mat4 transform(std::string_view parameter);
     /// The rotation in a transform; says so where there is more to it. Throws LoadError for a flat one.
     glm::mat3 rotation(std::string_view parameter);
@@ -80,7 +86,8 @@ bool is_color(const XmlElement& element);
 
 /// A colour's linear value. A spectrum given by wavelengths or as a plugin of Mitsuba 3 becomes its linear sRGB
 /// colour, one in a file the fallback, with a note. Throws LoadError for anything else.
-Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes);
+Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes,
+               SpectrumOf what = SpectrumOf::reflectance);
 
 /// The product of a <transform>'s steps (matrix, lookat, translate, rotate, scale); the first step is applied to a
 /// point first. Throws LoadError.
@@ -96,10 +103,9 @@ glm::mat3 read_uv_transform(const XmlElement& transform);
 /// A <point> or <vector>: value="x y z", or attributes x, y and z, 0 where one is left out. Throws LoadError.
 glm::vec3 read_point(const XmlElement& point);
 
-/// Linear sRGB of a spectrum given at increasing wavelengths (nm, value), linear between them and 0 beyond. White
-/// is the spectrum that is 1 everywhere, so that grey spectra become grey colours. Colours outside of the gamut
-/// are cut at 0. A single sample stands for a constant.
-Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples);
+/// Linear sRGB of a spectrum given at increasing wavelengths (nm, value), linear between them and 0 beyond.
+/// Colours outside of the gamut are cut at 0. A single sample stands for a constant.
+Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what);
 
 /// Linear sRGB of the radiance of a black body, W / (m^2 sr nm) weighted by the CIE's matching functions, as
 /// Mitsuba has it; kelvin > 0. White is D65.

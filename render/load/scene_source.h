@@ -16,6 +16,7 @@ struct SceneSource {
     std::filesystem::path file;        ///< empty: the Cornell box inside the program
     SceneVariables variables;          ///< -D name=value
     std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
+    bool strict = false;               ///< a file that is not there ends the load
 };
 
 /// The name to show for a scene: the path of its file, or that it is the built-in one.

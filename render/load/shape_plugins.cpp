@@ -3,6 +3,7 @@
 #include "render/sampling/sampling.h"
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -91,13 +92,15 @@ void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std:
 /// normals of faces in the placement.
 void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index,
                     bool flip_v, std::function<Mesh(const std::filesystem::path&, MeshPlacement&)> read) {
-    const LoadContext::File file = context.take_file(p);
+    const std::optional<LoadContext::File> file = context.take_file(p, "the shape is left out");
     MeshPlacement placement = placement_parameters(p);
     placement.face_normals = p.boolean("face_normals", false);
     flip_v = p.boolean("flip_tex_coords", flip_v);
+    if (!file)
+        return;
     // The vector may still grow, but not move: it belongs to the context.
-    context.jobs.add(file.parameter,
-                     [&shapes, index, path = file.path, read = std::move(read), placement, flip_v](const auto&) {
+    context.jobs.add(file->parameter,
+                     [&shapes, index, path = file->path, read = std::move(read), placement, flip_v](const auto&) {
                          MeshPlacement placed = placement;
                          Mesh mesh = read(path, placed);
                          if (flip_v)

@@ -37,6 +37,20 @@ glm::dvec3 rgb_of_xyz(glm::dvec3 xyz) {
     return columns * xyz;
 }
 
+// The CIE's standard illuminant D65, every 10 nm [ISO/CIE 11664-2].
+constexpr double d65[] = {46.6383, 52.0891, 49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008,
+                          117.812, 114.861, 115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046,
+                          100.000, 96.3342, 95.7880, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268,
+                          80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.3490, 61.6040, 69.8856, 75.0870, 63.5927,
+                          46.4182, 66.8054, 63.3828, 64.3040, 59.4519, 51.9590, 57.4406, 60.3125};
+static_assert(std::size(d65) == (last_nm - first_nm) / 10 + 1);
+
+double d65_at(int nm) {
+    const int i = std::min((nm - first_nm) / 10, static_cast<int>(std::size(d65)) - 2);
+    const double t = (nm - first_nm) / 10.0 - i;
+    return d65[i] + t * (d65[i + 1] - d65[i]);
+}
+
 /// The integral of a spectrum with the matching functions, over that of Y.
 template <class Spectrum>
 glm::dvec3 linear_rgb(const Spectrum& spectrum) {
@@ -64,11 +78,14 @@ double interpolate(const std::vector<glm::vec2>& samples, double nm) {
 
 } // namespace
 
-Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples) {
+Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what) {
     if (samples.size() < 2)
         return Rgb(samples.empty() ? 0.0f : samples[0].y);
-    static const glm::dvec3 white = linear_rgb([](double) { return 1.0; });
-    const glm::dvec3 rgb = linear_rgb([&](double nm) { return interpolate(samples, nm); }) / white;
+    if (what == SpectrumOf::emission)
+        return glm::max(Rgb(linear_rgb([&](double nm) { return interpolate(samples, nm); })), Rgb(0));
+    const auto lit = [](double nm, double value) { return value * d65_at(static_cast<int>(nm)); };
+    static const glm::dvec3 white = linear_rgb([&](double nm) { return lit(nm, 1); });
+    const glm::dvec3 rgb = linear_rgb([&](double nm) { return lit(nm, interpolate(samples, nm)); }) / white;
     return glm::max(Rgb(rgb), Rgb(0));
 }
 

@@ -131,12 +131,14 @@ constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
 } // namespace
 
 std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& p, bool srgb) {
-    const LoadContext::File file = context.take_file(p);
-    auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb}];
+    const std::optional<LoadContext::File> file = context.take_file(p, "grey stands for it");
+    if (!file)
+        return std::make_shared<const Bitmap>(Bitmap{1, 1, false, {}, {Rgb(0.5f)}});
+    auto& shared = context.bitmaps[{file->path.lexically_normal().string(), srgb}];
     if (!shared) {
         shared = std::make_shared<Bitmap>();
-        context.jobs.add(file.parameter,
-                         [target = shared, path = file.path, srgb](const std::function<bool()>& wanted) {
+        context.jobs.add(file->parameter,
+                         [target = shared, path = file->path, srgb](const std::function<bool()>& wanted) {
                              *target = read_bitmap(path, srgb, wanted);
                              return std::string();
                          });
@@ -164,7 +166,7 @@ Texture texture_parameter(LoadContext& context, Properties& properties, std::str
     const XmlElement target = context.resolve(*parameter);
     if (target.tag() == "texture")
         return read_texture(context, target);
-    return read_color(target, fallback, context.notes);
+    return read_color(target, fallback, context.notes, properties.spectrum_of());
 }
 
 Texture reflectance_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback) {

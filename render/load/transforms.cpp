@@ -68,9 +68,10 @@ glm::mat4 look_at(const XmlElement& element) {
     glm::vec3 up = element.has("up") ? triple(element, "up") : glm::vec3(0);
     if (up == glm::vec3(0)) // any that is not the direction itself
         up = std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 left = glm::cross(up, forward);
-    if (glm::length(left) < 1e-6f * glm::length(up))
-        element.fail("a lookat's up must not be its direction", "up");
+    glm::vec3 left = glm::cross(glm::normalize(up), forward);
+    if (!(glm::length(left) > 1e-6f)) // a camera that looks straight down, with the usual up
+        left = std::abs(forward.y) < 0.9f ? glm::cross(glm::vec3(0, 1, 0), forward)
+                                          : glm::cross(glm::vec3(0, 0, 1), forward);
     glm::mat4 m(1.0f);
     m[0] = glm::vec4(glm::normalize(left), 0);
     m[1] = glm::vec4(glm::cross(forward, glm::normalize(left)), 0);

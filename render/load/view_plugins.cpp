@@ -107,7 +107,8 @@ void read_sensor(LoadContext& context, const XmlElement& element) {
     for (const XmlElement& film : context.take_nested(p, "film"))
         read_film(context, film);
     context.take_nested(p, "sampler"); // how many samples there are is the viewer's choice
-    p.ignore({"near_clip", "far_clip"});
+    if (p.number("near_clip", 0.01f) > 0.1f || p.number("far_clip", 1e4f) < 1000)
+        p.note("'near_clip' and 'far_clip' are not used: all that lies before the camera is seen");
     if (p.type() == "thinlens")
         p.ignore({"aperture_radius", "focus_distance"}); // what the note says
     else

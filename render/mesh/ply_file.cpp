@@ -76,6 +76,9 @@ Slot slot_of(const PlyProperty& property) {
         {"r", red},
         {"g", green},
         {"b", blue},
+        {"color_0", red}, // as Mitsuba 3 writes them
+        {"color_1", green},
+        {"color_2", blue},
         {"diffuse_red", red},
         {"diffuse_green", green},
         {"diffuse_blue", blue},

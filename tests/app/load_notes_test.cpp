@@ -25,6 +25,11 @@ TEST(LoadNotes, ManyPlacesAreCounted) {
     EXPECT_EQ(group_notes(notes), Lines{"s.xml:1:2: odd (also at 2:2, 3:2, 4:2 and 96 more places)"});
 }
 
+TEST(LoadNotes, ErrorsComeFirst) {
+    EXPECT_EQ(group_notes({{{"s.xml", 3, 5}, "odd"}, {{"s.xml", 4, 1}, "missing", true}}),
+              (Lines{"error: s.xml:4:1: missing", "s.xml:3:5: odd"}));
+}
+
 TEST(LoadNotes, OtherFilesAreNamed) {
     EXPECT_EQ(group_notes({{{"s.xml", 3, 5}, "odd"}, {{"t.xml", 9, 2}, "odd"}, {{"s.xml", 0, 0}, "odd"}}),
               Lines{"s.xml:3:5: odd (also at t.xml:9:2, s.xml)"});

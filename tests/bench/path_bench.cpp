@@ -84,7 +84,8 @@ void base_paths(benchmark::State& state, const Scene& scene) {
     Stage stage(scene, settings_of(), 24);
     for (auto _ : state)
         for (PixelRect block : stage.blocks)
-            stage.worker.base.trace(stage.pass, stage.worker.tracer, block.clipped(image_size));
+            stage.worker.base.trace(stage.pass, stage.worker.tracer, block.clipped(image_size),
+                                    {std::max(block.x0, 0), std::max(block.y0, 0)});
     report(state, "paths", static_cast<double>(stage.worker.counters.camera_paths));
     report(state, "rays", static_cast<double>(stage.worker.counters.all_rays()));
 }
@@ -102,8 +103,8 @@ Rays rays_of(const Scene& scene) {
     Rays rays;
     BasePath path;
     const auto add_pixel = [&](int x, int y) {
-        rays.camera.push_back(stage.pass.camera_ray(x, y));
-        trace_pixel(stage.pass, tracer, x, y, path);
+        rays.camera.push_back(stage.pass.camera_ray(x, y, stage.pass.subpixel_at({x, y})));
+        trace_pixel(stage.pass, tracer, x, y, stage.pass.subpixel_at({x, y}), path);
         for (int i = 0; i < path.size(); ++i) {
             const BaseVertex& v = path[i];
             LightSample drawn;
@@ -156,7 +157,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
         tile.x1 = tile.x0 + stage.settings.tile;
         tile.y1 = tile.y0 + stage.settings.tile;
         const PixelRect pixels = stage.traced(tile);
-        tiles[i].trace(stage.pass, worker.tracer, pixels);
+        tiles[i].trace(stage.pass, worker.tracer, pixels, {pixels.x0, pixels.y0});
         sets[i].assign(pixels);
         sets[i].collect(tiles[i]);
     }
@@ -177,7 +178,8 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
     Worker& worker = stage.worker;
     std::vector<BaseBlock> base(stage.blocks.size());
     for (std::size_t i = 0; i < base.size(); ++i)
-        base[i].trace(stage.pass, worker.tracer, stage.traced(stage.blocks[i]));
+        base[i].trace(stage.pass, worker.tracer, stage.traced(stage.blocks[i]),
+                      {std::max(stage.blocks[i].x0, 0), std::max(stage.blocks[i].y0, 0)});
     worker.counters = {};
     for (auto _ : state)
         for (std::size_t i = 0; i < base.size(); ++i) {

@@ -64,6 +64,15 @@ TEST(Colors, SpectraBecomeColors) {
               "the spectrum is replaced by its linear sRGB colour\n");
 }
 
+/// As Mitsuba 3.9 has them in its RGB mode, but for its matching functions, which are tables.
+TEST(Colors, SpectraAreWeighedAsInMitsuba) {
+    const std::string list = "400:0.1, 500:0.5, 600:0.9, 700:0.3";
+    expect_near(color("<spectrum name='reflectance' value='" + list + "'/>"), {0.8548f, 0.6875f, 0.2650f}, 0.01f);
+    expect_near(radiance("<spectrum name='radiance' value='" + list + "'/>"), {0.9992f, 0.6597f, 0.2294f}, 0.01f);
+    expect_near(radiance("<spectrum name='radiance' value='0.5'/>"), {0.6024f, 0.4741f, 0.4545f}, 0.005f);
+    EXPECT_EQ(color("<spectrum name='reflectance' value='0.5'/>"), Rgb(0.5f));
+}
+
 TEST(Colors, SpectrumPlugins) {
     EXPECT_EQ(color("<spectrum name='reflectance' type='uniform'><float name='value' value='0.25'/></spectrum>"),
               Rgb(0.25f));

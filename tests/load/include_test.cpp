@@ -25,7 +25,7 @@ protected:
 
     /// Writes a.xml and loads it.
     LoadedScene load(const std::string& body, const SceneVariables& variables = {}) const {
-        return load_mitsuba_xml(folder.write("a.xml", scene_with(body)), variables);
+        return load_mitsuba_xml(folder.write("a.xml", scene_with(body)), variables, serial_for, nullptr, true);
     }
 
     std::string error_of(const std::string& body) const {

@@ -9,11 +9,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
 
 class Scene;
+
+/// What a note begins with that tells of something missing.
+inline constexpr std::string_view error_mark = "error: ";
 
 /// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
 /// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose

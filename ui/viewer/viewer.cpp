@@ -82,8 +82,8 @@ void Viewer::take_scene() {
     if (result->scene)
         state_.drop_messages(Origin::scene);
     for (std::string& note : result->notes)
-        state_.add_message(Message::Kind::note, std::move(note),
-                           result->scene ? Origin::scene : Origin::failed_load);
+        state_.add_message(note.starts_with(error_mark) ? Message::Kind::error : Message::Kind::note,
+                           std::move(note), result->scene ? Origin::scene : Origin::failed_load);
     if (result->scene)
         show_scene(std::move(result->scene), result->origin);
     else
