@@ -101,10 +101,6 @@ Rgb color_of_arrays(Properties& p, SpectrumOf what) {
     return color_of_samples(p.element(), samples, what);
 }
 
-bool is_of_version_0(const XmlElement& element) {
-    return element.document().root().attribute("version").starts_with("0.");
-}
-
 /// The colour of a plugin <spectrum type="..."> of Mitsuba 3.
 Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
     Properties p(element, notes);

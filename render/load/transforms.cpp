@@ -1,5 +1,6 @@
 #include "render/load/properties.h"
 
+#include <glm/matrix.hpp>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -85,7 +86,14 @@ glm::mat4 rotation(const XmlElement& element, bool planar) {
     const glm::vec3 axis = planar && !has_axis ? glm::vec3(0, 0, 1) : components(element, 0, false);
     if (glm::length(axis) == 0)
         element.fail("a rotation needs an axis");
-    return glm::rotate(glm::mat4(1.0f), glm::radians(element.number("angle")), glm::normalize(axis));
+    const float angle = glm::radians(element.number("angle"));
+    if (is_of_version_0(element) || std::abs(glm::length(axis) - 1) < 1e-6f)
+        return glm::rotate(glm::mat4(1.0f), angle, glm::normalize(axis));
+    // Mitsuba 3 takes the axis as it is: one that is not of unit length stretches what it turns, by Rodrigues'
+    // formula.
+    const float c = std::cos(angle), s = std::sin(angle);
+    const glm::mat3 cross(0, axis.z, -axis.y, -axis.z, 0, axis.x, axis.y, -axis.x, 0);
+    return glm::mat4(c * glm::mat3(1.0f) + s * cross + (1 - c) * glm::outerProduct(axis, axis));
 }
 
 glm::mat4 step(const XmlElement& element, bool planar) {

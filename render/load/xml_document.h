@@ -96,4 +96,9 @@ private:
     pugi::xml_node node_;
 };
 
+/// Whether the document that the element stands in says that it is of Mitsuba 0.x.
+inline bool is_of_version_0(const XmlElement& element) {
+    return element.document().root().attribute("version").starts_with("0.");
+}
+
 } // namespace tessera

@@ -88,7 +88,7 @@ TEST(MitsubaXml, StepsOfATransformApplyInOrder) {
     expect_near(corner_under("<scale value='2'/>"), {-2, -2, 0});
     expect_near(corner_under("<scale value='2 3 4'/><translate value='1, 1, 1'/>"), {-1, -2, 1});
     expect_near(corner_under("<rotate z='1' angle='90'/><translate x='1'/>"), {2, -1, 0});
-    expect_near(corner_under("<rotate value='0 0 2' angle='90'/>"), {1, -1, 0});
+    expect_near(corner_under("<rotate value='0 0 2' angle='90'/>"), {2, -2, 0}); // as in Mitsuba 3
     expect_near(corner_under("<matrix value='1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1'/>"), {4, 5, 7});
     expect_near(corner_under("<matrix value='1 0 0 0 1 0 0 0 1'/><scale x='3'/>"), {-3, -1, 0});
     // lookat: +z of the shape goes toward the target, +x to the left.
@@ -319,6 +319,18 @@ TEST(MitsubaXml, FilesAreFoundInAnyCase) {
     std::filesystem::remove(folder.path() / "None.Png");
     std::filesystem::remove(folder.path() / "none.PNG");
     EXPECT_EQ(load_mitsuba_xml(file).description.shapes.at(0).mesh.triangles.size(), 1u);
+}
+
+/// The numbers are Mitsuba 3.9's.
+TEST(MitsubaXml, AnAxisThatIsNotOfUnitLengthStretchesInVersion3) {
+    const std::string steps = "<translate x='3' y='4' z='5'/><rotate y='2' angle='30'/>"; // of (-1, -1, 0)
+    const glm::vec3 stretched = corner_under(steps);
+    EXPECT_NEAR(stretched.x, 0.866025f * 2 + 5, 1e-4f);
+    EXPECT_NEAR(stretched.y, 1.40192f * 3, 1e-4f);
+    EXPECT_NEAR(stretched.z, -2 + 0.866025f * 5, 1e-4f);
+    const auto old =
+        parse("<shape type='rectangle'><transform name='toWorld'>" + steps + "</transform></shape>", "0.6.0");
+    EXPECT_NEAR(old.description.shapes.at(0).mesh.positions.at(0).y, 3, 1e-4f);
 }
 
 TEST(MitsubaXml, ACameraMayLookAlongItsUp) {
