@@ -51,7 +51,7 @@ constexpr int per_cent = 100; // steps of the BVH's progress
 
 } // namespace
 
-std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
+SceneNotes group_notes(const std::vector<LoadNote>& notes) {
     std::map<std::string_view, std::size_t> group_of;
     std::vector<std::vector<const LoadNote*>> groups;
     for (const LoadNote& note : notes) {
@@ -60,24 +60,23 @@ std::vector<std::string> group_notes(const std::vector<LoadNote>& notes) {
             groups.emplace_back();
         groups[found->second].push_back(&note);
     }
-    std::vector<std::string> lines;
+    SceneNotes lines;
     for (const bool is_error : {true, false})
         for (const auto& group : groups)
             if (group.front()->is_error == is_error)
-                lines.push_back((is_error ? std::string(error_mark) : "") + line_of(group));
+                lines.push_back({line_of(group), is_error});
     return lines;
 }
 
 void print_notes(const std::vector<LoadNote>& notes) {
-    for (const std::string& line : group_notes(notes))
-        fmt::print(stderr, "{}{}\n", line.starts_with(error_mark) ? "" : "note: ", line);
+    for (const SceneNote& note : group_notes(notes))
+        fmt::print(stderr, "{}: {}\n", note.is_error ? "error" : "note", note.text);
 }
 
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
     const auto is_same = [](const NamedFile& a, const NamedFile& b) {
         std::error_code none;
-        if (a.file.empty() || b.file.empty() ||
-            (std::filesystem::exists(a.file, none) && !std::filesystem::is_regular_file(a.file, none)))
+        if (a.file.empty() || b.file.empty() || is_special(a.file))
             return false;
         return std::filesystem::weakly_canonical(a.file, none) == std::filesystem::weakly_canonical(b.file, none);
     };
@@ -135,7 +134,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
 }
 
 SceneLoader loader_of(const SceneSource& source, int threads) {
-    return [source, threads](std::vector<std::string>& notes, LoadProgress& progress) {
+    return [source, threads](SceneNotes& notes, LoadProgress& progress) {
         work_in_background(); // and so will the threads that it starts, which take its priority
         ThreadPool pool(threads);
         const OpenedScene opened = open_scene(source, pool, &progress);

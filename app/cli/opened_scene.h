@@ -14,10 +14,10 @@
 namespace tessera {
 
 /// A line for each text: "file:line:column: text", with the places of further notes of the same text behind it, of
-/// which some are named and the others counted. Errors first, which begin with error_mark; otherwise in order of
-/// the first places.
-std::vector<std::string> group_notes(const std::vector<LoadNote>& notes);
-/// Writes them to stderr.
+/// which some are named and the others counted. Errors first, otherwise in order of the first
+/// places.
+SceneNotes group_notes(const std::vector<LoadNote>& notes);
+/// Writes them to stderr, as errors and notes.
 void print_notes(const std::vector<LoadNote>& notes);
 
 /// A scene ready to render and how it came to be so.

@@ -88,6 +88,17 @@ std::filesystem::path free_temporary_name(const std::string& extension) {
             return path;
 }
 
+/// Keeps a picture that cannot be written where it was to be, and says where; nothing if there is no place either.
+std::string keep_aside(const std::string& extension, const ExrFile& file) {
+    try {
+        const std::filesystem::path kept = free_temporary_name(extension);
+        write_as(kept, extension, file);
+        return fmt::format("; the picture is kept as {}", kept.string());
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+
 } // namespace
 
 void write_picture(const std::filesystem::path& output, const ExrFile& file) {
@@ -95,14 +106,7 @@ void write_picture(const std::filesystem::path& output, const ExrFile& file) {
     try {
         write_as(output, extension, file);
     } catch (const std::exception& error) {
-        std::filesystem::path kept;
-        try {
-            kept = free_temporary_name(extension);
-            write_as(kept, extension, file);
-        } catch (const std::exception&) { // there is no place for it at all
-            throw std::runtime_error(error.what());
-        }
-        throw std::runtime_error(fmt::format("{}; the picture is kept as {}", error.what(), kept.string()));
+        throw std::runtime_error(error.what() + keep_aside(extension, file));
     }
 }
 

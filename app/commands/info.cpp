@@ -164,10 +164,10 @@ int run_info(const SceneSource& source) {
     print_scene(*opened.scene, textures);
     print_cost(opened, textures);
     print_traits(traits_of(opened.scene->description()));
-    const std::vector<std::string> notes = group_notes(opened.notes);
+    const SceneNotes notes = group_notes(opened.notes);
     fmt::print("{}\n", notes.empty() ? "nothing was ignored or replaced" : "ignored, replaced or approximated:");
-    for (const std::string& note : notes)
-        fmt::print("  {}\n", note);
+    for (const SceneNote& note : notes)
+        fmt::print("  {}{}\n", note.is_error ? "error: " : "", note.text);
     return exit_ok;
 }
 

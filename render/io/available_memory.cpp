@@ -60,8 +60,9 @@ std::uint64_t left_of_control_groups() {
             const std::uint64_t files =
                 number_in(folder / "memory.stat", is_unified ? "inactive_file" : "total_inactive_file");
             const std::uint64_t taken = number_in(folder / used);
+            const bool knows_files = taken != unknown && files != unknown;
             left = std::min(
-                left, left_of(number_in(folder / limit), taken - std::min(taken, files == unknown ? 0 : files)));
+                left, left_of(number_in(folder / limit), knows_files ? taken - std::min(taken, files) : taken));
             if (group == group.parent_path())
                 break;
         }
@@ -78,17 +79,19 @@ std::uint64_t left_of_address_space() {
                    pages == unknown ? unknown : pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
 }
 
-} // namespace
-
+/// Bytes that this process can still take; `unknown` where the system does not say.
 std::uint64_t available_memory() {
     return std::min({left_of_machine(), left_of_control_groups(), left_of_address_space()});
 }
 
+/// "1.5 GiB", "20 MiB", for people.
 std::string memory_text(std::uint64_t bytes) {
     constexpr double mib = 1 << 20, gib = 1 << 30;
     const auto size = static_cast<double>(bytes);
     return size < gib ? fmt::format("{:.0f} MiB", size / mib) : fmt::format("{:.1f} GiB", size / gib);
 }
+
+} // namespace
 
 void ask_for_memory(std::uint64_t bytes, const std::string& what) {
     if (bytes < (1 << 20))

@@ -1,9 +1,9 @@
 #include "render/io/files.h"
 
 #include "render/io/memory.h"
+#include "render/io/text.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cctype>
 #include <cerrno>
@@ -31,10 +31,7 @@ constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
 } // namespace
 
 std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return lower_case(file.extension().string());
 }
 
 namespace {
@@ -58,12 +55,18 @@ void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t fi
         throw std::runtime_error("the file is too short for " + size_text(width, height));
 }
 
+bool is_special(const std::filesystem::path& path) {
+    std::error_code none;
+    const std::filesystem::file_status status = std::filesystem::status(path, none);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
+}
+
 std::ifstream open_file(const std::filesystem::path& file) {
     std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-    if (std::filesystem::is_directory(status)) // opens as a file does, and is then of endless size
+    if (std::filesystem::is_directory(file, ignored)) // opens as a file does, and is then of endless size
         throw std::runtime_error("this is a folder, not a file");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    if (is_special(file))
         throw std::runtime_error("this is a device or a pipe, not a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
@@ -137,42 +140,14 @@ std::filesystem::path end_of_links(const std::filesystem::path& path) {
     return end;
 }
 
-/// Whether there is something at the path that no file may take the place of.
-bool is_special(const std::filesystem::path& path) {
-    std::error_code none;
-    const std::filesystem::file_status status = std::filesystem::status(path, none);
-    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-           !std::filesystem::is_directory(status);
-}
-
 /// Writes what a file holds into something that is there already.
 void pour(const std::filesystem::path& from, const std::filesystem::path& into) {
-    const auto fail = [&] {
+    std::ofstream out(into, std::ios::binary | std::ios::app);
+    if (std::filesystem::file_size(from) > 0) // of nothing, << takes it for a failure
+        out << std::ifstream(from, std::ios::binary).rdbuf();
+    out.close();
+    if (!out)
         throw std::filesystem::filesystem_error("cannot be written", into, {errno, std::generic_category()});
-    };
-    const int target = ::open(into.c_str(), O_WRONLY | O_CLOEXEC);
-    if (target < 0)
-        fail();
-    std::ifstream in(from, std::ios::binary);
-    std::array<char, 1 << 16> bytes;
-    for (bool is_broken = false; !is_broken && in;) {
-        in.read(bytes.data(), bytes.size());
-        const auto count = in.gcount();
-        for (std::streamsize done = 0; done < count && !is_broken;) {
-            const ssize_t written = ::write(target, bytes.data() + done, static_cast<std::size_t>(count - done));
-            if (written >= 0)
-                done += written;
-            else if (errno != EINTR)
-                is_broken = true;
-        }
-        if (is_broken) {
-            const int error = errno;
-            ::close(target);
-            errno = error;
-            fail();
-        }
-    }
-    ::close(target);
 }
 
 void remove_leftovers(const std::filesystem::path& final_path) {

@@ -8,6 +8,9 @@
 
 namespace tessera {
 
+/// Whether there is a device, a pipe or the like at the path (or where its link leads): neither file nor folder.
+bool is_special(const std::filesystem::path& path);
+
 /// A file to be read from its beginning; throws std::runtime_error that says why, also for what is no regular
 /// file: a device or a pipe may be of endless size, or keep who reads it waiting for ever.
 std::ifstream open_file(const std::filesystem::path& file);

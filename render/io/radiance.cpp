@@ -1,7 +1,6 @@
-#include "render/io/radiance.h"
-
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
+#include "render/io/picture_formats.h"
 
 #include <array>
 #include <cmath>

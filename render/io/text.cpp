@@ -3,6 +3,7 @@
 #include "render/io/files.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -112,6 +113,13 @@ std::string read_text(const std::filesystem::path& file) {
     } catch (const std::runtime_error& error) {
         throw LoadError({file.string(), 0, 0}, error.what());
     }
+}
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return result;
 }
 
 Utf8Text to_utf8(std::string bytes) {

@@ -44,6 +44,9 @@ struct Utf8Text {
 };
 Utf8Text to_utf8(std::string bytes);
 
+/// The text with small letters for large ones, of ASCII.
+std::string lower_case(std::string_view text);
+
 /// The whole text as a finite number, whatever the locale; spaces around it are allowed. Empty: it is none.
 std::optional<double> parse_number(std::string_view text);
 

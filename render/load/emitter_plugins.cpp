@@ -28,7 +28,7 @@ Rgb checked_light(Properties& p, std::string_view name, Rgb color) {
 
 /// A quantity of light, such as intensity.
 Rgb light_parameter(Properties& p, std::string_view name) {
-    p.ignore({"sampling_weight"}); // lights are chosen by their power
+    p.ignore({"sampling_weight"}); // how often they are chosen is learnt
     return checked_light(p, name, p.color(name, Rgb(1)));
 }
 

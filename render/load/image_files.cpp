@@ -1,7 +1,6 @@
-#include "render/io/byte_images.h"
 #include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/radiance.h"
+#include "render/io/picture_formats.h"
 #include "render/load/plugins.h"
 
 #include <algorithm>

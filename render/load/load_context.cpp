@@ -1,5 +1,7 @@
 #include "render/load/load_context.h"
 
+#include "render/io/text.h"
+
 #include <algorithm>
 #include <cctype>
 #include <exception>
@@ -11,12 +13,6 @@ namespace tessera {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// A path that is there and differs at most in the case of letters; empty: there is none.
 fs::path in_any_case(const fs::path& path) {
@@ -41,16 +37,7 @@ fs::path in_any_case(const fs::path& path) {
 
 } // namespace
 
-bool FileSearch::has(const XmlElement& element, const char* attribute) const {
-    try {
-        find_existing(element, attribute);
-        return true;
-    } catch (const LoadError&) {
-        return false;
-    }
-}
-
-fs::path FileSearch::find_existing(const XmlElement& element, const char* attribute) const {
+std::vector<fs::path> FileSearch::candidates_for(const XmlElement& element, const char* attribute) const {
     const std::string name = element.required(attribute);
     if (!scene_ || !scene_->folder() || !element.document().folder())
         element.fail("a scene in memory has no files beside it, such as '" + name + "'", attribute);
@@ -60,6 +47,11 @@ fs::path FileSearch::find_existing(const XmlElement& element, const char* attrib
     for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
         candidates.push_back(*folder / name);
     candidates.push_back(*scene_->folder() / name);
+    return candidates;
+}
+
+std::optional<fs::path> FileSearch::find_if_there(const XmlElement& element, const char* attribute) const {
+    const std::vector<fs::path> candidates = candidates_for(element, attribute);
     std::error_code error;
     for (const fs::path& candidate : candidates)
         if (fs::exists(candidate, error))
@@ -67,7 +59,13 @@ fs::path FileSearch::find_existing(const XmlElement& element, const char* attrib
     for (const fs::path& candidate : candidates)
         if (fs::path found = in_any_case(candidate); !found.empty())
             return found;
-    element.fail("there is no file '" + candidates.front().string() + "'", attribute);
+    return {};
+}
+
+fs::path FileSearch::find_existing(const XmlElement& element, const char* attribute) const {
+    if (const std::optional<fs::path> found = find_if_there(element, attribute))
+        return *found;
+    element.fail("there is no file '" + candidates_for(element, attribute).front().string() + "'", attribute);
 }
 
 fs::path FileSearch::find(const XmlElement& element, const char* attribute) const {
@@ -148,7 +146,7 @@ std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, 
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
-    if (strict || files.has(*parameter, "value"))
+    if (strict || files.find_if_there(*parameter, "value"))
         return File{*parameter, files.find(*parameter, "value")};
     notes.push_back({parameter->position("value"),
                      "there is no file '" + parameter->required("value") + "': " + std::string(instead), true});

@@ -31,13 +31,15 @@ public:
     /// The path to the file that an element's attribute names; where there is none of that name, to one that is
     /// called so but for the case of letters, as on other systems. Throws LoadError when there is none.
     std::filesystem::path find(const XmlElement& element, const char* attribute) const;
-    /// Whether find() finds anything.
-    bool has(const XmlElement& element, const char* attribute) const;
+    /// The file or folder of that name, found likewise; empty: there is none. Throws LoadError for what is no
+    /// name.
+    std::optional<std::filesystem::path> find_if_there(const XmlElement& element, const char* attribute) const;
 
     /// Adds the folder that a <path> names. Throws LoadError when there is none.
     void add_folder(const XmlElement& path);
 
 private:
+    std::vector<std::filesystem::path> candidates_for(const XmlElement& element, const char* attribute) const;
     std::filesystem::path find_existing(const XmlElement& element, const char* attribute) const;
 
     const XmlDocument* scene_;

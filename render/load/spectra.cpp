@@ -1,3 +1,4 @@
+#include "render/io/text.h"
 #include "render/load/properties.h"
 
 #include <algorithm>
@@ -184,13 +185,6 @@ const Metal metals[] = {
     {"VN", {{2.865601f, 2.119182f, 1.940077f}, {3.032326f, 2.056108f, 1.616293f}}},
     {"W", {{4.370703f, 3.300297f, 2.998267f}, {3.500678f, 2.604865f, 2.273193f}}},
 };
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 } // namespace
 

@@ -12,7 +12,6 @@ namespace tessera {
 
 namespace {
 
-constexpr const char* half_names[] = {"half1", "half2"};
 constexpr const char* reference_attribute = "tessera:reference";
 constexpr const char* scene_attribute = "tessera:scene";
 

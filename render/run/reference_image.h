@@ -12,6 +12,9 @@
 
 namespace tessera {
 
+/// The layers of the two halves in a reference's file.
+inline constexpr const char* half_names[] = {"half1", "half2"};
+
 /// What pictures are measured by: two renders of a scene that are independent of each other and alike in all
 /// else, and their mean. The difference of the halves tells how far the mean is from the truth, whatever method
 /// and reconstruction made them; and against both, an error has no floor (recon/metrics.h).

@@ -20,6 +20,7 @@
 
 namespace tessera {
 
+class Scene;
 struct SceneDescription;
 
 /// A mesh that gives off light on its front side, the same in every direction.
@@ -117,8 +118,8 @@ struct LightTriangle {
     }
 };
 
-/// The lights of a scene, chosen in proportion to their power, by an alias table over all emitting triangles and
-/// all other lights: the choice costs the same for one and for thousands.
+/// The lights of a scene, chosen in proportion to their power and factors on it, by an alias table over all
+/// emitting triangles and all other lights: the choice costs the same for one and for thousands.
 class LightTable {
 public:
     LightTable() = default;
@@ -188,5 +189,11 @@ private:
     bool has_triangles_ = false;
     glm::vec3 low_{0}, high_{0}; // of the emitting triangles
 };
+
+/// How often emitter sampling should choose each light, beside its power: factors on that, in the order of
+/// LightTable::lights(). Learnt from some hundred paths from the scene's camera, at whose ends every light is
+/// tried: by power alone, an environment around a large scene takes all samples from two spots in it. Empty: there
+/// is one light at most, or none that could be seen to bring anything. The same for any number of threads.
+std::vector<double> learn_light_factors(const Scene& scene);
 
 } // namespace tessera

@@ -1,5 +1,4 @@
-#include "render/scene/light_choice.h"
-
+#include "render/scene/light.h"
 #include "render/scene/scene.h"
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "render/scene/scene.h"
 
-#include "render/scene/light_choice.h"
-
 #include <algorithm>
 #include <chrono>
 #include <limits>

@@ -14,7 +14,7 @@ TEST(SceneLoader, GivesWayToWhatDraws) {
     int there = own;
     std::shared_ptr<const Scene> scene;
     std::thread([&] {
-        std::vector<std::string> notes;
+        SceneNotes notes;
         LoadProgress progress;
         scene = loader_of({}, 1)(notes, progress); // the scene that is built in
         there = getpriority(PRIO_PROCESS, 0);

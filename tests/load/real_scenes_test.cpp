@@ -233,7 +233,7 @@ TEST(RealScenes, AllOthersLoadWithNotes) {
 }
 
 TEST(RealScenes, OurOwnCornellBox) {
-    const auto file = std::filesystem::path(__FILE__).parent_path() / "../../assets/cornell-box.xml";
+    const auto file = std::filesystem::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml";
     const LoadedScene loaded = load_mitsuba_xml(file);
     const SceneDescription& scene = loaded.description;
     expect_sound(scene);

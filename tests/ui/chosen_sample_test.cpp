@@ -119,7 +119,7 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
 
 TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {
     state().pace.spp_limit = 1;
-    viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     play("wait scene\nset seed " + std::to_string(seed) + "\ninspect 20 15 5");
     ASSERT_TRUE(inspector().inspection); // the step has waited for it
     expect_that_of_the_render();
@@ -128,7 +128,7 @@ TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {
 /// Beside panes that render nothing.
 TEST_F(ChosenSample, NeedsNoPicture) {
     state().paused = true;
-    viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     ASSERT_TRUE(wait_until([&] { return state().scene != nullptr; }));
     state().inspect(pixel, pass, seed);
     expect_that_of_the_render();

@@ -148,7 +148,7 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
     frames(2);
     save("reference-of-another-scene.png");
-    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     EXPECT_TRUE(wait_until([&] { return said() == 0; })) << "that was of the other scene";
     EXPECT_TRUE(wait_until([&] { return said() == 1; })) << "and is true of this one as well";
 }
@@ -269,7 +269,7 @@ TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {
     const std::weak_ptr<const Scene> before = state().scene;
     const auto old = state().companions.first_hits;
     type(Key::digit1); // nobody wants any now
-    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     wait_until([&] { return state().scene != before.lock() && viewer.settled(3); });
     frames(2);
     EXPECT_EQ(state().companions.first_hits, nullptr);

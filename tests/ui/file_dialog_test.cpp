@@ -125,7 +125,9 @@ TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
     };
     load("bad.json");
     EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
-    EXPECT_NE(h.state().messages.back().text.find("bad.json:2:14: method is \"xyz\": must be one of pt, pr, gpt, gpr"), std::string::npos)
+    EXPECT_NE(
+        h.state().messages.back().text.find("bad.json:2:14: method is \"xyz\": must be one of pt, pr, gpt, gpr"),
+        std::string::npos)
         << h.state().messages.back().text;
     EXPECT_EQ(h.pane(0).settings.render.tile, 8);
     h.state().layout.show_messages = false;
@@ -197,7 +199,7 @@ TEST_F(Dialog, ASceneCanBeOnItsWayBehindIt) {
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
     std::atomic<bool> through = false;
-    h.viewer.load("a room", [&through](std::vector<std::string>&, LoadProgress&) {
+    h.viewer.load("a room", [&through](SceneNotes&, LoadProgress&) {
         while (!through)
             std::this_thread::yield();
         return viewer_scene();

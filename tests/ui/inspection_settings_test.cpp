@@ -85,7 +85,7 @@ TEST_F(InspectionSettings, TheViewInSpaceBelongsToItsScene) {
     ASSERT_TRUE(wait_for_paths());
     const glm::vec3 at_first = state().space.camera.forward();
     h->drag(h->place("space").center(), {50, 20});
-    h->viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    h->viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     h->wait_until([&] { return state().scenes_shown == 2 && h->viewer.settled(3); });
     h->wait_until([&] { return state().inspector.generation == h->pane(1).generation; });
     ASSERT_TRUE(wait_for_paths());

@@ -41,7 +41,7 @@ struct PathInspector : testing::Test, ViewerHarness {
     /// Whether nothing keeps the scene on show once another takes its place.
     bool lets_go_of_the_scene() {
         const std::weak_ptr<const Scene> before = state().scene;
-        viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+        viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
         wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
         return wait_until([&] { return before.expired(); });
     }

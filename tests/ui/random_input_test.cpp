@@ -74,7 +74,7 @@ ViewerOptions options_for(const Files& files) {
     ViewerOptions options = ViewerHarness::two_panes();
     options.preferences = files.preferences();
     options.open = [](const fs::path& file) -> SceneOrigin {
-        const auto loader = [file](std::vector<std::string>&, LoadProgress&) {
+        const auto loader = [file](SceneNotes&, LoadProgress&) {
             if (file.filename() != "scene.xml")
                 throw std::runtime_error(file.string() + ":1:1: is broken");
             return viewer_scene();
@@ -172,7 +172,7 @@ protected:
             viewer().drop({file});
         } else if (one_in(8)) {
             note("another scene");
-            viewer().load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+            viewer().load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
         } else if (one_in(40)) {
             note("the viewer anew");
             harness_.reset();

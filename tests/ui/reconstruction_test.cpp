@@ -25,7 +25,7 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     options.spp_limit = 1;
     ViewerHarness h({900, 600}, 1, options);
     h.state().patience = 0;
-    h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     ASSERT_TRUE(h.wait_until([&] { return h.viewer.settled(1); }));
     const auto before = h.pane(0).snapshot->reconstruction;
     h.state().panes[0].settings.reconstruction.norm = Norm::l1; // takes half a second on an idle machine

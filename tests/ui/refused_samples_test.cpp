@@ -31,7 +31,7 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
     ViewerHarness h;
     h.state().pace.spp_limit = 3;
     h.state().layout.show_statistics = true;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(3); });
     h.frames(3);
     const auto told = [&](const std::string& method) {
@@ -56,7 +56,7 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
 TEST(RefusedSamples, OpenAsTheyWere) {
     ViewerHarness h;
     h.state().pace.spp_limit = 2;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(2) && h.state().messages.size() == 2; });
     const Message gpr = *std::find_if(h.state().messages.begin(), h.state().messages.end(),
                                       [](const Message& m) { return m.text.rfind("G-PR", 0) == 0; });
@@ -83,7 +83,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     h.save("refused-earlier.png");
 
     // And when the scene is another.
-    h.viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     h.wait_until([&] { return h.viewer.settled(2); });
     h.frames(5);
     EXPECT_TRUE(h.state().inspector.inspection->is_refused);
@@ -93,7 +93,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
 TEST(RefusedSamples, OpenOneAfterTheOther) {
     ViewerHarness h;
     h.state().pace.spp_limit = 1;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().messages.pop_back();
     auto& samples = h.state().messages[0].samples;
@@ -118,7 +118,7 @@ TEST(RefusedSamples, OfAReferenceOpen) {
     const CurrentFolder folder;
     ViewerHarness h;
     h.state().pace.spp_limit = 1;
-    h.viewer.load("broken", [](std::vector<std::string>&, LoadProgress&) { return broken_scene(); });
+    h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().reference_making.spp = 2;
     h.state().wishes.make_reference = true;

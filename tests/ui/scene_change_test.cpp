@@ -20,17 +20,15 @@
 namespace tessera::test {
 namespace {
 
-using Notes = std::vector<std::string>;
-
 /// A scene file that changes between loads.
 struct SceneFile {
     glm::vec3 eye{0, 0, 3.4f};
-    Notes notes;
+    SceneNotes notes;
     std::string error; ///< not empty: it is broken
     int loads = 0;
 
     SceneLoader loader() {
-        return [this](Notes& told, LoadProgress&) -> std::shared_ptr<const Scene> {
+        return [this](SceneNotes& told, LoadProgress&) -> std::shared_ptr<const Scene> {
             ++loads;
             told = notes;
             if (!error.empty())
@@ -139,11 +137,11 @@ TEST_F(SceneChange, FirstSceneThatWasBrokenCanBeLoadedAgain) {
 }
 
 TEST_F(SceneChange, NotesAreThoseOfTheSceneOnShow) {
-    file.notes = {"room.xml:3:1: odd", "room.xml:4:1: strange"};
+    file.notes = {{"room.xml:3:1: odd"}, {"room.xml:4:1: strange"}};
     show();
     state().add_message(Message::Kind::note, "something else");
     EXPECT_EQ(state().messages.size(), 3u);
-    file.notes = {"room.xml:3:1: odd"};
+    file.notes = {{"room.xml:3:1: odd"}};
     reload();
     EXPECT_EQ(state().messages.size(), 2u);
     EXPECT_TRUE(says("odd"));
@@ -154,9 +152,9 @@ TEST_F(SceneChange, NotesAreThoseOfTheSceneOnShow) {
 TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
     for (int i = 0; i < 500; ++i)
         file.notes.push_back(
-            "room.xml:" + std::to_string(i) +
-            ":3: the bsdf 'coated' is not known; diffuse magenta stands for it (also at 12:3, 34:5, "
-            "70:9 and 12 more places)");
+            {"room.xml:" + std::to_string(i) +
+             ":3: the bsdf 'coated' is not known; diffuse magenta stands for it (also at 12:3, 34:5, "
+             "70:9 and 12 more places)"});
     show();
     EXPECT_EQ(state().messages.size(), 500u);
     state().paused = true;
@@ -218,7 +216,7 @@ TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
 TEST_F(SceneChange, LoadingShowsWhatIsDoneAndIsGivenUpForAnother) {
     show();
     std::atomic<bool> ended{false};
-    viewer.load("slow.xml", [&](Notes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
+    viewer.load("slow.xml", [&](SceneNotes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
         progress.begin(LoadProgress::Stage::files, 8);
         progress.step();
         progress.step();
@@ -244,7 +242,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
     show();
     for (const bool by_key : {false, true}) {
         std::atomic<bool> ended{false};
-        viewer.load("slow.xml", [&](Notes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
+        viewer.load("slow.xml", [&](SceneNotes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
             progress.begin(LoadProgress::Stage::files, 8);
             while (!progress.given_up())
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -275,7 +273,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
 }
 
 TEST_F(SceneChange, EndsWhileASceneIsLoading) {
-    viewer.load("slow.xml", [&](Notes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
+    viewer.load("slow.xml", [&](SceneNotes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
         while (!progress.given_up())
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return nullptr;
@@ -285,7 +283,7 @@ TEST_F(SceneChange, EndsWhileASceneIsLoading) {
 }
 
 TEST_F(SceneChange, LongNamesLeaveRoomForTheMessages) {
-    file.notes = {"odd"};
+    file.notes = {{"odd"}};
     viewer.load("/home/somebody/" + std::string(400, 'x') + "/scene.xml", file.loader());
     settle();
     EXPECT_LE(place("messages").max.x, 1280);

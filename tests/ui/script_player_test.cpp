@@ -37,7 +37,7 @@ struct Play : testing::Test, ViewerHarness {
 
 TEST_F(Play, KeysMouseAndSettings) {
     state().pace.spp_limit = 2;
-    viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     play("wait scene\nwait spp 2\nset tile 4\nwait spp 2\nscreenshot a.png\nprint \"all done\"");
     EXPECT_EQ(pane(1).snapshot->settings.tile, 4);
     EXPECT_EQ(pictures, std::vector<std::string>{"a.png"});

@@ -209,7 +209,7 @@ TEST_F(SlowMotionView, LeavesAPictureWhereItWasPutMeanwhile) {
 
     state().view = ImageView(2, {0.3f, 0.3f});
     open();
-    viewer.load("another", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     ASSERT_TRUE(wait_until([&] { return state().scenes_shown == 2; }));
     type(Key::j);
     EXPECT_TRUE(state().view == ImageView());

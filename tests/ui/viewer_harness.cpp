@@ -36,8 +36,7 @@ ViewerOptions ViewerHarness::two_panes() {
 }
 
 SceneOrigin scene_in(const std::filesystem::path& file) {
-    return {
-        file.string(), {file, {}, {}}, [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); }};
+    return {file.string(), {file, {}, {}}, [](SceneNotes&, LoadProgress&) { return viewer_scene(); }};
 }
 
 ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options, int threads)
@@ -84,7 +83,7 @@ void ViewerHarness::finish_saving() {
 }
 
 void ViewerHarness::load_scene() {
-    viewer.load("a room", [](std::vector<std::string>&, LoadProgress&) { return viewer_scene(); });
+    viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     wait_until([&] {
         return pane(0).snapshot && pane(1).snapshot && !pane(0).snapshot->coarse() && !pane(1).snapshot->coarse();
     });

@@ -31,7 +31,7 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
     ViewerHarness h;
     h.frames(3);
     std::atomic<bool> go{false};
-    h.viewer.load("a slow one", [&](std::vector<std::string>&, LoadProgress&) {
+    h.viewer.load("a slow one", [&](SceneNotes&, LoadProgress&) {
         while (!go)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return viewer_scene();
@@ -52,11 +52,10 @@ TEST(Viewer, OldSceneStaysWhenTheNextFails) {
     ViewerHarness h;
     h.load_scene();
     const auto scene = h.state().scene;
-    h.viewer.load("broken.xml",
-                  [](std::vector<std::string>& notes, LoadProgress&) -> std::shared_ptr<const Scene> {
-                      notes.push_back("line 3: ignored");
-                      throw std::runtime_error("broken.xml:7:3: no such thing");
-                  });
+    h.viewer.load("broken.xml", [](SceneNotes& notes, LoadProgress&) -> std::shared_ptr<const Scene> {
+        notes.push_back({"line 3: ignored"});
+        throw std::runtime_error("broken.xml:7:3: no such thing");
+    });
     h.wait_until([&] { return !h.viewer.loading(); });
     h.frames(3);
     EXPECT_EQ(h.state().scene, scene);

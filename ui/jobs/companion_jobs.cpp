@@ -22,10 +22,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds between_news(100);
 
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
-    const ExrFile exr = read_exr(file, watch, {"", "half1", "half2"});
+    const ExrFile exr = read_exr(file, watch, {"", half_names[0], half_names[1]});
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < halves.size(); ++i)
-        if (const RgbImage* half = find_layer(exr, i == 0 ? "half1" : "half2"))
+        if (const RgbImage* half = find_layer(exr, half_names[i]))
             halves[i] = *half;
     return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
 }

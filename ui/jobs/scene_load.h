@@ -9,21 +9,23 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tessera {
 
 class Scene;
 
-/// What a note begins with that tells of something missing.
-inline constexpr std::string_view error_mark = "error: ";
+/// What the user should know of a scene that was loaded.
+struct SceneNote {
+    std::string text;
+    bool is_error = false; ///< something that the scene needs is missing
+};
+using SceneNotes = std::vector<SceneNote>;
 
 /// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
 /// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose
 /// what() is shown.
-using SceneLoader =
-    std::function<std::shared_ptr<const Scene>(std::vector<std::string>& notes, LoadProgress& progress)>;
+using SceneLoader = std::function<std::shared_ptr<const Scene>(SceneNotes& notes, LoadProgress& progress)>;
 
 /// A scene to load, and to load again.
 struct SceneOrigin {
@@ -43,7 +45,7 @@ using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
 struct SceneLoadResult {
     std::shared_ptr<const Scene> scene; ///< null: it failed
     SceneOrigin origin;
-    std::vector<std::string> notes;
+    SceneNotes notes;
     std::string error;
 };
 

@@ -81,9 +81,9 @@ void Viewer::take_scene() {
     state_.drop_messages(Origin::failed_load);
     if (result->scene)
         state_.drop_messages(Origin::scene);
-    for (std::string& note : result->notes)
-        state_.add_message(note.starts_with(error_mark) ? Message::Kind::error : Message::Kind::note,
-                           std::move(note), result->scene ? Origin::scene : Origin::failed_load);
+    for (SceneNote& note : result->notes)
+        state_.add_message(note.is_error ? Message::Kind::error : Message::Kind::note, std::move(note.text),
+                           result->scene ? Origin::scene : Origin::failed_load);
     if (result->scene)
         show_scene(std::move(result->scene), result->origin);
     else

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "recon/image.h"
+
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -24,7 +26,15 @@ struct ByteImage {
 // once `wanted`, asked now and then, wants the picture no more.
 ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted);
 ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted);
-/// Both have runs of equal pixels or none.
+/// What begins as a BMP picture does is one, anything else a TGA.
 ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted);
+
+/// Whether the bytes begin as a Radiance picture (.hdr, .pic) does.
+bool is_radiance(std::string_view bytes);
+
+/// Reads a Radiance picture: RGBE, rows from the top to the bottom, plain or run-length encoded [Ward, "Real
+/// Pixels", Graphics Gems II, 1991]. Throws std::runtime_error that says what is wrong with it, also where
+/// `wanted`, asked at each row, wants it no more.
+RgbImage parse_radiance(std::string_view bytes, const std::function<bool()>& wanted);
 
 } // namespace tessera

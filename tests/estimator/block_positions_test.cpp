@@ -1,0 +1,74 @@
+// All paths that share light begin at one position within their pixels, those of a block's border among them; each
+// block has its own.
+#include "render/run/render.h"
+#include "render/scene/scene.h"
+#include "tests/support/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(80, 6); // of several blocks
+constexpr int row = 3;
+
+/// A floor under a point light, black otherwise: what a pixel sees is a smooth function of the position alone.
+GradientImages one_pass(Method method, int pass) {
+    SceneBuilder b;
+    b.quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, b.diffuse(Rgb(0.5f)));
+    b.point({{3, 4, -2}, Rgb(50)});
+    b.camera({0, 6, 6}, {0, 0, 0}, 50);
+    RenderSettings settings;
+    settings.method = method;
+    settings.max_depth = 2;
+    settings.roulette = RouletteKind::none;
+    settings.seed = static_cast<std::uint64_t>(pass);
+    const auto scene = b.build();
+    Render render(scene, scene->camera(), size, settings);
+    ThreadPool pool(1);
+    render.pass(pool);
+    return render.images();
+}
+
+double luminance_at(const RgbImage& image, int x) {
+    return luminance(image(x, row));
+}
+
+void expect_smooth_gradients(Method method) {
+    double largest_step = 0; // of the primal, beside its gradient
+    for (int seed = 0; seed < 8; ++seed) {
+        const GradientImages images = one_pass(method, seed);
+        double largest = 0, bend = 0;
+        for (int x = 1; x + 2 < size.x; ++x) {
+            const double before = luminance_at(images.dx, x - 1), here = luminance_at(images.dx, x),
+                         after = luminance_at(images.dx, x + 1);
+            largest = std::max(largest, std::abs(here));
+            bend = std::max(bend, std::abs(here - 0.5 * (before + after)));
+            const double step = luminance_at(images.primal, x + 1) - luminance_at(images.primal, x);
+            largest_step = std::max(largest_step, std::abs(step - here) / largest);
+        }
+        EXPECT_LT(bend, 0.1 * largest) << "seed " << seed;
+    }
+    EXPECT_GT(largest_step, 0.3) << "blocks have one position after all";
+}
+
+TEST(BlockPositions, GradientsDoNotSeeTheBordersOfBlocks) {
+    expect_smooth_gradients(Method::gpt);
+    expect_smooth_gradients(Method::gpr);
+}
+
+TEST(BlockPositions, AreOneOverTheBlockAndMoveFromPassToPass) {
+    const GradientImages a = one_pass(Method::pt, 1), b = one_pass(Method::pt, 2);
+    int same = 0;
+    for (int x = 0; x < size.x; ++x)
+        same += luminance_at(a.primal, x) == luminance_at(b.primal, x);
+    EXPECT_LT(same, size.x / 4);
+}
+
+} // namespace
+
+} // namespace tessera::test
