@@ -141,6 +141,18 @@ TEST_F(BrokenFile, TruncatedImages) {
     }
 }
 
+/// Cameras and old programs leave some bytes too many between the parts of a file.
+TEST_F(BrokenFile, JpegWithBytesTooManyIsFineAndOneCutOffIsNot) {
+    const std::string whole =
+        read_bytes(std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/seeds/picture/square.jpg");
+    const std::size_t end = whole.rfind("\xff\xd9");
+    ASSERT_NE(end, std::string::npos);
+    folder.write("more.jpg", whole.substr(0, end) + std::string(5, '\0') + whole.substr(end));
+    EXPECT_EQ(error_of_texture("more.jpg"), "no error");
+    folder.write("less.jpg", whole.substr(0, end - 8));
+    EXPECT_THAT(error_of_texture("less.jpg"), testing::HasSubstr("cannot load 'less.jpg'"));
+}
+
 TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
     const RgbImage image(9, 2, Rgb(0.5f, 1, 0.25f));
     write_exr(folder.path() / "exr.png", {{{"", image}}, {}});
