@@ -31,6 +31,15 @@ bool position_derivatives(const ShapeRecord& shape, glm::uvec3 t, glm::vec3& by_
     return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
 }
 
+/// The frame about a unit normal of shading with its tangent along u, where there are uvs. Without them it lies
+/// about the triangle's normal as it happens to, which is how Mitsuba 3 has it.
+Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
+    glm::vec3 by_u, by_v;
+    if (!shape.uvs || !position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v))
+        by_u = Frame(geometric_normal).tangent;
+    return {normal, by_u};
+}
+
 /// The unit normal that relief makes of `normal`, on the same side.
 glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
     glm::vec3 bent;
@@ -105,7 +114,8 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         }
     }
     const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
-    const Frame frame(side * bent);
+    const Frame frame =
+        shape.has_frame_along_u ? frame_along_u(shape, hit, v.geometric_normal, side * bent) : Frame(side * bent);
     if (v.bsdf.is_bent())
         v.bsdf.unbent_normal = frame.to_local(side * normal);
     v.to_previous = frame.to_local(-ray.direction);

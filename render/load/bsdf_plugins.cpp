@@ -106,26 +106,38 @@ ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
     return *index;
 }
 
-Texture alpha_parameter(LoadContext& context, Properties& p) {
-    if (p.has("alpha_u") || p.has("alpha_v")) {
-        const Texture across = texture_parameter(context, p, "alpha_u", Rgb(0.1f));
-        const Texture along = texture_parameter(context, p, "alpha_v", Rgb(0.1f));
-        if (!across.is_constant() || !along.is_constant()) {
-            p.note("the anisotropic roughness is replaced by 'alpha_u'");
-            return across;
-        }
-        const float u = std::get<Rgb>(across.kind).r, v = std::get<Rgb>(along.kind).r;
-        if (u < 0 || v < 0)
-            p.element().fail("'alpha_u' and 'alpha_v' must not be negative");
-        if (u != v)
-            p.note("the anisotropic roughness is replaced by its geometric mean");
-        return Rgb(std::sqrt(u * v));
-    }
-    const Texture alpha = texture_parameter(context, p, "alpha", Rgb(0.1f));
+namespace {
+
+Texture one_alpha(LoadContext& context, Properties& p, std::string_view name) {
+    const Texture alpha = texture_parameter(context, p, name, Rgb(0.1f));
     const Rgb* constant = std::get_if<Rgb>(&alpha.kind);
     if (constant && constant->r < 0)
-        p.take("alpha")->fail("'alpha' must not be negative", "value");
+        p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
     return alpha;
+}
+
+} // namespace
+
+Roughness alpha_parameter(LoadContext& context, Properties& p) {
+    if (!p.has("alpha_u") && !p.has("alpha_v"))
+        return {one_alpha(context, p, "alpha"), {}};
+    Roughness roughness{one_alpha(context, p, "alpha_u"), one_alpha(context, p, "alpha_v")};
+    const Rgb *u = std::get_if<Rgb>(&roughness.alpha.kind), *v = std::get_if<Rgb>(&roughness.alpha_v->kind);
+    if (u && v && u->r == v->r)
+        roughness.alpha_v.reset();
+    return roughness;
+}
+
+Texture isotropic_alpha_parameter(LoadContext& context, Properties& p) {
+    const Roughness roughness = alpha_parameter(context, p);
+    if (!roughness.alpha_v)
+        return roughness.alpha;
+    if (!roughness.alpha.is_constant() || !roughness.alpha_v->is_constant()) {
+        p.note("the anisotropic roughness is replaced by 'alpha_u'");
+        return roughness.alpha;
+    }
+    p.note("the anisotropic roughness is replaced by its geometric mean");
+    return Rgb(std::sqrt(std::get<Rgb>(roughness.alpha.kind).r * std::get<Rgb>(roughness.alpha_v->kind).r));
 }
 
 MicrofacetDistribution distribution_parameter(Properties& p) {

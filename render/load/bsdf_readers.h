@@ -44,8 +44,15 @@ float index_parameter(Properties& p, std::string_view name, std::string_view fal
 /// The index of the metal ("material", or "eta" and "k"), relative to what is around it ("ext_eta").
 ComplexIndex metal_parameter(const LoadContext& context, Properties& p);
 
-/// "alpha", the roughness of microfacets; anisotropic ones are averaged, with a note. Throws LoadError below 0.
-Texture alpha_parameter(LoadContext& context, Properties& p);
+/// The roughness of microfacets: "alpha", or "alpha_u" and "alpha_v". Throws LoadError below 0.
+struct Roughness {
+    Texture alpha;
+    std::optional<Texture> alpha_v; ///< nothing: as alpha
+};
+Roughness alpha_parameter(LoadContext& context, Properties& p);
+
+/// The same for what is isotropic here: other roughness is averaged, with a note.
+Texture isotropic_alpha_parameter(LoadContext& context, Properties& p);
 
 /// "distribution" of microfacets; unknown ones are replaced, with a note.
 MicrofacetDistribution distribution_parameter(Properties& p);

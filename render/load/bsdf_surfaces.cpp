@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 namespace tessera {
@@ -77,7 +78,9 @@ Material read_dielectric(LoadContext& context, Properties& p) {
 Material read_rough_dielectric(LoadContext& context, Properties& p) {
     Material material = read_dielectric(context, p);
     auto& dielectric = std::get<DielectricMaterial>(material.kind);
-    dielectric.alpha = alpha_parameter(context, p);
+    auto [alpha, alpha_v] = alpha_parameter(context, p);
+    dielectric.alpha = std::move(alpha);
+    dielectric.alpha_v = std::move(alpha_v);
     dielectric.distribution = distribution_parameter(p);
     p.ignore({"sample_visible"}); // visible normals are always sampled
     return material;
@@ -95,7 +98,9 @@ Material read_conductor(LoadContext& context, Properties& p) {
 
 Material read_rough_conductor(LoadContext& context, Properties& p) {
     ConductorMaterial conductor = smooth_part(context, p);
-    conductor.alpha = alpha_parameter(context, p);
+    auto [alpha, alpha_v] = alpha_parameter(context, p);
+    conductor.alpha = std::move(alpha);
+    conductor.alpha_v = std::move(alpha_v);
     conductor.distribution = distribution_parameter(p);
     p.ignore({"sample_visible"}); // visible normals are always sampled
     return {{}, conductor};
@@ -106,7 +111,7 @@ Material read_plastic(LoadContext& context, Properties& p) {
 }
 
 Material read_rough_plastic(LoadContext& context, Properties& p) {
-    const Texture alpha = alpha_parameter(context, p);
+    const Texture alpha = isotropic_alpha_parameter(context, p);
     if (!alpha.is_constant())
         p.note("the texture of 'alpha' is replaced by 0.1");
     const float constant = alpha.is_constant() ? std::get<Rgb>(alpha.kind).r : 0.1f;

@@ -83,6 +83,17 @@ struct Frame {
         bitangent = {b, sign + n.y * n.y * a, -n.y};
     }
 
+    /// A frame around a unit normal whose tangent points toward `along`, as far as it can; any, where that is the
+    /// normal itself, or not finite.
+    Frame(glm::vec3 n, glm::vec3 along) : Frame(n) {
+        const glm::vec3 across = glm::cross(n, along);
+        const float length2 = glm::dot(across, across);
+        if (!(length2 > 0) || !std::isfinite(length2))
+            return;
+        bitangent = across * (1 / std::sqrt(length2));
+        tangent = glm::cross(bitangent, n);
+    }
+
     glm::vec3 to_local(glm::vec3 world) const {
         return {glm::dot(world, tangent), glm::dot(world, bitangent), glm::dot(world, normal)};
     }

@@ -36,6 +36,7 @@ struct ShapeRecord {
     Rgb emitted;                 ///< radiance given off on the front side, where it is the same everywhere
     const Texture* emission_map; ///< null: it is
     float emitter_pdf_a;         ///< 0: no light
+    bool has_frame_along_u;      ///< whether frames of shading must lie along the texture's u
 };
 
 /// A scene ready to be rendered: immutable, shared by all who render it.

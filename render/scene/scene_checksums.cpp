@@ -44,6 +44,13 @@ private:
     template <class T>
     static constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || IsVector<T>::value;
 
+    /// What scenes can have only since references were made: without it, theirs are still what they were.
+    template <class T>
+    void add_if_there(bool is_there, const T& value) {
+        if (is_there)
+            take(value);
+    }
+
     template <class T>
     requires is_plain<T>
     void take(const T& value) { sum_ = tessera::checksum(std::as_bytes(std::span(&value, 1)), sum_); }
@@ -132,8 +139,9 @@ void SceneDigest::take(const Texture& texture) {
 }
 
 void SceneDigest::take(const Microfacets& facets) {
-    const auto& [distribution, alpha] = facets;
+    const auto& [distribution, alpha, stretch] = facets;
     add(distribution, alpha);
+    add_if_there(stretch != 1, stretch);
 }
 
 void SceneDigest::take(const DiffuseMaterial& material) {
@@ -142,13 +150,15 @@ void SceneDigest::take(const DiffuseMaterial& material) {
 }
 
 void SceneDigest::take(const ConductorMaterial& material) {
-    const auto& [distribution, alpha, eta, k, specular_reflectance] = material;
+    const auto& [distribution, alpha, eta, k, specular_reflectance, alpha_v] = material;
     add(distribution, alpha, eta, k, specular_reflectance);
+    add_if_there(alpha_v.has_value(), alpha_v);
 }
 
 void SceneDigest::take(const DielectricMaterial& material) {
-    const auto& [thin, eta, specular_reflectance, specular_transmittance, distribution, alpha] = material;
+    const auto& [thin, eta, specular_reflectance, specular_transmittance, distribution, alpha, alpha_v] = material;
     add(thin, eta, specular_reflectance, specular_transmittance, distribution, alpha);
+    add_if_there(alpha_v.has_value(), alpha_v);
 }
 
 void SceneDigest::take(const PlasticMaterial& material) {

@@ -1,6 +1,7 @@
 #include "render/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <variant>
@@ -55,11 +56,19 @@ Lobes lobes_of(const Material& m);
 Lobes lobes(const DiffuseMaterial&) {
     return {};
 }
+/// Of a ConductorMaterial or DielectricMaterial.
+template <class M>
+Lobes facet_lobes(const M& m) {
+    if (!m.alpha_v)
+        return microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
+    return microfacet_lobes(std::sqrt(std::max(least_red(m.alpha) * least_red(*m.alpha_v), 0.0f)),
+                            m.alpha.is_constant() && m.alpha_v->is_constant());
+}
 Lobes lobes(const ConductorMaterial& m) {
-    return microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
+    return facet_lobes(m);
 }
 Lobes lobes(const DielectricMaterial& m) {
-    Lobes all = m.thin ? Lobes{true} : microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
+    Lobes all = m.thin ? Lobes{true} : facet_lobes(m);
     all.transmission = true;
     return all;
 }

@@ -29,28 +29,39 @@ Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
     return {RoughDiffuse{share(m.reflectance, at), alpha / std::sqrt(2.0f), m.fast}};
 }
 
-Bsdf resolve(const ConductorMaterial& m, const SurfacePoint& at) {
+/// The facets of a ConductorMaterial or DielectricMaterial; alpha = 0: smooth.
+template <class M>
+Microfacets facets_of(const M& m, const SurfacePoint& at) {
     const float alpha = scalar(m.alpha, at);
+    if (m.alpha_v) {
+        const float along_v = scalar(*m.alpha_v, at);
+        if (std::max(alpha, along_v) > 0)
+            return Microfacets::anisotropic(m.distribution, alpha, along_v);
+    }
+    return {m.distribution, alpha > 0 ? std::max(alpha, smallest_alpha) : 0};
+}
+
+Bsdf resolve(const ConductorMaterial& m, const SurfacePoint& at) {
+    const Microfacets facets = facets_of(m, at);
     const Rgb specular_reflectance = share(m.specular_reflectance, at);
-    if (alpha <= 0)
+    if (facets.alpha <= 0)
         return {SmoothConductor{m.eta, m.k, specular_reflectance}};
-    return {RoughConductor{{m.distribution, std::max(alpha, smallest_alpha)}, m.eta, m.k, specular_reflectance}};
+    return {RoughConductor{facets, m.eta, m.k, specular_reflectance}};
 }
 
 Bsdf resolve(const DielectricMaterial& m, const SurfacePoint& at) {
     const Rgb reflectance = share(m.specular_reflectance, at), transmittance = share(m.specular_transmittance, at);
     if (m.thin)
         return {ThinDielectric{m.eta, reflectance, transmittance}};
-    const float alpha = scalar(m.alpha, at);
-    if (alpha > 0 && std::abs(m.eta - 1) > 1e-3f) // facets that bend no light are not seen
-        return {
-            RoughDielectric{{m.distribution, std::max(alpha, smallest_alpha)}, m.eta, reflectance, transmittance}};
+    const Microfacets facets = facets_of(m, at);
+    if (facets.alpha > 0 && std::abs(m.eta - 1) > 1e-3f) // facets that bend no light are not seen
+        return {RoughDielectric{facets, m.eta, reflectance, transmittance}};
     return {SmoothDielectric{m.eta, reflectance, transmittance}};
 }
 
 Bsdf resolve(const PlasticMaterial& m, const SurfacePoint& at) {
-    return {Plastic(*m.coating, m.eta, m.facets, share(m.specular_reflectance, at),
-                    share(m.diffuse_reflectance, at), m.nonlinear)};
+    return {Plastic(*m.coating, m.facets, share(m.specular_reflectance, at), share(m.diffuse_reflectance, at),
+                    m.nonlinear)};
 }
 
 Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
@@ -70,10 +81,10 @@ std::vector<const Texture*> textures(const DiffuseMaterial& m) {
     return {&m.reflectance, &m.alpha};
 }
 std::vector<const Texture*> textures(const ConductorMaterial& m) {
-    return {&m.alpha, &m.specular_reflectance};
+    return {&m.alpha, m.alpha_v ? &*m.alpha_v : &m.alpha, &m.specular_reflectance};
 }
 std::vector<const Texture*> textures(const DielectricMaterial& m) {
-    return {&m.specular_reflectance, &m.specular_transmittance, &m.alpha};
+    return {&m.specular_reflectance, &m.specular_transmittance, &m.alpha, m.alpha_v ? &*m.alpha_v : &m.alpha};
 }
 std::vector<const Texture*> textures(const PlasticMaterial& m) {
     return {&m.diffuse_reflectance, &m.specular_reflectance};
@@ -97,6 +108,23 @@ std::vector<const Texture*> textures(const CoatedMaterial& m) {
     return all;
 }
 
+bool is_anisotropic(const ConductorMaterial& m) {
+    return m.alpha_v.has_value();
+}
+bool is_anisotropic(const DielectricMaterial& m) {
+    return m.alpha_v.has_value() && !m.thin;
+}
+bool is_anisotropic(const MixtureMaterial& m) {
+    return std::any_of(m.parts.begin(), m.parts.end(), [](const auto& part) { return part->is_anisotropic(); });
+}
+bool is_anisotropic(const CoatedMaterial& m) {
+    return m.base->is_anisotropic();
+}
+template <class M>
+bool is_anisotropic(const M&) {
+    return false;
+}
+
 } // namespace
 
 float MixtureMaterial::weight(std::size_t part, const SurfacePoint& at) const {
@@ -118,6 +146,10 @@ std::vector<const Texture*> Material::textures() const {
 bool Material::is_textured() const {
     const std::vector<const Texture*> all = textures();
     return std::any_of(all.begin(), all.end(), [](const Texture* t) { return !t->is_constant(); });
+}
+
+bool Material::is_anisotropic() const {
+    return std::visit([](const auto& m) { return tessera::is_anisotropic(m); }, kind);
 }
 
 bool Material::is_transparent() const {

@@ -26,6 +26,7 @@ struct ConductorMaterial {
     Rgb eta{0};            ///< index of refraction relative to the outside; eta = 0, k = 1: reflects all
     Rgb k{1};              ///< absorption, likewise
     Texture specular_reflectance{Rgb(1)};
+    std::optional<Texture> alpha_v{}; ///< roughness along v, `alpha` being that along u; nothing: the same
 };
 
 /// A boundary between two dielectrics, or a thin pane.
@@ -35,7 +36,8 @@ struct DielectricMaterial {
     Texture specular_reflectance{Rgb(1)};
     Texture specular_transmittance{Rgb(1)};
     MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
-    Texture alpha{Rgb(0)}; ///< roughness, by its luminance; constant 0: perfectly smooth
+    Texture alpha{Rgb(0)};            ///< roughness, by its luminance; constant 0: perfectly smooth
+    std::optional<Texture> alpha_v{}; ///< as above
 };
 
 /// A diffuse base under a dielectric coating.
@@ -107,6 +109,9 @@ struct Material {
 
     /// Whether uv or vertex colours matter.
     bool is_textured() const;
+
+    /// Whether it matters how the frame of shading lies about the normal: its tangent then must be along u.
+    bool is_anisotropic() const;
 
     /// Whether light gets through (holes by its opacity do not count).
     bool is_transparent() const;

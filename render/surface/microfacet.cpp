@@ -53,8 +53,10 @@ float sample_beckmann_slope(float cos_theta, float u) {
     return slope;
 }
 
-glm::vec3 sample_visible_beckmann(glm::vec3 direction, float alpha, glm::vec2 u) {
-    const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * direction.x, alpha * direction.y, direction.z));
+/// `alpha` is that along the tangent and along the bitangent, here and below.
+glm::vec3 sample_visible_beckmann(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) {
+    const glm::vec3 stretched =
+        glm::normalize(glm::vec3(alpha.x * direction.x, alpha.y * direction.y, direction.z));
     const float sin_theta = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
     const float along = sample_beckmann_slope(stretched.z, u.x);
     const float across = inverse_erf(2 * u.y - 1);
@@ -66,8 +68,9 @@ glm::vec3 sample_visible_beckmann(glm::vec3 direction, float alpha, glm::vec2 u)
 }
 
 /// [Heitz 2018], by the projected disk.
-glm::vec3 sample_visible_ggx(glm::vec3 direction, float alpha, glm::vec2 u) {
-    const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * direction.x, alpha * direction.y, direction.z));
+glm::vec3 sample_visible_ggx(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) {
+    const glm::vec3 stretched =
+        glm::normalize(glm::vec3(alpha.x * direction.x, alpha.y * direction.y, direction.z));
     glm::vec2 p = sample_disk(u);
     const float s = 0.5f * (1 + stretched.z);
     // Seen from `stretched`, the hemisphere of facets covers a disk of which the half below the horizon is
@@ -78,16 +81,24 @@ glm::vec3 sample_visible_ggx(glm::vec3 direction, float alpha, glm::vec2 u) {
     const glm::vec3 t2(-stretched.z * toward, length); // cross(stretched, t1)
     p.y = (1 - s) * std::sqrt(std::max(1 - p.x * p.x, 0.0f)) + s * p.y;
     const glm::vec3 n = p.x * t1 + p.y * t2 + std::sqrt(std::max(1 - p.x * p.x - p.y * p.y, 0.0f)) * stretched;
-    return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(n.z, 0.0f)));
+    return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(n.z, 0.0f)));
 }
 
 } // namespace
+
+Microfacets Microfacets::anisotropic(MicrofacetDistribution distribution, float along_tangent,
+                                     float along_bitangent) {
+    const float u = std::max(along_tangent, smallest_alpha), v = std::max(along_bitangent, smallest_alpha);
+    return {distribution, std::sqrt(u * v), std::sqrt(u / v)};
+}
 
 float Microfacets::density(glm::vec3 normal) const {
     if (normal.z <= 0)
         return 0;
     const float a2 = alpha * alpha;
-    const float sin2 = normal.x * normal.x + normal.y * normal.y;
+    // Slopes squeezed to those of facets of one roughness, alpha: an area of slopes stays as large [Heitz 2014].
+    const float x = normal.x / stretch, y = normal.y * stretch;
+    const float sin2 = x * x + y * y;
     const float cos2 = normal.z * normal.z;
     if (distribution == MicrofacetDistribution::ggx) {
         const float d = sin2 + a2 * cos2;
@@ -100,7 +111,8 @@ float Microfacets::density(glm::vec3 normal) const {
 float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
     if (glm::dot(direction, normal) * direction.z <= 0)
         return 0;
-    const float sin2 = direction.x * direction.x + direction.y * direction.y;
+    const float x = direction.x * stretch, y = direction.y / stretch;
+    const float sin2 = x * x + y * y;
     const float cos2 = direction.z * direction.z;
     if (sin2 <= 0)
         return 1;
@@ -116,8 +128,9 @@ float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
 }
 
 glm::vec3 Microfacets::sample_visible(glm::vec3 direction, glm::vec2 u) const {
-    return distribution == MicrofacetDistribution::ggx ? sample_visible_ggx(direction, alpha, u)
-                                                       : sample_visible_beckmann(direction, alpha, u);
+    const glm::vec2 along(alpha * stretch, alpha / stretch);
+    return distribution == MicrofacetDistribution::ggx ? sample_visible_ggx(direction, along, u)
+                                                       : sample_visible_beckmann(direction, along, u);
 }
 
 float Microfacets::visible_pdf(glm::vec3 direction, glm::vec3 normal) const {

@@ -84,7 +84,7 @@ float mean(Rgb c) {
 
 } // namespace
 
-Coating::Coating(float eta, MicrofacetDistribution distribution, float alpha) {
+Coating::Coating(float eta_, MicrofacetDistribution distribution, float alpha) : eta(eta_) {
     const Microfacets facets{distribution, alpha > 0 ? std::max(alpha, smallest_alpha) : 0};
     for (int i = 0; i < resolution; ++i) {
         const float cosine = std::max(static_cast<float>(i) / (resolution - 1), 1e-4f);
@@ -101,12 +101,11 @@ float Coating::transmittance(float cosine) const {
     return (1 - t) * table[static_cast<std::size_t>(i)] + t * table[static_cast<std::size_t>(i + 1)];
 }
 
-Plastic::Plastic(const Coating& coating_, float eta_, Microfacets facets_, Rgb specular, Rgb diffuse,
-                 bool nonlinear)
-    : coating(&coating_), eta(eta_), facets(facets_), specular_reflectance(specular) {
+Plastic::Plastic(const Coating& coating_, Microfacets facets_, Rgb specular, Rgb diffuse, bool nonlinear)
+    : coating(&coating_), facets(facets_), specular_reflectance(specular) {
     // The geometric series of bounces between base and coating; 1/eta^2 for the solid angle on the way out.
     const Rgb back = (nonlinear ? glm::min(diffuse, Rgb(1)) : Rgb(1)) * coating->internal_reflectance;
-    base = diffuse / (Rgb(1) - back) / (eta * eta);
+    base = diffuse / (Rgb(1) - back) / (coating->eta * coating->eta);
     const float s = mean(specular), d = mean(diffuse);
     specular_weight = s + d > 0 ? s / (s + d) : 0;
 }
@@ -129,7 +128,7 @@ BsdfValue Plastic::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
         return v;
     const glm::vec3 half = half_vector(to_previous, to_next);
     const float facet_pdf = facets.density(half) * facets.shadowing(to_previous, half) / (4 * to_previous.z);
-    const float fresnel = fresnel_dielectric(glm::dot(to_previous, half), eta).reflectance;
+    const float fresnel = fresnel_dielectric(glm::dot(to_previous, half), coating->eta).reflectance;
     v.pdf_w += specular_share * facet_pdf;
     v.f_cos += specular_reflectance * (fresnel * facet_pdf * facets.shadowing(to_next, half));
     return v;
@@ -138,7 +137,7 @@ BsdfValue Plastic::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
 DeltaValue Plastic::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
     if (!is_smooth() || to_previous.z <= 0 || scatter != Scatter::reflect)
         return {};
-    const float fresnel = fresnel_dielectric(to_previous.z, eta).reflectance;
+    const float fresnel = fresnel_dielectric(to_previous.z, coating->eta).reflectance;
     return {reflect(to_previous), specular_reflectance * fresnel, specular_probability(to_previous.z)};
 }
 

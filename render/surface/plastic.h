@@ -18,6 +18,7 @@ struct Coating {
 
     float transmittance(float cosine) const;
 
+    float eta;                           ///< index inside over outside
     std::array<float, resolution> table; ///< share of light from outside that gets in
     float internal_reflectance;          ///< share of diffuse light from inside that is sent back
 };
@@ -27,7 +28,6 @@ struct Coating {
 /// sent back in.
 struct Plastic {
     const Coating* coating = nullptr;
-    float eta = 1.49f;                                       ///< index inside over outside
     Microfacets facets{MicrofacetDistribution::beckmann, 0}; ///< alpha = 0: smooth
     Rgb specular_reflectance{1};
     Rgb base{0}; ///< what the base sends out of the light that has got in, after all its bounces inside
@@ -35,8 +35,8 @@ struct Plastic {
 
     /// @param diffuse_reflectance of the base
     /// @param nonlinear           the colour deepens with each bounce inside
-    Plastic(const Coating& coating, float eta, Microfacets facets, Rgb specular_reflectance,
-            Rgb diffuse_reflectance, bool nonlinear);
+    Plastic(const Coating& coating, Microfacets facets, Rgb specular_reflectance, Rgb diffuse_reflectance,
+            bool nonlinear);
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;

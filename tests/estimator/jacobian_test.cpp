@@ -60,8 +60,11 @@ std::vector<NamedBsdf> glossy_bsdfs() {
             list.push_back({"conductor " + name, {RoughConductor{{distribution, alpha}}}});
             list.push_back({"glass " + name, {RoughDielectric{{distribution, alpha}, 1.5f}}, true});
         }
+    const Microfacets brushed = Microfacets::anisotropic(ggx, 0.1f, 0.4f);
+    list.push_back({"brushed conductor", {RoughConductor{brushed}}});
+    list.push_back({"brushed glass", {RoughDielectric{brushed, 1.5f}}, true});
     list.push_back({"water", {RoughDielectric{{ggx, 0.3f}, 1.33f}}, true});
-    list.push_back({"plastic", {Plastic(coating(), 1.5f, {beckmann, 0.2f}, Rgb(1), Rgb(0.4f), false)}});
+    list.push_back({"plastic", {Plastic(coating(), {beckmann, 0.2f}, Rgb(1), Rgb(0.4f), false)}});
     list.push_back({"phong", {Phong(20, Rgb(0.2f), Rgb(0.5f))}});
     list.push_back({"diffuse", {Diffuse{Rgb(0.5f)}}}); // on the way to a smooth coating, say
     return list;

@@ -140,6 +140,27 @@ TEST(BsdfPlugins, RoughDielectric) {
               "'twosided' means nothing around a transparent material\n");
 }
 
+TEST(BsdfPlugins, AnisotropicRoughness) {
+    const std::string both = "<float name='alphaU' value='0.4'/><float name='alphaV' value='0.1'/>";
+    const Read metal = read(around("roughconductor", both), "0.6.0");
+    EXPECT_EQ(metal.notes, "");
+    EXPECT_TRUE(metal.material.is_anisotropic());
+    const Bsdf bsdf = metal.material.resolve({});
+    EXPECT_FLOAT_EQ(std::get<RoughConductor>(bsdf.kind).facets.alpha, 0.2f);
+    EXPECT_FLOAT_EQ(std::get<RoughConductor>(bsdf.kind).facets.stretch, 2);
+    const std::string texture = "<texture type='checkerboard' name='alpha_v'/>";
+    const Read textured = read(around("roughdielectric", texture)); // 'alpha_u' is 0.1
+    EXPECT_TRUE(textured.material.is_textured() && textured.material.is_anisotropic());
+    EXPECT_FLOAT_EQ(std::get<RoughDielectric>(textured.material.resolve({}).kind).facets.alpha, 0.2f);
+    // Inside of others, and where there is nothing to it.
+    const std::string brushed = around("roughconductor", both);
+    EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + brushed)), "0.6.0").material.is_anisotropic());
+    const std::string alike = "<float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>";
+    EXPECT_FALSE(read(around("roughconductor", alike)).material.is_anisotropic());
+    EXPECT_EQ(read(around("roughplastic", both), "0.6.0").notes,
+              "the anisotropic roughness is replaced by its geometric mean\n");
+}
+
 TEST(BsdfPlugins, Phong) {
     const Bsdf bsdf = read("<bsdf type='phong'/>", "0.6.0").material.resolve({});
     EXPECT_EQ(std::get<Phong>(bsdf.kind).exponent, 30);
@@ -279,6 +300,11 @@ TEST(BsdfPlugins, BadValues) {
          "2:54: 'alpha' must not be negative"},
         {"<bsdf type='roughdielectric'><float name='alpha' value='-1'/></bsdf>",
          "2:57: 'alpha' must not be negative"},
+        {"<bsdf type='roughconductor'><float name='alpha_u' value='-1'/></bsdf>",
+         "2:58: 'alpha_u' must not be negative"},
+        {"<bsdf type='roughconductor'><texture type='checkerboard' name='alpha_u'/><float name='alpha_v' "
+         "value='-1'/></bsdf>",
+         "2:103: 'alpha_v' must not be negative"},
         {"<bsdf type='phong'><float name='exponent' value='-1'/></bsdf>", "2:50: 'exponent' must not be negative"},
         {"<bsdf type='blendbsdf'>" + diffuse + "</bsdf>", "2:1: 'blendbsdf' needs two nested <bsdf>"},
         {"<bsdf type='blendbsdf'><rgb name='weight' value='-1'/>" + diffuse + glass + "</bsdf>",

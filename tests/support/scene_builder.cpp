@@ -3,6 +3,7 @@
 #include "render/sampling/sampling.h"
 
 #include <utility>
+#include <variant>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -27,6 +28,12 @@ int SceneBuilder::conductor(float alpha, MicrofacetDistribution distribution) {
     m.eta = Rgb(1.65746f, 0.880369f, 0.521229f);
     m.k = Rgb(9.22387f, 6.26952f, 4.837f);
     return material({"conductor", m, true});
+}
+
+int SceneBuilder::brushed(float alpha_u, float alpha_v) {
+    const int index = conductor(alpha_u);
+    std::get<ConductorMaterial>(description_.materials.back().kind).alpha_v = Texture(Rgb(alpha_v));
+    return index;
 }
 
 int SceneBuilder::mirror() {

@@ -19,6 +19,7 @@ public:
     int material(Material m);
     int diffuse(Rgb reflectance);
     int conductor(float alpha, MicrofacetDistribution distribution = MicrofacetDistribution::ggx);
+    int brushed(float alpha_u, float alpha_v); ///< a conductor
     int mirror();
     int glass(float eta = 1.5f, bool thin = false);
     int plastic(Rgb diffuse, float alpha); ///< alpha = 0: a smooth coating

@@ -28,6 +28,9 @@ std::shared_ptr<const Scene> glossy() {
 std::shared_ptr<const Scene> beckmann() {
     return room_with_floor([](SceneBuilder& b) { return b.conductor(0.3f, MicrofacetDistribution::beckmann); });
 }
+std::shared_ptr<const Scene> brushed() {
+    return room_with_floor([](SceneBuilder& b) { return b.brushed(0.08f, 0.4f); });
+}
 std::shared_ptr<const Scene> nearly_mirror() {
     return room_with_floor([](SceneBuilder& b) { return b.conductor(0.02f); });
 }
@@ -175,6 +178,8 @@ std::vector<TestScene> all_test_scenes() {
         {"depth_20", diffuse_room(), 20},
         {"glossy", glossy(), 5},
         {"beckmann", beckmann(), 5},
+        {"brushed", brushed(), 5},
+        {"brushed_half_vectors", brushed(), 5, 0.25f},
         {"nearly_mirror", nearly_mirror(), 5},
         {"glossy_half_vectors", glossy(), 5, 0.15f},
         {"nearly_mirror_half_vectors", nearly_mirror(), 6, 0.05f},

@@ -62,11 +62,16 @@ inline RoughConductor rough(MicrofacetDistribution d, float alpha, Rgb eta = cop
     return {{d, alpha}, eta, k, Rgb(1)};
 }
 
+/// Brushed along its bitangent.
+inline Microfacets brushed(MicrofacetDistribution d) {
+    return Microfacets::anisotropic(d, 0.15f, 0.5f);
+}
+
 /// A plastic with a coating that lives as long as the program.
 inline Plastic plastic(MicrofacetDistribution d, float alpha, Rgb diffuse, bool nonlinear) {
     static std::list<Coating> coatings;
     coatings.emplace_back(1.5f, d, alpha);
-    return Plastic(coatings.back(), 1.5f, {d, alpha}, Rgb(1), diffuse, nonlinear);
+    return Plastic(coatings.back(), {d, alpha}, Rgb(1), diffuse, nonlinear);
 }
 
 template <class Kind>

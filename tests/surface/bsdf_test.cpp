@@ -39,6 +39,19 @@ std::vector<Case> cases() {
             {"beckmann_010", [=] { return Bsdf{rough(beckmann, 0.1f)}; }},
             {"beckmann_050", [=] { return Bsdf{rough(beckmann, 0.5f)}; }},
             {"beckmann_100", [=] { return Bsdf{rough(beckmann, 1)}; }},
+            {"brushed_ggx",
+             [=] {
+                 return Bsdf{RoughConductor{brushed(ggx), copper_eta, copper_k, Rgb(1)}};
+             }},
+            {"brushed_beckmann",
+             [=] {
+                 return Bsdf{RoughConductor{brushed(beckmann), copper_eta, copper_k, Rgb(1)}};
+             }},
+            {"brushed_glass",
+             [=] {
+                 return Bsdf{RoughDielectric{brushed(ggx), 1.5f}};
+             },
+             1.5f},
             {"glass_ggx_020",
              [=] {
                  return Bsdf{RoughDielectric{{ggx, 0.2f}, 1.5f}};

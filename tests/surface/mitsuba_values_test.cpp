@@ -48,6 +48,34 @@ TEST(MitsubaValues, RoughDielectric) {
                4e-3f); // Mitsuba has a rational fit for Beckmann's shadowing, good to 0.35 % [Walter 2007, 5.2]
 }
 
+TEST(MitsubaValues, Anisotropic) {
+    expect_all({RoughConductor{Microfacets::anisotropic(MicrofacetDistribution::ggx, 0.1f, 0.4f), Rgb(0)}},
+               {
+                   {{0.3f, 0.2f}, {0.5f, 2.5f}, Rgb(1.008854f), 1.013628f},
+                   {{1.2f, 0.1f}, {1, 3.3f}, Rgb(1.183388f), 1.193162f},
+                   {{0.7f, 1.3f}, {0.8f, 4.6f}, Rgb(1.228122f), 1.277595f},
+                   {{1.4f, 5}, {1.45f, 2}, Rgb(0.009961179f), 0.02080575f},
+               });
+    expect_all({RoughConductor{Microfacets::anisotropic(MicrofacetDistribution::beckmann, 0.6f, 0.15f), Rgb(0)}},
+               {
+                   {{0.3f, 0.2f}, {0.5f, 2.5f}, Rgb(0.1835065f / 0.9f), 0.2038961f},
+                   {{1.2f, 0.1f}, {1, 3.3f}, Rgb(1.781333f / 0.9f), 2.010573f},
+                   {{0.7f, 1.3f}, {0.8f, 4.6f}, Rgb(0.8763471f / 0.9f), 0.973719f},
+                   {{1.4f, 5}, {1.45f, 2}, Rgb(1.129382f / 0.9f), 1.607203f},
+               },
+               4e-3f); // as above
+    expect_all({RoughDielectric{Microfacets::anisotropic(MicrofacetDistribution::ggx, 0.5f, 0.2f), 1.5f}},
+               {
+                   {{0.3f, 0.2f}, {0.5f, 2.5f}, Rgb(0.009849431f), 0.009976245f},
+                   {{1.2f, 0.1f}, {1, 3.3f}, Rgb(0.1345685f), 0.1522252f},
+                   {{0.4f, 0.5f}, {2.9f, 3.6f}, Rgb(8.532744f), 19.25935f},
+                   {{1.1f, 0}, {2.4f, 2.9f}, Rgb(0.3039376f), 0.716446f},
+                   {{2.6f, 0.3f}, {0.7f, 3.5f}, Rgb(15.71646f), 7.252559f},
+                   {{2.8f, 1}, {2.5f, 4.2f}, Rgb(0.01973644f), 0.01998249f},
+                   {{2, 1}, {1.9f, 4}, Rgb(0.9964229f), 1.222154f},
+               });
+}
+
 TEST(MitsubaValues, Blend) {
     const auto diffuse = shared(DiffuseMaterial{{Rgb(0.8f, 0.4f, 0.2f)}});
     const auto metal = shared(ConductorMaterial{MicrofacetDistribution::ggx, {Rgb(0.2f)}});
