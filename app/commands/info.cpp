@@ -30,6 +30,8 @@ std::string kind_of(const Material& m) {
             return p.facets.alpha > 0 ? "roughplastic" : "plastic";
         }
         std::string operator()(const PhongMaterial&) const { return "phong"; }
+        std::string operator()(const PrincipledMaterial&) const { return "principled"; }
+        std::string operator()(const ThinPrincipledMaterial&) const { return "principledthin"; }
         std::string operator()(const MixtureMaterial& m) const {
             return m.second_share ? "blendbsdf" : "mixturebsdf";
         }

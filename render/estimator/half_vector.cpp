@@ -53,20 +53,29 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
     const bool transmits = base.to_previous.z * base_to_next.z < 0;
     const float base_index = transmits ? base.bsdf.relative_index(base.to_previous) : 1;
     const float offset_index = transmits ? offset.bsdf.relative_index(offset.to_previous) : 1;
-    if (transmits && (base_index == 1 || offset_index == 1))
+    if ((base_index == 1) != (offset_index == 1))
         return {};
+    // What goes through a sheet that does not bend it is a reflection, taken to the other side.
+    const bool refracts = base_index != 1, goes_across = transmits && !refracts;
+    if (goes_across)
+        base_to_next = across(base_to_next);
     const glm::vec3 half = half_vector(base.to_previous, base_to_next, base_index);
-    const glm::vec3 copied = carry(base.frame, offset.frame, half);
-    const auto to_next =
-        transmits ? refract(offset.to_previous, copied, offset_index) : reflect(offset.to_previous, copied);
-    // If it does not go to the same side as the base's, the way back would not find this half vector.
-    if (!to_next || transmits != (to_next->z * offset.to_previous.z < 0))
+    // By no facet is light bent that leaves it on the side on which it came, as what is scattered through may.
+    if (refracts && glm::dot(base.to_previous, half) * glm::dot(base_to_next, half) >= 0)
         return {};
-    const BsdfValue v = offset.bsdf.evaluate(offset.to_previous, *to_next);
-    if (!(v.pdf_w > 0) || is_black(v.f_cos))
+    const glm::vec3 copied = carry(base.frame, offset.frame, half);
+    auto to_next =
+        refracts ? refract(offset.to_previous, copied, offset_index) : reflect(offset.to_previous, copied);
+    // If it does not go to the same side as the base's, the way back would not find this half vector.
+    if (!to_next || refracts != (to_next->z * offset.to_previous.z < 0))
         return {};
     const float jacobian = half_vector_jacobian(base.to_previous, base_to_next, half, base_index) /
                            half_vector_jacobian(offset.to_previous, *to_next, copied, offset_index);
+    if (goes_across)
+        to_next = across(*to_next);
+    const BsdfValue v = offset.bsdf.evaluate(offset.to_previous, *to_next);
+    if (!(v.pdf_w > 0) || is_black(v.f_cos))
+        return {};
     if (!(jacobian > 0) || !std::isfinite(jacobian))
         return {};
     return CopiedScatter{*to_next, v.f_cos, v.pdf_w, jacobian};

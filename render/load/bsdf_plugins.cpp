@@ -24,6 +24,8 @@ constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
     {"plastic", read_plastic},
     {"roughplastic", read_rough_plastic},
     {"phong", read_phong},
+    {"principled", read_principled},
+    {"principledthin", read_thin_principled},
     {"twosided", read_twosided},
     {"mask", read_mask},
     {"bumpmap", read_bump_map},

@@ -19,6 +19,9 @@ Material read_plastic(LoadContext& context, Properties& p);
 Material read_rough_plastic(LoadContext& context, Properties& p);
 Material read_phong(LoadContext& context, Properties& p);
 
+Material read_principled(LoadContext& context, Properties& p);
+Material read_thin_principled(LoadContext& context, Properties& p);
+
 Material read_twosided(LoadContext& context, Properties& p);
 Material read_mask(LoadContext& context, Properties& p);
 Material read_bump_map(LoadContext& context, Properties& p);

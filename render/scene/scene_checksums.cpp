@@ -95,6 +95,8 @@ private:
     void take(const PhongMaterial& material);
     void take(const MixtureMaterial& material);
     void take(const CoatedMaterial& material);
+    void take(const PrincipledMaterial& material);
+    void take(const ThinPrincipledMaterial& material);
     void take(const Relief& relief);
     void take(const Material& material);
     void take(const AreaLight& light);
@@ -180,6 +182,19 @@ void SceneDigest::take(const MixtureMaterial& material) {
 void SceneDigest::take(const CoatedMaterial& material) {
     const auto& [eta, thickness, sigma_a, specular_reflectance, base] = material;
     add(eta, thickness, sigma_a, specular_reflectance, base);
+}
+
+void SceneDigest::take(const PrincipledMaterial& material) {
+    const auto& [base_color, roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
+                 clearcoat, clearcoat_gloss, eta] = material;
+    add(base_color, roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
+        clearcoat, clearcoat_gloss, eta);
+}
+
+void SceneDigest::take(const ThinPrincipledMaterial& material) {
+    const auto& [base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness,
+                 diff_trans] = material;
+    add(base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, diff_trans);
 }
 
 void SceneDigest::take(const Relief& relief) {

@@ -93,6 +93,16 @@ Lobes lobes(const CoatedMaterial& m) {
     return all;
 }
 
+Lobes lobes(const PrincipledMaterial& m) {
+    const float rough = least_red(m.roughness);
+    return {false, rough * rough < glossy_alpha || !m.clearcoat.is_black(), !m.spec_trans.is_black()};
+}
+Lobes lobes(const ThinPrincipledMaterial& m) {
+    const float rough = least_red(m.roughness);
+    return {false, !m.spec_trans.is_black() && rough * rough < glossy_alpha,
+            !m.spec_trans.is_black() || !m.diff_trans.is_black()};
+}
+
 Lobes lobes_of(const Material& m) {
     return std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
 }

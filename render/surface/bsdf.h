@@ -1,8 +1,8 @@
 #pragma once
 
 #include "render/surface/diffuse.h"
+#include "render/surface/further_kinds.h"
 #include "render/surface/interfaces.h"
-#include "render/surface/layered.h"
 #include "render/surface/plastic.h"
 #include "render/surface/scattering.h"
 
@@ -24,7 +24,7 @@ namespace tessera {
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
     std::variant<Diffuse, RoughDiffuse, RoughConductor, SmoothConductor, SmoothDielectric, RoughDielectric,
-                 ThinDielectric, Plastic, Phong, Mixture, Coated>
+                 ThinDielectric, Plastic, Phong, FurtherKinds>
         kind = Diffuse{};
 
     /// The normal before relief bent the frame, in the frame. What is above the one surface and below the other is
@@ -61,14 +61,7 @@ struct Bsdf {
     /// Where light is scattered through the surface: index on the far side over that on the side of to_previous,
     /// by which such scatters have their half vector. 1: the non-delta part transmits nothing.
     float relative_index(glm::vec3 to_previous) const {
-        return std::visit(
-            [&](const auto& b) {
-                if constexpr (requires { b.relative_index(to_previous); })
-                    return b.relative_index(to_previous);
-                else
-                    return 1.0f;
-            },
-            kind);
+        return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
     }
 
 private:
@@ -83,8 +76,7 @@ private:
 /// What kind of BSDF it is, in the words of scene files, such as "diffuse" or "roughconductor".
 std::string_view kind_name(const Bsdf& bsdf);
 
-// Paths are made of these: plain numbers, and no more of them than a plastic takes. (libstdc++ visits up to 11
-// alternatives by a switch, more through a table of pointers.)
+// Paths are made of these: plain numbers, and no more of them than a plastic takes.
 static_assert(std::is_trivially_copyable_v<Bsdf>);
 static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 16);
 

@@ -9,12 +9,6 @@ namespace tessera {
 
 namespace {
 
-/// A texture of which the luminance counts; quick where it is constant, and then grey.
-float scalar(const Texture& texture, const SurfacePoint& at) {
-    const Rgb* constant = std::get_if<Rgb>(&texture.kind);
-    return constant ? constant->r : luminance(texture.evaluate(at));
-}
-
 /// A texture of shares of light. Above 1, which only files of floats and scaled textures are, it makes energy, as
 /// in Mitsuba 3.
 Rgb share(const Texture& texture, const SurfacePoint& at) {
@@ -22,7 +16,7 @@ Rgb share(const Texture& texture, const SurfacePoint& at) {
 }
 
 Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
-    const float alpha = scalar(m.alpha, at);
+    const float alpha = m.alpha.scalar(at);
     if (alpha <= 0)
         return {Diffuse{share(m.reflectance, at)}};
     // RMS slope to the slope's angle, as Mitsuba has it.
@@ -32,9 +26,9 @@ Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
 /// The facets of a ConductorMaterial or DielectricMaterial; alpha = 0: smooth.
 template <class M>
 Microfacets facets_of(const M& m, const SurfacePoint& at) {
-    const float alpha = scalar(m.alpha, at);
+    const float alpha = m.alpha.scalar(at);
     if (m.alpha_v) {
-        const float along_v = scalar(*m.alpha_v, at);
+        const float along_v = m.alpha_v->scalar(at);
         if (std::max(alpha, along_v) > 0)
             return Microfacets::anisotropic(m.distribution, alpha, along_v);
     }
@@ -65,16 +59,24 @@ Bsdf resolve(const PlasticMaterial& m, const SurfacePoint& at) {
 }
 
 Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
-    return {Phong(std::max(scalar(m.exponent, at), 0.0f), share(m.diffuse_reflectance, at),
+    return {Phong(std::max(m.exponent.scalar(at), 0.0f), share(m.diffuse_reflectance, at),
                   share(m.specular_reflectance, at))};
 }
 
 Bsdf resolve(const MixtureMaterial& m, const SurfacePoint& at) {
-    return {Mixture{&m, at}};
+    return {FurtherKinds{Mixture{&m, at}}};
 }
 
 Bsdf resolve(const CoatedMaterial& m, const SurfacePoint& at) {
-    return {Coated{&m, at}};
+    return {FurtherKinds{Coated{&m, at}}};
+}
+
+Bsdf resolve(const PrincipledMaterial& m, const SurfacePoint& at) {
+    return {FurtherKinds{Principled{&m, at}}};
+}
+
+Bsdf resolve(const ThinPrincipledMaterial& m, const SurfacePoint& at) {
+    return {FurtherKinds{ThinPrincipled{&m, at}}};
 }
 
 std::vector<const Texture*> textures(const DiffuseMaterial& m) {
@@ -108,6 +110,15 @@ std::vector<const Texture*> textures(const CoatedMaterial& m) {
     return all;
 }
 
+std::vector<const Texture*> textures(const PrincipledMaterial& m) {
+    return {&m.base_color, &m.roughness,  &m.anisotropic, &m.metallic,  &m.spec_trans,     &m.spec_tint,
+            &m.sheen,      &m.sheen_tint, &m.flatness,    &m.clearcoat, &m.clearcoat_gloss};
+}
+std::vector<const Texture*> textures(const ThinPrincipledMaterial& m) {
+    return {&m.base_color, &m.roughness, &m.anisotropic, &m.spec_trans, &m.eta,
+            &m.spec_tint,  &m.sheen,     &m.sheen_tint,  &m.flatness,   &m.diff_trans};
+}
+
 bool is_anisotropic(const ConductorMaterial& m) {
     return m.alpha_v.has_value();
 }
@@ -123,6 +134,13 @@ bool is_anisotropic(const CoatedMaterial& m) {
 template <class M>
 bool is_anisotropic(const M&) {
     return false;
+}
+
+bool is_anisotropic(const PrincipledMaterial& m) {
+    return !m.anisotropic.is_black();
+}
+bool is_anisotropic(const ThinPrincipledMaterial& m) {
+    return !m.anisotropic.is_black();
 }
 
 } // namespace
@@ -156,7 +174,10 @@ bool Material::is_transparent() const {
     if (const auto* mixture = std::get_if<MixtureMaterial>(&kind))
         return std::any_of(mixture->parts.begin(), mixture->parts.end(),
                            [](const auto& part) { return part->is_transparent(); });
-    return std::holds_alternative<DielectricMaterial>(kind);
+    if (const auto* principled = std::get_if<PrincipledMaterial>(&kind))
+        return !principled->spec_trans.is_black();
+    return std::holds_alternative<DielectricMaterial>(kind) ||
+           std::holds_alternative<ThinPrincipledMaterial>(kind);
 }
 
 Bsdf Material::resolve(const SurfacePoint& at) const {

@@ -79,6 +79,36 @@ struct CoatedMaterial {
     std::shared_ptr<const Material> base; ///< opaque, not null
 };
 
+/// Disney's principled BSDF [Burley 2012, 2015]. All but the colour count by their luminance, and are in [0, 1].
+struct PrincipledMaterial {
+    Texture base_color{Rgb(0.5f)};
+    Texture roughness{Rgb(0.5f)}; ///< root of the facets' alpha
+    Texture anisotropic{Rgb(0)};
+    Texture metallic{Rgb(0)};
+    Texture spec_trans{Rgb(0)}; ///< share of what is not metal that is glass
+    Texture spec_tint{Rgb(0)};  ///< how far the dielectric's reflection has the colour's hue
+    Texture sheen{Rgb(0)};
+    Texture sheen_tint{Rgb(0)};
+    Texture flatness{Rgb(0)}; ///< how far the diffuse base looks like a scattering medium
+    Texture clearcoat{Rgb(0)};
+    Texture clearcoat_gloss{Rgb(0)};
+    float eta = 1.5f; ///< inside over outside; not 1 where there is spec_trans
+};
+
+/// The same of a sheet without thickness.
+struct ThinPrincipledMaterial {
+    Texture base_color{Rgb(0.5f)};
+    Texture roughness{Rgb(0.5f)};
+    Texture anisotropic{Rgb(0)};
+    Texture spec_trans{Rgb(0)};
+    Texture eta{Rgb(1.5f)}; ///< of the sheet over that around it
+    Texture spec_tint{Rgb(0)};
+    Texture sheen{Rgb(0)};
+    Texture sheen_tint{Rgb(0)};
+    Texture flatness{Rgb(0)};
+    Texture diff_trans{Rgb(0)}; ///< in [0, 2]: twice the share of the diffuse light that goes through
+};
+
 /// What bends the normals of shading.
 struct Relief {
     enum class Kind : std::uint8_t {
@@ -95,7 +125,7 @@ struct Relief {
 struct Material {
     std::string name;
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, PlasticMaterial, PhongMaterial,
-                 MixtureMaterial, CoatedMaterial>
+                 MixtureMaterial, CoatedMaterial, PrincipledMaterial, ThinPrincipledMaterial>
         kind;
     bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
     std::optional<Texture> opacity{}; ///< share of light that meets the surface at all (luminance); nothing: all

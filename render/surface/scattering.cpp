@@ -48,13 +48,17 @@ namespace {
 
 constexpr std::string_view kind_names[] = {"diffuse",    "roughdiffuse",    "roughconductor", "conductor",
                                            "dielectric", "roughdielectric", "thindielectric", "plastic",
-                                           "phong",      "mixture",         "coating"}; // of Bsdf::kind
-static_assert(std::size(kind_names) == std::variant_size_v<decltype(Bsdf::kind)>);
+                                           "phong"}; // of Bsdf::kind but its last
+static_assert(std::size(kind_names) + 1 == std::variant_size_v<decltype(Bsdf::kind)>);
+
+constexpr std::string_view further_names[] = {"mixture", "coating", "principled", "principledthin"};
+static_assert(std::size(further_names) == std::variant_size_v<decltype(FurtherKinds::kind)>);
 
 } // namespace
 
 std::string_view kind_name(const Bsdf& bsdf) {
-    return kind_names[bsdf.kind.index()];
+    const auto* further = std::get_if<FurtherKinds>(&bsdf.kind);
+    return further ? further_names[further->kind.index()] : kind_names[bsdf.kind.index()];
 }
 
 float Bsdf::shadowing(glm::vec3 to_next) const {

@@ -49,6 +49,11 @@ inline glm::vec3 reflect(glm::vec3 d, glm::vec3 half) {
     return 2 * glm::dot(d, half) * half - d;
 }
 
+/// To the other side of the surface, by a mirror in it.
+inline glm::vec3 across(glm::vec3 d) {
+    return {d.x, d.y, -d.z};
+}
+
 /// Bends a direction, away from the surface, at a facet of unit normal `half` on either side by Snell's law. Away
 /// from the surface again; nothing: total reflection.
 /// @param eta index beyond the facet over that on the side of d

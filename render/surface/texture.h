@@ -55,12 +55,19 @@ struct Texture {
 
     Rgb evaluate(const SurfacePoint& at) const;
 
+    /// Its luminance; quick where it is constant, and then the red channel: it is grey.
+    float scalar(const SurfacePoint& at) const {
+        const Rgb* constant = std::get_if<Rgb>(&kind);
+        return constant ? constant->r : luminance(evaluate(at));
+    }
+
     /// Derivatives of the luminance by u and v. 0 for all but bitmaps: a checkerboard has only steps.
     glm::vec2 gradient(const SurfacePoint& at) const;
 
     /// The mean over uv in [0, 1]^2 before to_uv; of vertex colours white.
     Rgb mean() const;
 
+    bool is_black() const { return is_constant() && std::get<Rgb>(kind) == Rgb(0); }
     bool is_constant() const { return std::holds_alternative<Rgb>(kind); }
 };
 

@@ -154,11 +154,43 @@ TEST(BsdfPlugins, AnisotropicRoughness) {
     EXPECT_FLOAT_EQ(std::get<RoughDielectric>(textured.material.resolve({}).kind).facets.alpha, 0.2f);
     // Inside of others, and where there is nothing to it.
     const std::string brushed = around("roughconductor", both);
-    EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + brushed)), "0.6.0").material.is_anisotropic());
+    EXPECT_TRUE(
+        read(around("coating", around("blendbsdf", diffuse + brushed)), "0.6.0").material.is_anisotropic());
     const std::string alike = "<float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>";
     EXPECT_FALSE(read(around("roughconductor", alike)).material.is_anisotropic());
     EXPECT_EQ(read(around("roughplastic", both), "0.6.0").notes,
               "the anisotropic roughness is replaced by its geometric mean\n");
+}
+
+TEST(BsdfPlugins, Principled) {
+    const Read plain = read("<bsdf type='principled'/>");
+    EXPECT_EQ(plain.notes, "");
+    const auto& m = std::get<PrincipledMaterial>(plain.material.kind);
+    EXPECT_NEAR(m.eta, 1.5f, 1e-6f); // specular is 0.5
+    EXPECT_EQ(m.base_color.evaluate({}), Rgb(0.5f));
+    EXPECT_FALSE(plain.material.is_transparent() || plain.material.is_textured() ||
+                 plain.material.is_anisotropic());
+    EXPECT_EQ(plain.material.resolve({}).roughness(), 1);
+    const Read glass = read("<bsdf type='principled'><rgb name='base_color' value='0.2, 0.4, 0.6'/>"
+                            "<texture type='checkerboard' name='roughness'/><float name='spec_trans' value='1'/>"
+                            "<float name='eta' value='1'/><float name='anisotropic' value='0.5'/>"
+                            "<float name='clearcoat_sampling_rate' value='2'/></bsdf>");
+    EXPECT_EQ(glass.notes, "");
+    EXPECT_TRUE(glass.material.is_transparent() && glass.material.is_textured());
+    EXPECT_TRUE(glass.material.is_anisotropic());
+    EXPECT_FLOAT_EQ(std::get<PrincipledMaterial>(glass.material.kind).eta, 1.001f);
+    EXPECT_LT(glass.material.resolve({}).roughness(), 0.3f); // of facets
+    EXPECT_EQ(kind_name(glass.material.resolve({})), "principled");
+    EXPECT_EQ(read(around("twosided", "<bsdf type='principledthin'/>")).notes,
+              "'twosided' means nothing around a transparent material\n");
+    const Read bright = read("<bsdf type='principled'><float name='sheen' value='2'/></bsdf>");
+    EXPECT_EQ(std::get<PrincipledMaterial>(bright.material.kind).sheen.scalar({}), 1);
+    EXPECT_NE(bright.notes, "");
+    const Read thin = read("<bsdf type='principledthin'><texture type='checkerboard' name='eta'/>"
+                           "<float name='diff_trans' value='1.5'/></bsdf>");
+    EXPECT_EQ(thin.notes, "");
+    EXPECT_TRUE(thin.material.is_transparent() && thin.material.is_textured());
+    EXPECT_EQ(std::get<ThinPrincipledMaterial>(thin.material.kind).diff_trans.scalar({}), 1.5f);
 }
 
 TEST(BsdfPlugins, Phong) {
@@ -305,6 +337,18 @@ TEST(BsdfPlugins, BadValues) {
         {"<bsdf type='roughconductor'><texture type='checkerboard' name='alpha_u'/><float name='alpha_v' "
          "value='-1'/></bsdf>",
          "2:103: 'alpha_v' must not be negative"},
+        {"<bsdf type='principled'><float name='roughness' value='-1'/></bsdf>",
+         "2:56: 'roughness' must not be negative"},
+        {"<bsdf type='principled'><float name='eta' value='0'/></bsdf>",
+         "2:50: an index of refraction must be above 0"},
+        {"<bsdf type='principled'><float name='specular' value='13'/></bsdf>",
+         "2:55: 'specular' must be at least 0 and below 12.5"},
+        {"<bsdf type='principled'><float name='eta' value='2'/><float name='specular' value='0.2'/></bsdf>",
+         "2:54: 'principled' takes 'eta' or 'specular', not both"},
+        {"<bsdf type='principledthin'><float name='eta' value='-1'/></bsdf>",
+         "2:54: an index of refraction must be above 0"},
+        {"<bsdf type='principledthin'><float name='diff_trans' value='3'/></bsdf>",
+         "2:61: 'diff_trans' must be from 0 to 2"},
         {"<bsdf type='phong'><float name='exponent' value='-1'/></bsdf>", "2:50: 'exponent' must not be negative"},
         {"<bsdf type='blendbsdf'>" + diffuse + "</bsdf>", "2:1: 'blendbsdf' needs two nested <bsdf>"},
         {"<bsdf type='blendbsdf'><rgb name='weight' value='-1'/>" + diffuse + glass + "</bsdf>",

@@ -116,6 +116,29 @@ std::shared_ptr<const Scene> glossy_second_vertex() {
     return b.build();
 }
 
+/// All lobes of the principled BSDFs: on the floor a coat over base and metal, a ball of frosted glass, a sheet.
+std::shared_ptr<const Scene> principled(float metallic, float spec_trans, float of_sheet) {
+    Room r;
+    PrincipledMaterial floor;
+    floor.base_color = Texture(Rgb(0.7f, 0.5f, 0.2f));
+    floor.roughness = Texture(Rgb(0.4f));
+    floor.anisotropic = Texture(Rgb(0.7f));
+    floor.metallic = Texture(Rgb(metallic));
+    floor.sheen = floor.sheen_tint = floor.flatness = floor.spec_tint = Texture(Rgb(0.5f));
+    floor.clearcoat = Texture(Rgb(1));
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.material({"floor", floor, true}));
+    PrincipledMaterial ball;
+    ball.base_color = Texture(Rgb(0.6f, 0.8f, 0.9f));
+    ball.spec_trans = Texture(Rgb(spec_trans));
+    r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.material({"ball", ball, false}));
+    ThinPrincipledMaterial sheet;
+    sheet.base_color = Texture(Rgb(0.8f, 0.7f, 0.5f));
+    sheet.spec_trans = Texture(Rgb(of_sheet));
+    sheet.diff_trans = Texture(Rgb(0.9f));
+    r.quad({0, -0.9f, 0.3f}, {0.8f, 0, 0.2f}, {0, 1.4f, 0}, r.material({"sheet", sheet, false}));
+    return r.build();
+}
+
 /// Two balls of different indices: light goes through one, both, or from one to the other.
 std::shared_ptr<const Scene> rough_glass() {
     Room r;
@@ -196,6 +219,8 @@ std::vector<TestScene> all_test_scenes() {
         {"glossy_second_vertex", glossy_second_vertex(), 3, 0.1f, 4},
         {"rough_glass", rough_glass(), 7},
         {"rough_glass_half_vectors", rough_glass(), 7, 0.25f},
+        {"principled", principled(0.3f, 0.7f, 0.4f), 6},
+        {"principled_half_vectors", principled(1, 1, 1), 6, 0.4f},
         {"blends", blends(), 6},
         {"blends_half_vectors", blends(), 6, 0.35f},
         {"coated", coated(), 5},

@@ -22,6 +22,7 @@ struct Case {
     const char* name;
     std::function<Bsdf()> bsdf;
     float eta = 1;
+    bool is_sheet = false; ///< transmits without bending
 
     /// The index over that above the surface, on the side of d.
     float index(glm::vec3 d) const { return d.z > 0 ? 1 : eta; }
@@ -99,6 +100,38 @@ inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<
 
 inline CoatedMaterial coated(std::shared_ptr<const Material> base, Rgb sigma_a, Rgb specular = Rgb(1)) {
     return {1.5f, 0.7f, {sigma_a}, {specular}, std::move(base)};
+}
+
+/// With all lobes.
+inline PrincipledMaterial principled(float metallic, float spec_trans) {
+    PrincipledMaterial m;
+    m.base_color = Texture(Rgb(0.8f, 0.4f, 0.2f));
+    m.roughness = Texture(Rgb(0.4f));
+    m.anisotropic = Texture(Rgb(0.6f));
+    m.metallic = Texture(Rgb(metallic));
+    m.spec_trans = Texture(Rgb(spec_trans));
+    m.spec_tint = Texture(Rgb(0.5f));
+    m.sheen = Texture(Rgb(0.6f));
+    m.sheen_tint = Texture(Rgb(0.4f));
+    m.flatness = Texture(Rgb(0.3f));
+    m.clearcoat = Texture(Rgb(0.8f));
+    m.clearcoat_gloss = Texture(Rgb(0.2f));
+    return m;
+}
+
+inline ThinPrincipledMaterial thin_principled(float spec_trans, float diff_trans) {
+    ThinPrincipledMaterial m;
+    m.base_color = Texture(Rgb(0.8f, 0.4f, 0.2f));
+    m.roughness = Texture(Rgb(0.6f));
+    m.anisotropic = Texture(Rgb(0.4f));
+    m.spec_trans = Texture(Rgb(spec_trans));
+    m.eta = Texture(Rgb(1.4f));
+    m.spec_tint = Texture(Rgb(0.5f));
+    m.sheen = Texture(Rgb(0.6f));
+    m.sheen_tint = Texture(Rgb(0.3f));
+    m.flatness = Texture(Rgb(0.3f));
+    m.diff_trans = Texture(Rgb(diff_trans));
+    return m;
 }
 
 /// The BSDF of a material that lives as long as the program.
