@@ -32,6 +32,9 @@ std::string kind_of(const Material& m) {
         std::string operator()(const PhongMaterial&) const { return "phong"; }
         std::string operator()(const PrincipledMaterial&) const { return "principled"; }
         std::string operator()(const ThinPrincipledMaterial&) const { return "principledthin"; }
+        std::string operator()(const WardMaterial&) const { return "ward"; }
+        std::string operator()(const DiffuseTransmitterMaterial&) const { return "difftrans"; }
+        std::string operator()(const MediumLayerMaterial&) const { return "hk"; }
         std::string operator()(const MixtureMaterial& m) const {
             return m.second_share ? "blendbsdf" : "mixturebsdf";
         }

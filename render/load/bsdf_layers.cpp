@@ -136,6 +136,21 @@ bool share_refraction(Material& material, std::optional<DielectricMaterial>& fir
     return changed;
 }
 
+/// Leaves out what goes straight through layers, beside which light that is bent would have a second direction.
+/// @return whether there was any
+bool leave_out_straight_light(Material& material) {
+    if (auto* layer = std::get_if<MediumLayerMaterial>(&material.kind))
+        return std::exchange(layer->is_clear, false);
+    bool changed = false;
+    if (auto* mixture = std::get_if<MixtureMaterial>(&material.kind))
+        for (std::shared_ptr<const Material>& part : mixture->parts) {
+            Material copy = *part;
+            changed |= leave_out_straight_light(copy);
+            part = std::make_shared<const Material>(std::move(copy));
+        }
+    return changed;
+}
+
 constexpr int most_parts = 256; // each is evaluated at every scattering
 
 /// How many BSDFs a material is made of, however they are nested; not many more than most_parts are counted.
@@ -163,6 +178,8 @@ Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlEl
         mixture.parts.push_back(std::make_shared<const Material>(std::move(part)));
     }
     Material material{{}, mixture};
+    if (first && !first->thin && leave_out_straight_light(material))
+        p.note("the light that 'hk' lets through unscattered is left out beside that bent by glass");
     if (count_parts(material) > most_parts)
         p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(most_parts) +
                          " BSDFs, those of its parts and theirs counted each time");

@@ -23,7 +23,11 @@ constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
     {"thindielectric", read_thin_dielectric},
     {"plastic", read_plastic},
     {"roughplastic", read_rough_plastic},
+    {"pplastic", read_polarizing_plastic},
     {"phong", read_phong},
+    {"ward", read_ward},
+    {"difftrans", read_diffuse_transmitter},
+    {"hk", read_medium_layer},
     {"principled", read_principled},
     {"principledthin", read_thin_principled},
     {"twosided", read_twosided},
@@ -148,7 +152,11 @@ MicrofacetDistribution distribution_parameter(Properties& p) {
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (name == "ggx")
         return MicrofacetDistribution::ggx;
-    if (name != "beckmann")
+    if (name == "phong" || name == "as")
+        // Both have cosines to a power, which follows from alpha so that they look alike [Walter 2007, 5.2].
+        p.note(*p.take("distribution"),
+               "the distribution '" + name + "' is replaced by 'beckmann' of the same 'alpha'");
+    else if (name != "beckmann")
         p.note(*p.take("distribution"), "the distribution '" + name + "' is replaced by 'beckmann'");
     return MicrofacetDistribution::beckmann;
 }

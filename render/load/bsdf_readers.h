@@ -17,7 +17,11 @@ Material read_rough_dielectric(LoadContext& context, Properties& p);
 Material read_thin_dielectric(LoadContext& context, Properties& p);
 Material read_plastic(LoadContext& context, Properties& p);
 Material read_rough_plastic(LoadContext& context, Properties& p);
+Material read_polarizing_plastic(LoadContext& context, Properties& p);
 Material read_phong(LoadContext& context, Properties& p);
+Material read_ward(LoadContext& context, Properties& p);
+Material read_diffuse_transmitter(LoadContext& context, Properties& p);
+Material read_medium_layer(LoadContext& context, Properties& p);
 
 Material read_principled(LoadContext& context, Properties& p);
 Material read_thin_principled(LoadContext& context, Properties& p);

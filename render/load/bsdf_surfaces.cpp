@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -28,15 +29,20 @@ ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
 }
 
 /// What plastic and roughplastic share, a coating of roughness `alpha`.
-Material plastic_of(LoadContext& context, Properties& p, Microfacets facets) {
+Material plastic_of(LoadContext& context, Properties& p, Microfacets facets, bool scatters_once = false) {
     PlasticMaterial plastic;
+    plastic.scatters_once = scatters_once;
     plastic.eta = index_parameter(p, "int_ior", "polypropylene") / index_parameter(p, "ext_ior", "air");
     plastic.nonlinear = p.boolean("nonlinear", false);
     plastic.facets = facets;
-    auto& coating = context.coatings[{plastic.eta, facets.distribution, facets.alpha}];
-    if (!coating)
-        coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
-    plastic.coating = coating;
+    if (scatters_once) {
+        plastic.coating = std::make_shared<const Coating>(Coating::without_bounces(plastic.eta));
+    } else {
+        auto& coating = context.coatings[{plastic.eta, facets.distribution, facets.alpha}];
+        if (!coating)
+            coating = std::make_shared<const Coating>(plastic.eta, facets.distribution, facets.alpha);
+        plastic.coating = coating;
+    }
     plastic.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
     plastic.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(1));
     return {{}, plastic};
@@ -110,14 +116,41 @@ Material read_plastic(LoadContext& context, Properties& p) {
     return plastic_of(context, p, {MicrofacetDistribution::beckmann, 0});
 }
 
-Material read_rough_plastic(LoadContext& context, Properties& p) {
+namespace {
+
+/// The facets of a plastic, of one roughness.
+Microfacets facets_parameter(LoadContext& context, Properties& p) {
     const Texture alpha = isotropic_alpha_parameter(context, p);
     if (!alpha.is_constant())
         p.note("the texture of 'alpha' is replaced by 0.1");
     const float constant = alpha.is_constant() ? std::get<Rgb>(alpha.kind).r : 0.1f;
     p.ignore({"sample_visible"}); // visible normals are always sampled
-    return plastic_of(context, p, {distribution_parameter(p), std::max(constant, smallest_alpha)});
+    return {distribution_parameter(p), std::max(constant, smallest_alpha)};
 }
+
+} // namespace
+
+Material read_rough_plastic(LoadContext& context, Properties& p) {
+    return plastic_of(context, p, facets_parameter(context, p));
+}
+
+Material read_polarizing_plastic(LoadContext& context, Properties& p) {
+    p.note("the polarisation of 'pplastic' is left out");
+    return plastic_of(context, p, facets_parameter(context, p), true);
+}
+
+namespace {
+
+/// Says so where a lobe and a diffuse part together would make light.
+void note_if_scaled(const Properties& p, const Texture& diffuse, const Texture& specular) {
+    if (!diffuse.is_constant() || !specular.is_constant())
+        return;
+    const Rgb sum = std::get<Rgb>(diffuse.kind) + std::get<Rgb>(specular.kind);
+    if (std::max({sum.r, sum.g, sum.b}) > 1)
+        p.note("the two reflectances are above 1 together and scaled down to it");
+}
+
+} // namespace
 
 Material read_phong(LoadContext& context, Properties& p) {
     PhongMaterial phong;
@@ -127,14 +160,26 @@ Material read_phong(LoadContext& context, Properties& p) {
         p.take("exponent")->fail("'exponent' must not be negative", "value");
     phong.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
     phong.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(0.2f));
-    const Rgb* diffuse = std::get_if<Rgb>(&phong.diffuse_reflectance.kind);
-    const Rgb* specular = std::get_if<Rgb>(&phong.specular_reflectance.kind);
-    if (diffuse && specular) {
-        const Rgb sum = *diffuse + *specular;
-        if (std::max({sum.r, sum.g, sum.b}) > 1)
-            p.note("the two reflectances are above 1 together and scaled down to it");
-    }
+    note_if_scaled(p, phong.diffuse_reflectance, phong.specular_reflectance);
     return {{}, phong};
+}
+
+Material read_ward(LoadContext& context, Properties& p) {
+    WardMaterial ward;
+    const std::string variant = p.text("variant", "balanced");
+    if (variant == "ward")
+        ward.variant = WardVariant::ward;
+    else if (variant == "ward-duer")
+        ward.variant = WardVariant::duer;
+    else if (variant != "balanced")
+        p.take("variant")->fail("'variant' must be 'ward', 'ward-duer' or 'balanced'", "value");
+    auto [alpha, alpha_v] = alpha_parameter(context, p);
+    ward.alpha = std::move(alpha);
+    ward.alpha_v = std::move(alpha_v);
+    ward.diffuse_reflectance = reflectance_parameter(context, p, "diffuse_reflectance", Rgb(0.5f));
+    ward.specular_reflectance = reflectance_parameter(context, p, "specular_reflectance", Rgb(0.2f));
+    note_if_scaled(p, ward.diffuse_reflectance, ward.specular_reflectance);
+    return {{}, ward};
 }
 
 } // namespace tessera

@@ -97,6 +97,9 @@ private:
     void take(const CoatedMaterial& material);
     void take(const PrincipledMaterial& material);
     void take(const ThinPrincipledMaterial& material);
+    void take(const WardMaterial& material);
+    void take(const DiffuseTransmitterMaterial& material);
+    void take(const MediumLayerMaterial& material);
     void take(const Relief& relief);
     void take(const Material& material);
     void take(const AreaLight& light);
@@ -165,8 +168,10 @@ void SceneDigest::take(const DielectricMaterial& material) {
 
 void SceneDigest::take(const PlasticMaterial& material) {
     // The coating is a table of eta and facets.
-    const auto& [eta, nonlinear, facets, coating, diffuse_reflectance, specular_reflectance] = material;
+    const auto& [eta, nonlinear, facets, coating, diffuse_reflectance, specular_reflectance, scatters_once] =
+        material;
     add(eta, nonlinear, facets, diffuse_reflectance, specular_reflectance);
+    add_if_there(scatters_once, scatters_once);
 }
 
 void SceneDigest::take(const PhongMaterial& material) {
@@ -195,6 +200,21 @@ void SceneDigest::take(const ThinPrincipledMaterial& material) {
     const auto& [base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness,
                  diff_trans] = material;
     add(base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, diff_trans);
+}
+
+void SceneDigest::take(const WardMaterial& material) {
+    const auto& [variant, alpha, alpha_v, diffuse_reflectance, specular_reflectance] = material;
+    add(variant, alpha, alpha_v, diffuse_reflectance, specular_reflectance);
+}
+
+void SceneDigest::take(const DiffuseTransmitterMaterial& material) {
+    const auto& [transmittance] = material;
+    add(transmittance);
+}
+
+void SceneDigest::take(const MediumLayerMaterial& material) {
+    const auto& [scattered, lost, by_share, thickness, g, is_clear] = material;
+    add(scattered, lost, by_share, thickness, g, is_clear);
 }
 
 void SceneDigest::take(const Relief& relief) {

@@ -103,6 +103,16 @@ Lobes lobes(const ThinPrincipledMaterial& m) {
             !m.spec_trans.is_black() || !m.diff_trans.is_black()};
 }
 
+Lobes lobes(const WardMaterial&) {
+    return {}; // as Phong's
+}
+Lobes lobes(const DiffuseTransmitterMaterial&) {
+    return {false, false, true};
+}
+Lobes lobes(const MediumLayerMaterial&) {
+    return {true, false, true};
+}
+
 Lobes lobes_of(const Material& m) {
     return std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
 }

@@ -3,6 +3,8 @@
 #include "render/surface/layered.h"
 #include "render/surface/principled.h"
 #include "render/surface/scattering.h"
+#include "render/surface/translucent.h"
+#include "render/surface/ward.h"
 
 #include <optional>
 #include <string_view>
@@ -26,7 +28,7 @@ float relative_index_of(const Kind& kind, glm::vec3 to_previous) {
 /// visits up to 11 by a switch, and more through a table of pointers, for which all kinds would pay. What needs
 /// more numbers than a Bsdf has room for looks them up in its material whenever it is asked.
 struct FurtherKinds {
-    std::variant<Mixture, Coated, Principled, ThinPrincipled> kind;
+    std::variant<Mixture, Coated, Principled, ThinPrincipled, Ward, DiffuseTransmitter, MediumLayer> kind;
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
         return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);

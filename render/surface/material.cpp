@@ -79,6 +79,26 @@ Bsdf resolve(const ThinPrincipledMaterial& m, const SurfacePoint& at) {
     return {FurtherKinds{ThinPrincipled{&m, at}}};
 }
 
+Bsdf resolve(const WardMaterial& m, const SurfacePoint& at) {
+    const glm::vec2 alpha(m.alpha.scalar(at), m.alpha_v ? m.alpha_v->scalar(at) : m.alpha.scalar(at));
+    return {FurtherKinds{Ward(m.variant, glm::max(alpha, smallest_alpha), share(m.diffuse_reflectance, at),
+                              share(m.specular_reflectance, at))}};
+}
+
+Bsdf resolve(const DiffuseTransmitterMaterial& m, const SurfacePoint& at) {
+    return {FurtherKinds{DiffuseTransmitter{share(m.transmittance, at)}}};
+}
+
+Bsdf resolve(const MediumLayerMaterial& m, const SurfacePoint& at) {
+    Rgb scattered = share(m.scattered, at), lost = share(m.lost, at); // of sigma_t the first is a part in any case
+    if (m.by_share)
+        scattered = glm::min(scattered, 1.0f) * lost;
+    else
+        lost += scattered;
+    const Rgb albedo = scattered / glm::max(lost, 1e-20f);
+    return {FurtherKinds{MediumLayer{albedo, lost * m.thickness, m.g, m.is_clear}}};
+}
+
 std::vector<const Texture*> textures(const DiffuseMaterial& m) {
     return {&m.reflectance, &m.alpha};
 }
@@ -119,6 +139,19 @@ std::vector<const Texture*> textures(const ThinPrincipledMaterial& m) {
             &m.spec_tint,  &m.sheen,     &m.sheen_tint,  &m.flatness,   &m.diff_trans};
 }
 
+std::vector<const Texture*> textures(const WardMaterial& m) {
+    return {&m.alpha, m.alpha_v ? &*m.alpha_v : &m.alpha, &m.diffuse_reflectance, &m.specular_reflectance};
+}
+std::vector<const Texture*> textures(const DiffuseTransmitterMaterial& m) {
+    return {&m.transmittance};
+}
+std::vector<const Texture*> textures(const MediumLayerMaterial& m) {
+    return {&m.scattered, &m.lost};
+}
+
+bool is_anisotropic(const WardMaterial& m) {
+    return m.alpha_v.has_value();
+}
 bool is_anisotropic(const ConductorMaterial& m) {
     return m.alpha_v.has_value();
 }
@@ -177,7 +210,9 @@ bool Material::is_transparent() const {
     if (const auto* principled = std::get_if<PrincipledMaterial>(&kind))
         return !principled->spec_trans.is_black();
     return std::holds_alternative<DielectricMaterial>(kind) ||
-           std::holds_alternative<ThinPrincipledMaterial>(kind);
+           std::holds_alternative<ThinPrincipledMaterial>(kind) ||
+           std::holds_alternative<DiffuseTransmitterMaterial>(kind) ||
+           std::holds_alternative<MediumLayerMaterial>(kind);
 }
 
 Bsdf Material::resolve(const SurfacePoint& at) const {

@@ -48,6 +48,7 @@ struct PlasticMaterial {
     std::shared_ptr<const Coating> coating;                  ///< of these eta and facets; not null
     Texture diffuse_reflectance{Rgb(0.5f)};
     Texture specular_reflectance{Rgb(1)};
+    bool scatters_once = false; ///< what the coating sends back to the base is lost
 };
 
 /// A diffuse part and a lobe about the mirror direction.
@@ -109,6 +110,30 @@ struct ThinPrincipledMaterial {
     Texture diff_trans{Rgb(0)}; ///< in [0, 2]: twice the share of the diffuse light that goes through
 };
 
+/// A diffuse part and a lobe about the mirror direction, stretched by grazing angles and along one direction.
+struct WardMaterial {
+    WardVariant variant = WardVariant::balanced;
+    Texture alpha{Rgb(0.1f)};         ///< by its luminance
+    std::optional<Texture> alpha_v{}; ///< roughness along v, `alpha` being that along u; nothing: the same
+    Texture diffuse_reflectance{Rgb(0.5f)};
+    Texture specular_reflectance{Rgb(0.2f)};
+};
+
+/// Lets diffuse light through, from both sides.
+struct DiffuseTransmitterMaterial {
+    Texture transmittance{Rgb(0.5f)};
+};
+
+/// A flat layer of a medium that scatters light once.
+struct MediumLayerMaterial {
+    Texture scattered{Rgb(0)}; ///< sigma_s, or its share of sigma_t
+    Texture lost{Rgb(0)};      ///< sigma_a, or sigma_t
+    bool by_share = false;     ///< whether these are the second of both
+    float thickness = 1;
+    float g = 0;          ///< mean cosine of scattering, in (-1, 1)
+    bool is_clear = true; ///< whether light that is not scattered goes on
+};
+
 /// What bends the normals of shading.
 struct Relief {
     enum class Kind : std::uint8_t {
@@ -125,7 +150,8 @@ struct Relief {
 struct Material {
     std::string name;
     std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, PlasticMaterial, PhongMaterial,
-                 MixtureMaterial, CoatedMaterial, PrincipledMaterial, ThinPrincipledMaterial>
+                 MixtureMaterial, CoatedMaterial, PrincipledMaterial, ThinPrincipledMaterial, WardMaterial,
+                 DiffuseTransmitterMaterial, MediumLayerMaterial>
         kind;
     bool two_sided = false; ///< the back looks like the front; otherwise the back of an opaque material is black
     std::optional<Texture> opacity{}; ///< share of light that meets the surface at all (luminance); nothing: all

@@ -94,6 +94,12 @@ Coating::Coating(float eta_, MicrofacetDistribution distribution, float alpha) :
     internal_reflectance = diffuse_reflectance_of(1 / eta, facets);
 }
 
+Coating Coating::without_bounces(float eta) {
+    Coating coating(eta, MicrofacetDistribution::beckmann, 0);
+    coating.internal_reflectance = 1 - 1 / (eta * eta); // by which both are undone in Plastic::base
+    return coating;
+}
+
 float Coating::transmittance(float cosine) const {
     const float scaled = std::clamp(cosine, 0.0f, 1.0f) * (resolution - 1);
     const int i = std::min(static_cast<int>(scaled), resolution - 2);

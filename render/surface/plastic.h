@@ -16,6 +16,10 @@ struct Coating {
     /// alpha = 0: a smooth boundary.
     Coating(float eta, MicrofacetDistribution distribution, float alpha);
 
+    /// A smooth one under which light is scattered once: as `pplastic` of Mitsuba 3 has it, where neither what is
+    /// sent back in counts nor that solid angles outside are larger.
+    static Coating without_bounces(float eta);
+
     float transmittance(float cosine) const;
 
     float eta;                           ///< index inside over outside

@@ -51,7 +51,8 @@ constexpr std::string_view kind_names[] = {"diffuse",    "roughdiffuse",    "rou
                                            "phong"}; // of Bsdf::kind but its last
 static_assert(std::size(kind_names) + 1 == std::variant_size_v<decltype(Bsdf::kind)>);
 
-constexpr std::string_view further_names[] = {"mixture", "coating", "principled", "principledthin"};
+constexpr std::string_view further_names[] = {"mixture", "coating",   "principled", "principledthin",
+                                              "ward",    "difftrans", "hk"};
 static_assert(std::size(further_names) == std::variant_size_v<decltype(FurtherKinds::kind)>);
 
 } // namespace

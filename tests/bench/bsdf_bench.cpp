@@ -15,7 +15,7 @@ using namespace tessera::test;
 struct Kind {
     const char* name;
     Bsdf bsdf;
-    float eta = 1; ///< index below the surface over that above; 1: nothing is transmitted
+    float eta = 1; ///< index below the surface over that above; 1: nothing is transmitted, -1: nothing is bent
 };
 
 std::vector<Kind> one_of_each_kind() {
@@ -33,6 +33,12 @@ std::vector<Kind> one_of_each_kind() {
             {"plastic", {plastic(ggx, 0, orange, false)}},
             {"rough_plastic", {plastic(ggx, 0.2f, orange, false)}},
             {"phong", {Phong(30, orange, Rgb(0.2f))}},
+            {"ward", {FurtherKinds{Ward(WardVariant::balanced, {0.1f, 0.2f}, orange, Rgb(0.2f))}}},
+            {"principled", resolved(PrincipledMaterial{})},
+            {"principled_all", resolved(principled(0.3f, 0.5f)), 1.5f},
+            {"thin_principled", resolved(thin_principled(0.4f, 0.8f)), -1},
+            {"difftrans", {FurtherKinds{DiffuseTransmitter{orange}}}, -1},
+            {"hk", {FurtherKinds{MediumLayer{orange, Rgb(0.5f), 0.5f, true}}}, -1},
             {"blend", resolved(blend(diffuse, metal, 0.3f))},
             {"coated_diffuse", resolved(coated(diffuse, Rgb(0.5f)))}};
 }

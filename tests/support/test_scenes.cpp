@@ -139,6 +139,28 @@ std::shared_ptr<const Scene> principled(float metallic, float spec_trans, float 
     return r.build();
 }
 
+std::shared_ptr<const Scene> ward() {
+    return room_with_floor([](SceneBuilder& b) {
+        WardMaterial m;
+        m.alpha_v = Texture(Rgb(0.3f));
+        m.diffuse_reflectance = Texture(Rgb(0));
+        m.specular_reflectance = Texture(Rgb(0.8f, 0.7f, 0.6f));
+        return b.material({"ward", m, true});
+    });
+}
+
+/// A lampshade, and before the wall a layer that scatters light forward, through which one sees.
+std::shared_ptr<const Scene> translucent() {
+    Room r;
+    r.sphere({-0.4f, 0.3f, 0}, 0.4f, r.material({"shade", DiffuseTransmitterMaterial{{Rgb(0.8f, 0.6f, 0.4f)}}}));
+    MediumLayerMaterial layer;
+    layer.scattered = Texture(Rgb(0.9f, 0.6f, 0.3f));
+    layer.lost = Texture(Rgb(0.1f));
+    layer.g = 0.6f;
+    r.quad({0, -0.9f, 0.3f}, {0.8f, 0, 0.2f}, {0, 1.4f, 0}, r.material({"layer", layer}));
+    return r.build();
+}
+
 /// Two balls of different indices: light goes through one, both, or from one to the other.
 std::shared_ptr<const Scene> rough_glass() {
     Room r;
@@ -221,6 +243,9 @@ std::vector<TestScene> all_test_scenes() {
         {"rough_glass_half_vectors", rough_glass(), 7, 0.25f},
         {"principled", principled(0.3f, 0.7f, 0.4f), 6},
         {"principled_half_vectors", principled(1, 1, 1), 6, 0.4f},
+        {"ward_half_vectors", ward(), 5, 0.5f},
+        {"translucent", translucent(), 6},
+        {"translucent_half_vectors", translucent(), 6, 0.5f},
         {"blends", blends(), 6},
         {"blends_half_vectors", blends(), 6, 0.35f},
         {"coated", coated(), 5},

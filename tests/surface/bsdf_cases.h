@@ -22,7 +22,8 @@ struct Case {
     const char* name;
     std::function<Bsdf()> bsdf;
     float eta = 1;
-    bool is_sheet = false; ///< transmits without bending
+    bool is_sheet = false;       ///< transmits without bending
+    bool transmits_alike = true; ///< both ways
 
     /// The index over that above the surface, on the side of d.
     float index(glm::vec3 d) const { return d.z > 0 ? 1 : eta; }
