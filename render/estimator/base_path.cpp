@@ -174,7 +174,7 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
 
 } // namespace
 
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
                      BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     ++tracer.counters.camera_paths;
@@ -184,7 +184,7 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_an
         return;
     }
     path.keep();
-    path.pixel_width = pixel_angle * glm::distance(camera_ray.origin, primary.vertex.position);
+    path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());

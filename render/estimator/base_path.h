@@ -87,8 +87,8 @@ private:
 
 /// Traces the path of one sample, with the numbers of `random`. Light paths have tracer.settings.max_depth edges
 /// at most, as in Mitsuba.
-/// @param pixel_angle  Projection::pixel_angle of the camera ray's picture
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, float pixel_angle, const Random& random,
+/// @param pixel_width  of the camera ray's picture
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
                      BasePath& path);
 
 /// Traces the path that takes the numbers of `random` from a vertex x_1 that the camera sees: random replay.

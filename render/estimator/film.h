@@ -88,7 +88,7 @@ public:
     /// is kept but its base luminance.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
-    /// Remembers the edges of lamps, if it keeps them: both sides of every step between pixels side by side of
+    /// Remembers more edges of lamps, if it keeps them: both sides of every step between pixels side by side of
     /// `lamps`, very direct light as large as the film. Not during a pass.
     void find_lamp_edges(const RgbImage& lamps);
     bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }

@@ -14,10 +14,10 @@ namespace {
 /// takes [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    const glm::vec2 subpixel = pass.subpixel_at({area.x0, area.y0});
+    const CameraSample from = pass.camera_sample({area.x0, area.y0});
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, subpixel, worker.path);
+            trace_pixel(pass, worker.tracer, x, y, from, worker.path);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }

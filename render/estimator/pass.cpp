@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 namespace tessera {
@@ -51,6 +52,12 @@ glm::vec2 subpixel_of(std::uint64_t seed, int index) {
     return {fraction(start.x + index * 0.7548776662466927), fraction(start.y + index * 0.5698402909980532)};
 }
 
+/// Multiples of the roots of primes [Richtmyer 1951], as the R2 sequence would go along with the subpixels.
+glm::vec2 lens_of(std::uint64_t seed, int index) {
+    const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(1, Draw::direction);
+    return {fraction(start.x + index * std::sqrt(2.0)), fraction(start.y + index * std::sqrt(3.0))};
+}
+
 constexpr int usual_block_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
 
 /// Blocks are whole tiles. Methods that have none have nothing to do with that setting.
@@ -73,7 +80,8 @@ Rgb light_along(const Ray& ray, const Tracer& tracer) {
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const ReusePlan& plan, int index_)
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
-      projection_(camera, size_), subpixel_(subpixel_of(settings_.seed, index_)) {}
+      projection_(camera, size_), has_lens_(camera.aperture_radius > 0),
+      subpixel_(subpixel_of(settings_.seed, index_)), lens_(lens_of(settings_.seed, index_)) {}
 
 glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
     // Of the four numbers of the R4 sequence, two for the column and two for the row.
@@ -82,24 +90,40 @@ glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
             fraction(subpixel_.y + block.x * 0.7338918566271260 + block.y * 0.5385972572236101)};
 }
 
+glm::vec2 Pass::lens_at(glm::ivec2 pixel) const {
+    const glm::dvec2 block = (pixel - block_origin(*this)) / block_edge(settings);
+    return {fraction(lens_.x + block.x * std::sqrt(5.0) + block.y * std::sqrt(11.0)),
+            fraction(lens_.y + block.x * std::sqrt(7.0) + block.y * std::sqrt(13.0))};
+}
+
+CameraSample Pass::camera_sample(glm::ivec2 pixel) const {
+    return {subpixel_at(pixel), sample_disk(lens_at(pixel))};
+}
+
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     const int n = settings.very_direct_grid;
-    const glm::vec2 in_cell = subpixel_at({x, y});
+    const auto cells = static_cast<float>(n);
+    const glm::vec2 in_cell = subpixel_at({x, y}), on_lens = lens_at({x, y});
     Rgb sum(0);
-    for (int i = 0; i < n * n; ++i)
-        sum += light_along(camera_ray(x, y, (glm::vec2(i % n, i / n) + in_cell) / static_cast<float>(n)), tracer);
+    for (int i = 0; i < n * n; ++i) {
+        // A row of cells of the pixel goes with a column of the lens; rotated by the block's own position, each
+        // cell sees all of the lens over the passes.
+        const glm::vec2 subpixel = (glm::vec2(i % n, i / n) + in_cell) / cells;
+        const glm::vec2 lens = sample_disk(glm::fract(on_lens + glm::vec2(i / n, i % n) / cells));
+        sum += light_along(camera_ray(x, y, {subpixel, lens}), tracer);
+    }
     return sum / static_cast<float>(n * n);
 }
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside) {
-    const glm::vec2 subpixel = pass.subpixel_at(inside);
+    const CameraSample from = pass.camera_sample(inside);
     rect_ = rect;
     const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     if (paths_.size() < count)
         paths_.resize(count);
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x)
-            trace_pixel(pass, tracer, x, y, subpixel, paths_[index(x, y)]);
+            trace_pixel(pass, tracer, x, y, from, paths_[index(x, y)]);
 }
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
@@ -120,19 +144,28 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     return blocks;
 }
 
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, glm::vec2 subpixel, BasePath& path) {
-    trace_base_path(tracer, pass.camera_ray(x, y, subpixel), pass.pixel_angle(), pass.random(x, y), path);
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path) {
+    trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y), path);
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, y, x});
     path.reset(path.random, path.light_samples());
 }
 
-void show_very_direct(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& picture) {
+int very_direct_looks(const Pass& pass) {
+    const int n = pass.settings.very_direct_grid;
+    return n == 1 ? 0 : pass.has_lens() ? n * n : 1;
+}
+
+void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture) {
     const PixelRect area = block.clipped(pass.size);
+    const int n = pass.settings.very_direct_grid;
     for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x)
-            picture(x, y) = light_along(pass.camera_ray(x, y, glm::vec2(0.5f)), tracer);
+        for (int x = area.x0; x < area.x1; ++x) {
+            const glm::vec2 cell((x + look) % n, (y + look / n) % n);
+            const glm::vec2 lens = sample_disk((cell + 0.5f) / static_cast<float>(n));
+            picture(x, y) = light_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}), tracer);
+        }
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {

@@ -45,6 +45,12 @@ struct SamplingSet {
     PixelSample sample(int i, const PathReuse& estimator) const;
 };
 
+/// Where a camera ray goes through its pixel and through the lens.
+struct CameraSample {
+    glm::vec2 subpixel; ///< within the pixel, [0, 1)^2
+    glm::vec2 lens{0};  ///< in radii of the lens, from its middle
+};
+
 /// One sample a pixel of a whole image: what all its blocks have in common.
 class Pass {
 public:
@@ -58,20 +64,23 @@ public:
     const int index;
     const TileGrid grid;
 
-    /// Where within their pixels, [0, 1)^2, all base paths begin whose light is shared within the block that a
-    /// pixel is in, those of the block's border among them: so the values of the box filter cancel in gradients
-    /// [Bauszat 2017, 3.2]. The positions of a block are a low-discrepancy sequence over the passes; each block's
-    /// is rotated by another vector, as an edge along which all pixels had the same few positions would be too
-    /// bright, or too dark, all along.
-    glm::vec2 subpixel_at(glm::ivec2 pixel) const;
+    /// Where within their pixels and on the lens all base paths begin whose light is shared within the block that
+    /// a pixel is in, those of the block's border among them: so the values of the box filter cancel in gradients
+    /// [Bauszat 2017, 3.2], and all see the scene through the same pinhole, whose picture is sharp. The positions
+    /// of a block are a low-discrepancy sequence over the passes; each block's is rotated by another vector, as an
+    /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
+    CameraSample camera_sample(glm::ivec2 pixel) const;
 
-    /// The camera ray through a position within a pixel.
-    Ray camera_ray(int x, int y, glm::vec2 subpixel) const { return projection_.ray(glm::vec2(x, y) + subpixel); }
+    Ray camera_ray(int x, int y, const CameraSample& sample) const {
+        return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
+    }
 
-    /// Very direct light of a pixel by a grid of camera rays, each where the pixel's base path is in its cell.
+    /// Very direct light of a pixel by a grid of camera rays, each where the pixel's base path is in its cell,
+    /// through points that cover the lens as well.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
-    float pixel_angle() const { return projection_.pixel_angle(); }
+    PixelWidth pixel_width() const { return projection_.pixel_width(); }
+    bool has_lens() const { return has_lens_; }
 
     Random random(int x, int y) const {
         return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
@@ -79,8 +88,12 @@ public:
     }
 
 private:
+    glm::vec2 subpixel_at(glm::ivec2 pixel) const; // [0, 1)^2
+    glm::vec2 lens_at(glm::ivec2 pixel) const;     // [0, 1)^2, mapped to the disk by sample_disk()
+
     Projection projection_;
-    glm::vec2 subpixel_;
+    bool has_lens_;
+    glm::vec2 subpixel_, lens_;
 };
 
 /// The base paths of a rectangle of pixels.
@@ -126,12 +139,18 @@ std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings);
 /// cut off at the image's border, nowhere else.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
-/// Traces the path of one sample of this pass, from that position in its pixel. One that is not finite is refused,
-/// counted, and left empty: it would spoil all pixels that share it.
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, glm::vec2 subpixel, BasePath& path);
+/// Traces the path of one sample of this pass, from there in its pixel and on the lens. One that is not finite is
+/// refused, counted, and left empty: it would spoil all pixels that share it.
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path);
 
-/// Very direct light of the block's pixels, along a ray through the middle of each.
-void show_very_direct(const Pass& pass, PixelRect block, const Tracer& tracer, RgbImage& picture);
+/// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
+/// it blurs is seen through some of its points only.
+int very_direct_looks(const Pass& pass);
+
+/// Very direct light of the block's pixels, along a ray through the middle of each. Pixels side by side look
+/// through different parts of the lens, and differ where a lamp is blurred, too; over all looks each sees through
+/// every part.
+void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 
 /// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
 /// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the

@@ -81,9 +81,10 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
                    const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
     Worker worker(scene, settings);
-    Inspection result{pixel, size, index, settings.method, {}, Rgb(0), Rgb(0), false, {}};
+    const CameraSample from = pass.camera_sample(pixel);
+    Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     // Not by trace_pixel(), which empties a path that is to be refused.
-    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y, pass.subpixel_at(pixel)), pass.pixel_angle(),
+    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y, from), pass.pixel_width(),
                     pass.random(pixel.x, pixel.y), worker.path);
     result.path = inspect_path(worker.path);
     result.radiance = worker.path.radiance();
@@ -121,7 +122,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
         const Pass earlier(scene, camera, size, settings, plan, i); // no base path depends on the plan
         for (int y = seen.y0; y < seen.y1; ++y)
             for (int x = seen.x0; x < seen.x1; ++x) {
-                trace_pixel(earlier, worker.tracer, x, y, earlier.subpixel_at({x, y}), worker.path);
+                trace_pixel(earlier, worker.tracer, x, y, earlier.camera_sample({x, y}), worker.path);
                 plan.learn(x, y, worker.reuse.shared_luminance(worker.path));
             }
     }

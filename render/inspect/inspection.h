@@ -96,6 +96,7 @@ struct Inspection {
     glm::ivec2 pixel, size;
     int pass;
     Method method;
+    glm::vec2 lens;                    ///< where camera rays go through it, in radii from its middle
     std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: the camera ray leaves the scene
     Rgb radiance;                      ///< of the pixel's own base path, without very direct light
     Rgb very_direct;

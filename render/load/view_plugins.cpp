@@ -1,11 +1,16 @@
 #include "render/io/text.h"
 #include "render/load/plugins.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <string_view>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -33,7 +38,7 @@ float fov_of_focal_length(Properties& p) {
     return glm::degrees(2 * std::atan(std::hypot(36.0f, 24.0f) / (2 * static_cast<float>(*length))));
 }
 
-void read_lens(Properties& p, Camera& camera) {
+void read_field_of_view(Properties& p, Camera& camera) {
     if (!p.has("fov")) {
         camera.fov = fov_of_focal_length(p);
         camera.fov_axis = FovAxis::diagonal;
@@ -44,6 +49,22 @@ void read_lens(Properties& p, Camera& camera) {
     camera.fov_axis = fov_axis_parameter(p);
     if (!(camera.fov > 0 && camera.fov < 180))
         p.take("fov")->fail("the field of view must be between 0 and 180 degrees", "value");
+}
+
+float positive_parameter(Properties& p, std::string_view name, float fallback) {
+    const float value = p.number(name, fallback);
+    if (!(value > 0))
+        p.take(name)->fail("'" + std::string(name) + "' must be above 0", "value");
+    return value;
+}
+
+void read_lens(Properties& p, Camera& camera) {
+    if (!p.has("aperture_radius"))
+        p.element().fail("the sensor '" + p.type() + "' needs an 'aperture_radius'");
+    camera.aperture_radius = p.number("aperture_radius", 0);
+    if (camera.aperture_radius < 0)
+        p.take("aperture_radius")->fail("'aperture_radius' must not be negative", "value");
+    camera.focus_distance = positive_parameter(p, "focus_distance", positive_parameter(p, "far_clip", 1e4f));
 }
 
 void read_placement(Properties& p, Camera& camera) {
@@ -77,6 +98,20 @@ void read_film(LoadContext& context, const XmlElement& element) {
     p.report_unused();
 }
 
+struct SensorKind {
+    std::string_view name;
+    bool is_orthographic = false, has_lens = false, has_offset = false;
+
+    bool operator==(std::string_view other) const { return name == other; }
+};
+
+constexpr SensorKind sensors[] = {
+    {.name = "perspective", .has_offset = true},
+    {.name = "thinlens", .has_lens = true},
+    {.name = "orthographic", .is_orthographic = true},
+    {.name = "telecentric", .is_orthographic = true, .has_lens = true}, // 0.6
+};
+
 } // namespace
 
 void read_integrator(LoadContext& context, const XmlElement& element) {
@@ -100,19 +135,27 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
 
 void read_sensor(LoadContext& context, const XmlElement& element) {
     Properties p(element, context.notes);
-    if (p.type() != "perspective")
+    const auto* known = std::find(std::begin(sensors), std::end(sensors), p.type());
+    const SensorKind kind = known == std::end(sensors) ? sensors[0] : *known;
+    if (known == std::end(sensors))
         p.note("the sensor '" + p.type() + "' is replaced by 'perspective'");
-    read_placement(p, context.scene.camera);
-    read_lens(p, context.scene.camera);
+    Camera& camera = context.scene.camera;
+    read_placement(p, camera);
+    camera.is_orthographic = kind.is_orthographic;
+    if (!kind.is_orthographic)
+        read_field_of_view(p, camera);
+    if (kind.has_lens)
+        read_lens(p, camera);
+    else
+        p.ignore({"focus_distance"});
+    if (kind.has_offset)
+        camera.principal_offset = {p.number("principal_point_offset_x", 0),
+                                   p.number("principal_point_offset_y", 0)};
     for (const XmlElement& film : context.take_nested(p, "film"))
         read_film(context, film);
     context.take_nested(p, "sampler"); // how many samples there are is the viewer's choice
     if (p.number("near_clip", 0.01f) > 0.1f || p.number("far_clip", 1e4f) < 1000)
         p.note("'near_clip' and 'far_clip' are not used: all that lies before the camera is seen");
-    if (p.type() == "thinlens")
-        p.ignore({"aperture_radius", "focus_distance"}); // what the note says
-    else
-        p.ignore({"focus_distance"});
     p.report_unused();
 }
 

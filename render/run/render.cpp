@@ -69,10 +69,11 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
             stop);
     };
     const auto done_before = std::ranges::count(done_blocks_, 1);
-    if (settings_.very_direct_grid > 1 && spp_ == 0 && done_before == 0) {
+    const int looks = spp_ == 0 && done_before == 0 ? very_direct_looks(pass) : 0;
+    for (int look = 0; look < looks; ++look) {
         RgbImage lamps(size_.x, size_.y);
         for_each(blocks.size(), [&](int i, Worker& worker) {
-            show_very_direct(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
+            show_very_direct(pass, look, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
         });
         if (stop.stop_requested())
             return false; // a part of the lamps tells nothing

@@ -48,22 +48,39 @@ std::optional<FovAxis> fov_axis_from_name(std::string_view name) {
     return static_cast<FovAxis>(found - std::begin(axis_names));
 }
 
-Projection::Projection(const Camera& camera, glm::ivec2 size) : origin_(camera.to_world[3]) {
-    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-    const float w = half_width(camera.fov, camera.fov_axis, aspect);
+Projection::Projection(const Camera& camera, glm::ivec2 size) : is_orthographic_(camera.is_orthographic) {
     const glm::mat3 to_world(camera.to_world);
-    corner_ = to_world * glm::vec3(w, w / aspect, 1);
-    right_ = to_world * glm::vec3(-2 * w / static_cast<float>(size.x), 0, 0);
-    down_ = to_world * glm::vec3(0, -2 * w / aspect / static_cast<float>(size.y), 0);
-    pixel_angle_ = glm::length(right_) / glm::length(to_world[2]); // a scaled camera sees the same
+    const glm::vec3 ahead = to_world[2];
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    const float w = is_orthographic_ ? 1 : half_width(camera.fov, camera.fov_axis, aspect);
+    Linear& across = is_orthographic_ ? origin_ : direction_;
+    across.right = to_world * glm::vec3(-2 * w / static_cast<float>(size.x), 0, 0);
+    across.down = to_world * glm::vec3(0, -2 * w / aspect / static_cast<float>(size.y), 0);
+    across.corner = to_world * glm::vec3(w, w / aspect, is_orthographic_ ? 0 : 1);
+    const glm::vec2 offset = camera.principal_offset * glm::vec2(size);
+    across.corner += offset.x * across.right + offset.y * across.down;
+    origin_.corner += glm::vec3(camera.to_world[3]);
+    if (is_orthographic_) {
+        direction_.corner = ahead;
+        pixel_width_.least = glm::length(across.right);
+    } else {
+        pixel_width_.angle = glm::length(across.right) / glm::length(ahead); // a scaled camera sees the same
+    }
+    origin_.lens_x = camera.aperture_radius * to_world[0];
+    origin_.lens_y = camera.aperture_radius * to_world[1];
+    direction_.lens_x = -origin_.lens_x / camera.focus_distance;
+    direction_.lens_y = -origin_.lens_y / camera.focus_distance;
 }
 
-glm::vec3 Projection::project(glm::vec3 point) const {
-    return glm::inverse(glm::mat3(right_, down_, corner_)) * (point - origin_);
+glm::vec4 Projection::project(glm::vec3 point, glm::vec2 lens) const {
+    const Linear& across = is_orthographic_ ? origin_ : direction_;
+    const glm::vec3 origin = origin_.at(glm::vec2(0), lens), direction = direction_.at(glm::vec2(0), lens);
+    const glm::vec3 seen = glm::inverse(glm::mat3(across.right, across.down, direction)) * (point - origin);
+    return {seen, is_orthographic_ ? 1 : seen.z};
 }
 
-Ray Camera::ray(glm::vec2 pixel, glm::ivec2 size) const {
-    return Projection(*this, size).ray(pixel);
+Ray Camera::ray(glm::vec2 pixel, glm::ivec2 size, glm::vec2 lens) const {
+    return Projection(*this, size).ray(pixel, lens);
 }
 
 } // namespace tessera

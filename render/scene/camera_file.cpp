@@ -28,7 +28,16 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr std::array known_fields = {"to_world", "fov", "fov_axis", "origin", "target", "up"};
+constexpr std::array known_fields = {"to_world",
+                                     "fov",
+                                     "fov_axis",
+                                     "orthographic",
+                                     "principal_point_offset",
+                                     "aperture_radius",
+                                     "focus_distance",
+                                     "origin",
+                                     "target",
+                                     "up"};
 
 /// Points at the field's value.
 [[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& what) {
@@ -72,6 +81,47 @@ bool is_flat(const glm::mat4& m) {
     return !(std::abs(glm::determinant(axes)) > 1e-6 * volume);
 }
 
+void read_field_of_view(const JsonText& text, const json& object, Camera& camera) {
+    camera.fov = number(text, "fov", required(text, object, "fov"));
+    if (!(camera.fov > 0 && camera.fov < 180))
+        fail(text, "fov", "the field of view must be between 0 and 180 degrees");
+    if (const auto axis = object.find("fov_axis"); axis != object.end()) {
+        const auto known = axis->is_string() ? fov_axis_from_name(axis->get<std::string>()) : std::nullopt;
+        if (!known)
+            fail(text, "fov_axis", "'fov_axis' must be \"x\", \"y\", \"diagonal\", \"smaller\" or \"larger\"");
+        camera.fov_axis = *known;
+    }
+}
+
+bool read_is_orthographic(const JsonText& text, const json& object) {
+    const auto found = object.find("orthographic");
+    if (found != object.end() && !found->is_boolean())
+        fail(text, "orthographic", "'orthographic' must be true or false");
+    return found != object.end() && found->get<bool>();
+}
+
+glm::vec2 read_principal_offset(const JsonText& text, const json& object) {
+    const auto found = object.find("principal_point_offset");
+    if (found == object.end())
+        return glm::vec2(0);
+    if (!found->is_array() || found->size() != 2)
+        fail(text, "principal_point_offset", "'principal_point_offset' must be 2 numbers");
+    return {number(text, "principal_point_offset", (*found)[0]),
+            number(text, "principal_point_offset", (*found)[1])};
+}
+
+void read_lens(const JsonText& text, const json& object, Camera& camera) {
+    const auto radius = object.find("aperture_radius");
+    if (radius == object.end())
+        return;
+    camera.aperture_radius = number(text, "aperture_radius", *radius);
+    if (camera.aperture_radius < 0)
+        fail(text, "aperture_radius", "'aperture_radius' must not be negative");
+    camera.focus_distance = number(text, "focus_distance", required(text, object, "focus_distance"));
+    if (!(camera.focus_distance > 0))
+        fail(text, "focus_distance", "'focus_distance' must be above 0");
+}
+
 /// Nine digits tell every float from its neighbours; the point keeps the sign of -0.
 std::string exact(float x) {
     std::string text = fmt::format("{:.9g}", x);
@@ -109,15 +159,11 @@ Camera parse_camera(const std::string& json_text, const std::string& name) {
     camera.to_world = read_matrix(text, required(text, object, "to_world"));
     if (is_flat(camera.to_world))
         fail(text, "to_world", "the camera's transform is flat");
-    camera.fov = number(text, "fov", required(text, object, "fov"));
-    if (!(camera.fov > 0 && camera.fov < 180))
-        fail(text, "fov", "the field of view must be between 0 and 180 degrees");
-    if (const auto axis = object.find("fov_axis"); axis != object.end()) {
-        const auto known = axis->is_string() ? fov_axis_from_name(axis->get<std::string>()) : std::nullopt;
-        if (!known)
-            fail(text, "fov_axis", "'fov_axis' must be \"x\", \"y\", \"diagonal\", \"smaller\" or \"larger\"");
-        camera.fov_axis = *known;
-    }
+    camera.is_orthographic = read_is_orthographic(text, object);
+    if (!camera.is_orthographic)
+        read_field_of_view(text, object, camera);
+    camera.principal_offset = read_principal_offset(text, object);
+    read_lens(text, object, camera);
     return camera;
 }
 
@@ -133,10 +179,17 @@ std::string camera_json(const Camera& camera) {
     const glm::vec3 origin(camera.to_world[3]);
     const glm::vec3 forward = glm::normalize(glm::vec3(camera.to_world[2]));
     const glm::vec3 up = glm::normalize(glm::vec3(camera.to_world[1]));
-    return fmt::format("{{\n  \"to_world\": [{}\n  ],\n  \"fov\": {},\n  \"fov_axis\": \"{}\",\n"
-                       "  \"origin\": {},\n  \"target\": {},\n  \"up\": {}\n}}\n",
-                       matrix, exact(camera.fov), to_string(camera.fov_axis), triple(origin),
-                       triple(origin + forward), triple(up));
+    std::string kind = camera.is_orthographic ? "  \"orthographic\": true,\n"
+                                              : fmt::format("  \"fov\": {},\n  \"fov_axis\": \"{}\",\n",
+                                                            exact(camera.fov), to_string(camera.fov_axis));
+    if (camera.principal_offset != glm::vec2(0))
+        kind += fmt::format("  \"principal_point_offset\": [{}, {}],\n", exact(camera.principal_offset.x),
+                            exact(camera.principal_offset.y));
+    if (camera.aperture_radius > 0)
+        kind += fmt::format("  \"aperture_radius\": {},\n  \"focus_distance\": {},\n",
+                            exact(camera.aperture_radius), exact(camera.focus_distance));
+    return fmt::format("{{\n  \"to_world\": [{}\n  ],\n{}  \"origin\": {},\n  \"target\": {},\n  \"up\": {}\n}}\n",
+                       matrix, kind, triple(origin), triple(origin + forward), triple(up));
 }
 
 void write_camera(const std::filesystem::path& file, const Camera& camera) {
@@ -144,9 +197,29 @@ void write_camera(const std::filesystem::path& file, const Camera& camera) {
 }
 
 std::string camera_xml(const Camera& camera) {
-    return fmt::format("<float name=\"fov\" value=\"{}\"/>\n<string name=\"fov_axis\" value=\"{}\"/>\n"
-                       "<transform name=\"to_world\">\n    <matrix value=\"{}\"/>\n</transform>\n",
-                       exact(camera.fov), to_string(camera.fov_axis), fmt::join(rows(camera.to_world), " "));
+    const bool has_lens = camera.aperture_radius > 0;
+    std::string xml;
+    if (camera.is_orthographic || has_lens)
+        xml = fmt::format("<!-- of a sensor of the type {} -->\n", !camera.is_orthographic ? "thinlens"
+                                                                   : has_lens              ? "telecentric"
+                                                                                           : "orthographic");
+    const auto add = [&](std::string_view name, float value) {
+        xml += fmt::format("<float name=\"{}\" value=\"{}\"/>\n", name, exact(value));
+    };
+    if (!camera.is_orthographic) {
+        add("fov", camera.fov);
+        xml += fmt::format("<string name=\"fov_axis\" value=\"{}\"/>\n", to_string(camera.fov_axis));
+    }
+    if (camera.principal_offset != glm::vec2(0)) {
+        add("principal_point_offset_x", camera.principal_offset.x);
+        add("principal_point_offset_y", camera.principal_offset.y);
+    }
+    if (has_lens) {
+        add("aperture_radius", camera.aperture_radius);
+        add("focus_distance", camera.focus_distance);
+    }
+    return xml + fmt::format("<transform name=\"to_world\">\n    <matrix value=\"{}\"/>\n</transform>\n",
+                             fmt::join(rows(camera.to_world), " "));
 }
 
 } // namespace tessera

@@ -258,8 +258,16 @@ void SceneDigest::take(const EnvironmentDescription& environment) {
 }
 
 void SceneDigest::take(const Camera& camera) {
-    const auto& [to_world, fov, fov_axis] = camera;
+    const auto& [to_world, fov, fov_axis, is_orthographic, principal_offset, aperture_radius, focus_distance] =
+        camera;
     add(to_world, fov, fov_axis);
+    // What a plain perspective does not have leaves its checksum as it was before there was such.
+    if (is_orthographic)
+        add(is_orthographic);
+    if (principal_offset != glm::vec2(0))
+        add(principal_offset);
+    if (aperture_radius > 0)
+        add(aperture_radius, focus_distance);
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -126,8 +127,8 @@ TEST(StabilityScenes, HideBrightLampsFromTheCamera) {
                 lamp.kind != LightPoint::Kind::surface ||
                 std::max({lamp.radiance.r, lamp.radiance.g, lamp.radiance.b}) < bright)
                 continue;
-            const glm::vec3 seen = projection.project(lamp.position);
-            const glm::vec2 pixel = glm::vec2(seen) / seen.z;
+            const glm::vec4 seen = projection.project(lamp.position);
+            const glm::vec2 pixel = glm::vec2(seen) / seen.w;
             const bool is_in_picture = seen.z > 0 && glm::all(glm::greaterThan(pixel, glm::vec2(0))) &&
                                        glm::all(glm::lessThan(pixel, glm::vec2(scene.size())));
             const glm::vec3 before = eye + 0.999f * (lamp.position - eye);

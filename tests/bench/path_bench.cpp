@@ -103,8 +103,8 @@ Rays rays_of(const Scene& scene) {
     Rays rays;
     BasePath path;
     const auto add_pixel = [&](int x, int y) {
-        rays.camera.push_back(stage.pass.camera_ray(x, y, stage.pass.subpixel_at({x, y})));
-        trace_pixel(stage.pass, tracer, x, y, stage.pass.subpixel_at({x, y}), path);
+        rays.camera.push_back(stage.pass.camera_ray(x, y, stage.pass.camera_sample({x, y})));
+        trace_pixel(stage.pass, tracer, x, y, stage.pass.camera_sample({x, y}), path);
         for (int i = 0; i < path.size(); ++i) {
             const BaseVertex& v = path[i];
             LightSample drawn;

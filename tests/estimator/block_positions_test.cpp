@@ -17,11 +17,14 @@ constexpr glm::ivec2 size(80, 6); // of several blocks
 constexpr int row = 3;
 
 /// A floor under a point light, black otherwise: what a pixel sees is a smooth function of the position alone.
-GradientImages one_pass(Method method, int pass) {
+GradientImages one_pass(Method method, int pass, float aperture_radius = 0) {
     SceneBuilder b;
     b.quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, b.diffuse(Rgb(0.5f)));
     b.point({{3, 4, -2}, Rgb(50)});
-    b.camera({0, 6, 6}, {0, 0, 0}, 50);
+    Camera camera{look_at({0, 6, 6}, {0, 0, 0}), 50, FovAxis::x};
+    camera.aperture_radius = aperture_radius;
+    camera.focus_distance = 4; // the floor lies twice as far
+    b.camera(camera);
     RenderSettings settings;
     settings.method = method;
     settings.max_depth = 2;
@@ -38,10 +41,10 @@ double luminance_at(const RgbImage& image, int x) {
     return luminance(image(x, row));
 }
 
-void expect_smooth_gradients(Method method) {
+void expect_smooth_gradients(Method method, float aperture_radius = 0) {
     double largest_step = 0; // of the primal, beside its gradient
     for (int seed = 0; seed < 8; ++seed) {
-        const GradientImages images = one_pass(method, seed);
+        const GradientImages images = one_pass(method, seed, aperture_radius);
         double largest = 0, bend = 0;
         for (int x = 1; x + 2 < size.x; ++x) {
             const double before = luminance_at(images.dx, x - 1), here = luminance_at(images.dx, x),
@@ -59,6 +62,11 @@ void expect_smooth_gradients(Method method) {
 TEST(BlockPositions, GradientsDoNotSeeTheBordersOfBlocks) {
     expect_smooth_gradients(Method::gpt);
     expect_smooth_gradients(Method::gpr);
+}
+
+TEST(BlockPositions, OnTheLensAreOneOverTheBlockToo) {
+    expect_smooth_gradients(Method::gpt, 0.1f);
+    expect_smooth_gradients(Method::gpr, 0.1f);
 }
 
 TEST(BlockPositions, AreOneOverTheBlockAndMoveFromPassToPass) {

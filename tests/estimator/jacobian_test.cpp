@@ -148,8 +148,8 @@ void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&
         const Random random(seed, i, 0);
         const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(60, 44);
         BasePath base, other;
-        trace_base_path(tracer, projection.ray(pixel), projection.pixel_angle(), random, base);
-        trace_base_path(tracer, projection.ray(pixel + apart), projection.pixel_angle(), random, other);
+        trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), random, base);
+        trace_base_path(tracer, projection.ray(pixel + apart), projection.pixel_width(), random, other);
         if (!base.empty() && !other.empty())
             visit(base, other);
     }

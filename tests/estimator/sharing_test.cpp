@@ -62,7 +62,7 @@ private:
             BasePath& path = paths[static_cast<std::size_t>(i)];
             const glm::ivec2 pixel = corner + glm::ivec2(i % edge, i / edge);
             const auto number = static_cast<std::uint32_t>(random.draw(i, Draw::lobe) * 0x1p24f);
-            trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), projection.pixel_angle(),
+            trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), projection.pixel_width(),
                             Random(9, number, 1), path);
             set.push_back(&path);
         }

@@ -49,9 +49,9 @@ Tally tally(const TestScene& t) {
                 BasePath base, right;
                 const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
                 const auto pixel = static_cast<std::uint32_t>(y * size.x + x);
-                trace_base_path(tracer, projection.ray(p), projection.pixel_angle(),
+                trace_base_path(tracer, projection.ray(p), projection.pixel_width(),
                                 {7, pixel, std::uint32_t(pass)}, base);
-                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), projection.pixel_angle(),
+                trace_base_path(tracer, projection.ray(p + glm::vec2(1, 0)), projection.pixel_width(),
                                 {7, pixel + 1, 0}, right);
                 if (base.size() < 2 || right.empty())
                     continue;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
@@ -64,6 +65,18 @@ constexpr Broken broken_cameras[] = {
      ":2:13: 'fov_axis' must be \"x\", \"y\""},
     {"a field's name before it", "{\"up\": \"fov\", \"to_world\": [M],\n \"fov\": 0}",
      ":2:9: the field of view must be between 0 and 180 degrees"},
+    {"orthographic in words", "{\"to_world\": [M],\n\"orthographic\": \"yes\"}",
+     ":2:17: 'orthographic' must be true or false"},
+    {"half an offset", "{\"to_world\": [M], \"fov\": 40,\n\"principal_point_offset\": [1]}",
+     ":2:27: 'principal_point_offset' must be 2 numbers"},
+    {"offset in words", "{\"to_world\": [M], \"fov\": 40,\n\"principal_point_offset\": [1, \"2\"]}",
+     ":2:27: 'principal_point_offset' must be made of numbers, not of string"},
+    {"negative aperture", "{\"to_world\": [M], \"fov\": 40,\n\"aperture_radius\": -1, \"focus_distance\": 1}",
+     ":2:20: 'aperture_radius' must not be negative"},
+    {"lens without focus", "{\"to_world\": [M], \"fov\": 40, \"aperture_radius\": 1}",
+     ":1:1: the camera has no 'focus_distance'"},
+    {"focus on the lens", "{\"to_world\": [M], \"fov\": 40, \"aperture_radius\": 1,\n\"focus_distance\": 0}",
+     ":2:19: 'focus_distance' must be above 0"},
     {"axis that is a number", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": 1}", ":2:13: 'fov_axis' must be"},
 };
 
@@ -107,6 +120,24 @@ Camera random_camera(std::mt19937& random) {
     camera.to_world = glm::scale(camera.to_world, {-1, 1, 1}); // as many exporters' cameras
     camera.fov = 90 + 80 * unit(random);
     camera.fov_axis = static_cast<FovAxis>(random() % 5);
+    if (random() % 2)
+        camera.principal_offset = {unit(random), unit(random)};
+    return camera;
+}
+
+/// One in three has a lens, one in three sees along parallel rays; these keep no field of view.
+Camera random_camera_of_any_kind(std::mt19937& random) {
+    std::uniform_real_distribution<float> above(0.01f, 10);
+    Camera camera = random_camera(random);
+    if (random() % 3 == 0) {
+        camera.aperture_radius = above(random);
+        camera.focus_distance = above(random);
+    }
+    if (random() % 3 == 0) {
+        camera.is_orthographic = true;
+        camera.fov = Camera().fov;
+        camera.fov_axis = Camera().fov_axis;
+    }
     return camera;
 }
 
@@ -115,14 +146,14 @@ bool same_bits(const Camera& a, const Camera& b) {
         if (std::bit_cast<std::uint32_t>(a.to_world[i / 4][i % 4]) !=
             std::bit_cast<std::uint32_t>(b.to_world[i / 4][i % 4]))
             return false;
-    return std::bit_cast<std::uint32_t>(a.fov) == std::bit_cast<std::uint32_t>(b.fov) && a.fov_axis == b.fov_axis;
+    return std::bit_cast<std::uint32_t>(a.fov) == std::bit_cast<std::uint32_t>(b.fov) && a == b;
 }
 
 TEST(CameraFile, ComesBackBitByBit) {
     const TemporaryFolder folder;
     std::mt19937 random(7);
     for (int i = 0; i < 1000; ++i) {
-        Camera camera = random_camera(random);
+        Camera camera = random_camera_of_any_kind(random);
         camera.to_world[3].x = i == 0 ? -0.0f : camera.to_world[3].x;
         camera.to_world[3].y = i == 1 ? 1e-42f : camera.to_world[3].y;
         camera.to_world[3].z = i == 2 ? 16777216.0f : camera.to_world[3].z;
@@ -144,17 +175,32 @@ TEST(CameraFile, AxisIsXIfItIsNotNamed) {
     EXPECT_EQ(parse_camera(json, "c.json").fov_axis, FovAxis::x);
 }
 
+/// The type of sensor that the text says it belongs to.
+std::string sensor_type(const std::string& xml) {
+    const std::string words = "<!-- of a sensor of the type ";
+    if (xml.rfind(words, 0) != 0)
+        return "perspective";
+    return xml.substr(words.size(), xml.find(" -->") - words.size());
+}
+
 TEST(CameraFile, XmlIsTheSameCameraInASceneFile) {
     std::mt19937 random(11);
     for (int i = 0; i < 100; ++i) {
-        const Camera camera = random_camera(random);
+        Camera camera = random_camera_of_any_kind(random);
+        if (camera.is_orthographic || camera.aperture_radius > 0)
+            camera.principal_offset = glm::vec2(0); // none of Mitsuba's has both
+        const std::string inside = camera_xml(camera);
         const std::string xml =
-            "<scene version='3.0.0'><sensor type='perspective'>" + camera_xml(camera) + "</sensor></scene>";
+            "<scene version='3.0.0'><sensor type='" + sensor_type(inside) + "'>" + inside + "</sensor></scene>";
         const LoadedScene loaded = parse_mitsuba_xml(xml, "s.xml");
         EXPECT_TRUE(loaded.notes.empty());
         const Camera& read = loaded.description.camera;
         EXPECT_EQ(read.fov_axis, camera.fov_axis);
         EXPECT_NEAR(read.fov, camera.fov, 1e-6f * camera.fov);
+        EXPECT_EQ(read.is_orthographic, camera.is_orthographic);
+        EXPECT_EQ(read.principal_offset, camera.principal_offset);
+        EXPECT_EQ(read.aperture_radius, camera.aperture_radius);
+        EXPECT_EQ(read.focus_distance, camera.focus_distance);
         for (int j = 0; j < 16; ++j) {
             const float expected = camera.to_world[j / 4][j % 4];
             EXPECT_NEAR(read.to_world[j / 4][j % 4], expected, 1e-6f * (1 + std::abs(expected)));

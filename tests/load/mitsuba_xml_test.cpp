@@ -161,6 +161,36 @@ TEST(MitsubaXml, Camera) {
     EXPECT_NEAR(camera("<string name='focal_length' value='25mm'/>").fov, 81.74f, 0.01f);
 }
 
+TEST(MitsubaXml, CamerasOfOtherKinds) {
+    const auto load = [](const std::string& type, const std::string& body) {
+        return parse("<sensor type='" + type + "'>" + body + "</sensor>", "2.0.0");
+    };
+    const auto lens = load("thinlens", "<float name='fov' value='30'/><float name='apertureRadius' value='0.5'/>"
+                                       "<float name='focusDistance' value='7'/>");
+    EXPECT_EQ(all(lens), "");
+    EXPECT_EQ(lens.description.camera.fov, 30);
+    EXPECT_EQ(lens.description.camera.aperture_radius, 0.5f);
+    EXPECT_EQ(lens.description.camera.focus_distance, 7);
+    const auto far =
+        load("thinlens", "<float name='aperture_radius' value='1'/><float name='far_clip' value='2e3'/>");
+    EXPECT_EQ(far.description.camera.focus_distance, 2e3f);
+
+    const auto parallel = load("orthographic", "<float name='focus_distance' value='7'/>");
+    EXPECT_EQ(all(parallel), "");
+    EXPECT_TRUE(parallel.description.camera.is_orthographic);
+    EXPECT_EQ(parallel.description.camera.aperture_radius, 0);
+    const auto telecentric = load("telecentric", "<float name='apertureRadius' value='0.5'/>");
+    EXPECT_TRUE(telecentric.description.camera.is_orthographic);
+    EXPECT_EQ(telecentric.description.camera.aperture_radius, 0.5f);
+
+    const auto offset = load("perspective", "<float name='principalPointOffsetX' value='0.1'/>"
+                                            "<float name='principal_point_offset_y' value='-0.2'/>");
+    EXPECT_EQ(all(offset), "");
+    EXPECT_EQ(offset.description.camera.principal_offset, glm::vec2(0.1f, -0.2f));
+    EXPECT_NE(all(load("radiancemeter", "")).find("the sensor 'radiancemeter' is replaced by 'perspective'"),
+              std::string::npos);
+}
+
 TEST(MitsubaXml, Conductors) {
     const auto mirror =
         material<ConductorMaterial>("<bsdf type='conductor'><string name='material' value='none'/></bsdf>");

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -194,10 +195,10 @@ TEST(Inspection, ProjectingUndoesTheCamerasRay) {
     const auto scene = Room().build();
     const Projection projection(scene->camera(), size);
     const Ray ray = projection.ray({3.25f, 9.5f});
-    const glm::vec3 p = projection.project(ray.origin + 2.5f * ray.direction);
+    const glm::vec4 p = projection.project(ray.origin + 2.5f * ray.direction);
     EXPECT_GT(p.z, 0);
-    EXPECT_NEAR(p.x / p.z, 3.25f, 1e-3f);
-    EXPECT_NEAR(p.y / p.z, 9.5f, 1e-3f);
+    EXPECT_NEAR(p.x / p.w, 3.25f, 1e-3f);
+    EXPECT_NEAR(p.y / p.w, 9.5f, 1e-3f);
     EXPECT_LT(projection.project(ray.origin - ray.direction).z, 0);
 }
 

@@ -23,6 +23,15 @@ public:
         return {u, uniform()};
     }
 
+    /// By rejection, not as the estimators do.
+    glm::vec2 point_in_disk() {
+        for (;;) {
+            const glm::vec2 p = 2.0f * uniform_2d() - 1.0f;
+            if (glm::dot(p, p) <= 1)
+                return p;
+        }
+    }
+
     /// Very direct light first, then all other.
     std::array<Rgb, 2> radiance(Ray ray, int max_depth) {
         std::array<Rgb, 2> sums{Rgb(0), Rgb(0)};
@@ -102,7 +111,9 @@ NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, i
             std::array<Moments, 2> moments;
             for (int i = 0; i < samples; ++i) {
                 const glm::vec2 inside = walk.uniform_2d();
-                const auto values = walk.radiance(scene.camera().ray(glm::vec2(x, y) + inside, size), max_depth);
+                const glm::vec2 lens = scene.camera().aperture_radius > 0 ? walk.point_in_disk() : glm::vec2(0);
+                const Ray ray = scene.camera().ray(glm::vec2(x, y) + inside, size, lens);
+                const auto values = walk.radiance(ray, max_depth);
                 for (std::size_t part = 0; part < 2; ++part)
                     moments[part].add(values[part]);
             }

@@ -172,6 +172,10 @@ void SceneBuilder::camera(glm::vec3 origin, glm::vec3 target, float fov) {
     description_.camera = {look_at(origin, target), fov, FovAxis::x};
 }
 
+void SceneBuilder::camera(const Camera& camera) {
+    description_.camera = camera;
+}
+
 std::shared_ptr<const Scene> SceneBuilder::build() const {
     return std::make_shared<const Scene>(description_);
 }

@@ -43,6 +43,7 @@ public:
     void room(const std::vector<int>& materials);
 
     void camera(glm::vec3 origin, glm::vec3 target, float fov);
+    void camera(const Camera& camera);
 
     std::shared_ptr<const Scene> build() const;
 

@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 
@@ -204,6 +206,28 @@ std::shared_ptr<const Scene> phong() {
     return room_with_floor([](SceneBuilder& b) { return b.phong(Rgb(0), Rgb(0.8f, 0.7f, 0.6f), 40); });
 }
 
+/// Slats and a glossy floor, out of focus in front and behind, and a blurred lamp.
+std::shared_ptr<const Scene> thin_lens() {
+    Room r;
+    for (int i = 0; i < 5; ++i)
+        r.quad({-0.9f, -0.8f + 0.35f * static_cast<float>(i), 0.5f}, {1.8f, 0, 0}, {0, 0.12f, 0.05f}, r.w);
+    r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.15f));
+    Camera camera{look_at({0, 0, 2.6f}, {0, 0.25f, 0}), 60, FovAxis::x};
+    camera.aperture_radius = 0.15f;
+    camera.focus_distance = 3;
+    r.camera(camera);
+    return r.build();
+}
+
+std::shared_ptr<const Scene> orthographic() {
+    Room r;
+    r.sphere({0.35f, -0.55f, 0}, 0.35f, r.conductor(0.1f));
+    Camera camera{glm::scale(look_at({0.4f, 0.3f, 2.6f}, {0, 0.1f, 0}), glm::vec3(0.9f, 0.9f, 1))};
+    camera.is_orthographic = true;
+    r.camera(camera);
+    return r.build();
+}
+
 std::shared_ptr<const Scene> no_light() {
     SceneBuilder b;
     const int w = b.diffuse(white);
@@ -253,6 +277,8 @@ std::vector<TestScene> all_test_scenes() {
         {"shining_wall", shining_wall(), 4},
         {"short_edges", blinds(), 4, 0.001f, 1, 20},
         {"mirrors_in_plastic", mirrors_in_plastic(), 6, 0.001f, 3, 12},
+        {"thin_lens", thin_lens(), 4, 0.001f, 2},
+        {"orthographic", orthographic(), 4},
         {"no_light", no_light(), 4},
     };
     for (TestScene& scene : light_scenes())

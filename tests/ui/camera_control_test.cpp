@@ -130,6 +130,40 @@ TEST(CameraControl, PanMovesWhatIsUnderTheCursorWithIt) {
     }
 }
 
+Camera orthographic_camera() {
+    Camera camera = front_camera();
+    camera.to_world = glm::scale(camera.to_world, {3, 3, 1});
+    camera.is_orthographic = true;
+    return camera;
+}
+
+TEST(CameraControl, DollyOfAnOrthographicCameraIsHowMuchItSees) {
+    CameraControl control = control_of(orthographic_camera());
+    control.dolly(0.5f);
+    expect_near(control.position(), {0, 0, 5});
+    EXPECT_NEAR(control.distance(), 5, 1e-5);
+    const Ray corner = control.camera().ray({0, 0}, {100, 100});
+    EXPECT_NEAR(std::abs(corner.origin.x), 1.5f, 1e-4);
+    control.orbit({40, 20}, 300); // what was seen of it stays
+    EXPECT_NEAR(glm::length(glm::vec3(control.camera().to_world[0])), 1.5f, 1e-4);
+    for (int i = 0; i < 1000; ++i)
+        control.dolly(0.5f);
+    EXPECT_GT(glm::length(glm::vec3(control.camera().to_world[0])), 1e-3f);
+    control.go_home();
+    control.orbit({40, 20}, 300);
+    EXPECT_NEAR(glm::length(glm::vec3(control.camera().to_world[0])), 3, 1e-4);
+}
+
+TEST(CameraControl, OrthographicPanFollowsTheCursor) {
+    CameraControl control = control_of(orthographic_camera());
+    control.orbit({35, 18}, 300);
+    const glm::ivec2 size(640, 360);
+    const glm::vec2 from(200, 100), to(330, 250);
+    const Ray before = control.camera().ray(from, size);
+    control.pan(from, to, size);
+    expect_near(control.camera().ray(to, size).origin, before.origin);
+}
+
 TEST(CameraControl, PanByTheWidthMovesByTheWidthSeen) {
     // +x of a Mitsuba camera is to the left: dragging to the right moves the camera to its left.
     CameraControl control = control_of(front_camera());

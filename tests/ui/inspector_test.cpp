@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -65,8 +66,8 @@ TEST_F(PathInspector, AClickChoosesAPixelAndMovesNoCamera) {
     EXPECT_NE(screen().rgb, before.rgb);
     // x1 lies in the pixel that was clicked.
     const Projection projection(camera, {48, 36});
-    const glm::vec3 seen = projection.project(inspector().inspection->path.front().position);
-    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), glm::ivec2(16, 14));
+    const glm::vec4 seen = projection.project(inspector().inspection->path.front().position);
+    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.w), glm::ivec2(16, 14));
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
@@ -144,10 +145,10 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
     // All vertices are in view.
     const glm::ivec2 size(glm::vec2(rect.max - rect.min));
     for (const InspectedVertex& x : inspector().inspection->path) {
-        const glm::vec3 p = Projection(fitted, size).project(x.position);
+        const glm::vec4 p = Projection(fitted, size).project(x.position);
         ASSERT_GT(p.z, 0);
-        EXPECT_TRUE(p.x / p.z > 0 && p.y / p.z > 0 && p.x / p.z < static_cast<float>(size.x) &&
-                    p.y / p.z < static_cast<float>(size.y));
+        EXPECT_TRUE(p.x / p.w > 0 && p.y / p.w > 0 && p.x / p.w < static_cast<float>(size.x) &&
+                    p.y / p.w < static_cast<float>(size.y));
     }
     save("space.png");
     move_to(rect.center());

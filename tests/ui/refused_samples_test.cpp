@@ -12,6 +12,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace tessera::test {
 namespace {
@@ -76,8 +77,8 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     EXPECT_EQ(found.method, Method::gpr);
     EXPECT_TRUE(found.is_refused);
     EXPECT_EQ(found.pixel, gpr.samples[0].pixel);
-    const glm::vec3 seen = Projection(camera, found.size).project(found.path.front().position);
-    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.z), found.pixel);
+    const glm::vec4 seen = Projection(camera, found.size).project(found.path.front().position);
+    EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.w), found.pixel);
     EXPECT_FALSE(h.state().shows_request(gpr.samples[0].origin->generation));
     h.frames(3);
     h.save("refused-earlier.png");

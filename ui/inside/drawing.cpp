@@ -84,11 +84,12 @@ constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 150);
 
 } // namespace
 
-SceneLines::SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth)
-    : frame_(frame), projection_(camera, size), size_(size), least_depth_(least_depth) {}
+SceneLines::SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth,
+                       glm::vec2 lens)
+    : frame_(frame), projection_(camera, size), size_(size), least_depth_(least_depth), lens_(lens) {}
 
 void SceneLines::line(glm::vec3 from, glm::vec3 to, ImU32 colour, float width) const {
-    glm::vec3 a = projection_.project(from), b = projection_.project(to);
+    glm::vec4 a = project(from), b = project(to);
     if (a.z < least_depth_ && b.z < least_depth_)
         return;
     if (a.z < least_depth_) // the part in front of the camera: what is projected is linear in the point
@@ -104,7 +105,7 @@ void SceneLines::outlined_line(glm::vec3 from, glm::vec3 to, ImU32 colour, float
 }
 
 void SceneLines::point(glm::vec3 p, ImU32 colour, float radius) const {
-    const glm::vec3 seen = projection_.project(p);
+    const glm::vec4 seen = project(p);
     if (seen.z < least_depth_)
         return;
     ImGui::GetWindowDrawList()->AddCircleFilled(on_screen(seen), radius + 1, shadow_colour, 12);
@@ -112,7 +113,7 @@ void SceneLines::point(glm::vec3 p, ImU32 colour, float radius) const {
 }
 
 void SceneLines::dot(glm::vec3 p, ImU32 colour, float width) const {
-    const glm::vec3 seen = projection_.project(p);
+    const glm::vec4 seen = project(p);
     if (seen.z < least_depth_)
         return;
     const ImVec2 at = on_screen(seen);
@@ -121,7 +122,7 @@ void SceneLines::dot(glm::vec3 p, ImU32 colour, float width) const {
 }
 
 void SceneLines::name(glm::vec3 p, const std::string& text, ImU32 colour) const {
-    const glm::vec3 seen = projection_.project(p);
+    const glm::vec4 seen = project(p);
     if (seen.z < least_depth_)
         return;
     const ImVec2 at = on_screen(seen);
@@ -132,8 +133,8 @@ void SceneLines::name(glm::vec3 p, const std::string& text, ImU32 colour) const 
     list.AddText({at.x + gap, at.y + gap}, colour, text.c_str());
 }
 
-ImVec2 SceneLines::on_screen(glm::vec3 projected) const {
-    const glm::vec2 p = frame_.to_screen(glm::vec2(projected) / projected.z / glm::vec2(size_));
+ImVec2 SceneLines::on_screen(glm::vec4 projected) const {
+    const glm::vec2 p = frame_.to_screen(glm::vec2(projected) / projected.w / glm::vec2(size_));
     return {p.x, p.y};
 }
 

@@ -46,7 +46,9 @@ class SceneLines {
 public:
     /// @param size        pixels of the camera's picture, which lies in the frame
     /// @param least_depth what lies nearer is not drawn, units of the scene
-    SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth);
+    /// @param lens        the point of the lens that it is seen through, in radii
+    SceneLines(const PictureFrame& frame, const Camera& camera, glm::ivec2 size, float least_depth,
+               glm::vec2 lens = glm::vec2(0));
 
     void line(glm::vec3 from, glm::vec3 to, ImU32 colour, float width) const;
     /// A line with dark edges, plain on bright pictures, too.
@@ -58,12 +60,14 @@ public:
     void name(glm::vec3 p, const std::string& text, ImU32 colour) const;
 
 private:
-    ImVec2 on_screen(glm::vec3 projected) const;
+    glm::vec4 project(glm::vec3 point) const { return projection_.project(point, lens_); }
+    ImVec2 on_screen(glm::vec4 projected) const;
 
     const PictureFrame& frame_;
     Projection projection_;
     glm::ivec2 size_;
     float least_depth_;
+    glm::vec2 lens_;
 };
 
 /// The colour that stands for how the shift ended; grey where it was not tried.

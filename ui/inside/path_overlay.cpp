@@ -70,7 +70,8 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
     if (is_shown) {
         draw_sets(frame, inspector);
         const float radius = state.scene->radius();
-        const SceneLines lines(frame, state.camera.camera(), inspector.inspection->size, 1e-4f * radius);
+        const SceneLines lines(frame, state.camera.camera(), inspector.inspection->size, 1e-4f * radius,
+                               inspector.inspection->lens);
         draw_shifts(lines, shown_shifts(inspector), inspector.shown_row());
         draw_base_path(lines, inspector.inspection->path, 0.5f * radius);
     }

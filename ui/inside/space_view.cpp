@@ -55,9 +55,11 @@ glm::vec2 stand_for(const std::vector<glm::vec3>& points, glm::vec3 axis, glm::v
 
 /// Shows everything from where it looks; at first from beside the camera and above it.
 void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubject& subject, SpaceView& view) {
-    Camera camera = view.has_direction || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
-    camera.fov = field;
-    camera.fov_axis = FovAxis::smaller;
+    const Camera& other =
+        view.has_direction || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
+    Camera camera{other.to_world, field, FovAxis::smaller};
+    for (int axis = 0; axis < 3; ++axis) // whatever that sees, here it is a perspective of this field
+        camera.to_world[axis] = glm::normalize(camera.to_world[axis]);
     glm::vec3 middle(0);
     for (glm::vec3 p : points)
         middle += p / static_cast<float>(points.size());
@@ -109,22 +111,28 @@ void draw_surroundings(const SceneLines& lines, const Surroundings& around) {
     }
 }
 
-/// A pyramid from the camera through the corners of its picture.
+/// From the camera through the corners of its picture: a pyramid, or where rays are parallel a box.
 void draw_camera(const SceneLines& lines, const Surroundings& around, float length) {
     const Projection projection(around.camera, around.size);
     const glm::vec2 size(around.size);
     const glm::vec2 corners[] = {{0, 0}, {size.x, 0}, size, {0, size.y}};
-    const glm::vec3 eye(around.camera.to_world[3]);
-    const auto end = [&](int i) {
+    const auto along = [&](int i, float distance) {
         const Ray ray = projection.ray(corners[i % 4]);
-        return ray.origin + length * ray.direction;
+        return ray.origin + distance * ray.direction;
     };
     const float width = ImGui::GetFontSize() * 0.08f;
     for (int i = 0; i < 4; ++i) {
-        lines.line(eye, end(i), camera_colour, width);
-        lines.line(end(i), end(i + 1), camera_colour, width);
+        lines.line(along(i, 0), along(i, length), camera_colour, width);
+        lines.line(along(i, length), along(i + 1, length), camera_colour, width);
     }
-    lines.name(eye, "camera", camera_colour);
+    lines.name(along(0, 0), "camera", camera_colour);
+}
+
+/// Where the ray begins that leads to a point, through the middle of the lens.
+glm::vec3 eye_toward(const Surroundings& around, glm::vec3 point) {
+    const Projection projection(around.camera, around.size);
+    const glm::vec4 seen = projection.project(point);
+    return projection.ray(glm::vec2(seen) / seen.w).origin;
 }
 
 void draw_normals(const SceneLines& lines, const std::vector<InspectedVertex>& path, float length) {
@@ -140,8 +148,9 @@ void draw_scene(const PictureFrame& frame, const SpaceSubject& subject, const Sp
         draw_surroundings(lines, *view.surroundings);
         draw_camera(lines, *view.surroundings, size);
         if (!subject.path.empty())
-            lines.line(glm::vec3(view.surroundings->camera.to_world[3]), subject.path.front().position,
-                       with_alpha(camera_colour, 0.8f), ImGui::GetFontSize() * 0.1f);
+            lines.line(eye_toward(*view.surroundings, subject.path.front().position),
+                       subject.path.front().position, with_alpha(camera_colour, 0.8f),
+                       ImGui::GetFontSize() * 0.1f);
     }
     draw_shifts(lines, subject.shifts, subject.marked);
     draw_normals(lines, subject.path, size * 0.6f);

@@ -291,7 +291,8 @@ constexpr Action table[] = {
      "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
      "--camera.",
      key(Key::k), no_shortcut, [](State& s) { s.wishes.save_camera = true; }, nullptr},
-    {"Camera", "Copy camera as XML", "Puts fov and to_world for a Mitsuba <sensor> on the clipboard.",
+    {"Camera", "Copy camera as XML",
+     "Puts what stands for the camera in a Mitsuba <sensor>, such as fov and to_world, on the clipboard.",
      shift(Key::k), no_shortcut, [](State& s) { s.wishes.copy_camera = true; }, nullptr},
 
     {"Help", "Keys and mouse", "Shows or hides this page.", key(Key::f1), character('?'),

@@ -37,19 +37,22 @@ glm::vec3 nearest_axis(glm::vec3 v) {
     return result;
 }
 
-// Rounding would let the axes drift over thousands of drags: makes them orthogonal again, with the lengths of
-// another matrix's; their handedness stays.
-void straighten(glm::mat4& m, const glm::mat4& lengths) {
-    const auto length = [&](int axis) { return glm::length(glm::vec3(lengths[axis])); };
+glm::vec3 axis_lengths(const Camera& camera) {
+    return {glm::length(column(camera, 0)), glm::length(column(camera, 1)), glm::length(column(camera, 2))};
+}
+
+// Rounding would let the axes drift over thousands of drags: makes them orthogonal again, with their lengths;
+// their handedness stays.
+void straighten(glm::mat4& m, glm::vec3 lengths) {
     const glm::vec3 forward = glm::normalize(glm::vec3(m[2]));
     glm::vec3 left = glm::vec3(m[0]) - forward * glm::dot(forward, glm::vec3(m[0]));
     left = glm::normalize(left);
     glm::vec3 up = glm::cross(forward, left);
     if (glm::dot(up, glm::vec3(m[1])) < 0)
         up = -up;
-    m[0] = glm::vec4(left * length(0), 0);
-    m[1] = glm::vec4(up * length(1), 0);
-    m[2] = glm::vec4(forward * length(2), 0);
+    m[0] = glm::vec4(left * lengths[0], 0);
+    m[1] = glm::vec4(up * lengths[1], 0);
+    m[2] = glm::vec4(forward * lengths[2], 0);
 }
 
 } // namespace
@@ -57,6 +60,7 @@ void straighten(glm::mat4& m, const glm::mat4& lengths) {
 void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius) {
     home_ = camera;
     camera_ = camera;
+    axis_lengths_ = axis_lengths(camera);
     scene_radius_ = scene_radius > 0 ? scene_radius : 1.0f;
     up_ = nearest_axis(column(camera, 1));
     scene_center_ = scene_center;
@@ -66,12 +70,14 @@ void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float
 
 void CameraControl::put(const Camera& camera, float distance) {
     camera_ = camera;
+    axis_lengths_ = axis_lengths(camera);
     distance_ = distance > 0 ? std::clamp(distance, least_distance * scene_radius_, most_distance * scene_radius_)
                              : distance_of_center();
 }
 
 void CameraControl::go_home() {
     camera_ = home_;
+    axis_lengths_ = axis_lengths(home_);
     distance_ = home_distance_;
 }
 
@@ -102,7 +108,7 @@ void CameraControl::turn_about(glm::vec3 pivot, float yaw, float pitch) {
     turn = glm::rotate(turn, pitch, axis);
     turn = glm::translate(turn, -pivot);
     camera_.to_world = turn * camera_.to_world;
-    straighten(camera_.to_world, home_.to_world);
+    straighten(camera_.to_world, axis_lengths_);
 }
 
 float CameraControl::handedness() const {
@@ -122,16 +128,27 @@ void CameraControl::pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size) {
     if (size.x < 1 || size.y < 1)
         return;
     const auto at_target = [&](glm::vec2 pixel) {
-        const glm::vec3 direction = camera_.ray(pixel, size).direction;
-        return direction * (distance_ / std::max(glm::dot(direction, forward()), 1e-3f));
+        const Ray ray = camera_.ray(pixel, size);
+        return ray.origin + ray.direction * (distance_ / std::max(glm::dot(ray.direction, forward()), 1e-3f));
     };
     move(at_target(from) - at_target(to));
 }
 
 void CameraControl::dolly(float factor) {
+    if (camera_.is_orthographic)
+        return widen(factor);
     const float wanted = std::min(distance_ * factor, most_distance * scene_radius_);
     move(forward() * (distance_ - wanted));
     distance_ = std::max(wanted, least_distance * scene_radius_);
+}
+
+void CameraControl::widen(float factor) {
+    const float width = axis_lengths_.x;
+    factor = std::clamp(width * factor, least_distance * scene_radius_, most_distance * scene_radius_) / width;
+    for (const int axis : {0, 1}) {
+        camera_.to_world[axis] *= factor;
+        axis_lengths_[axis] *= factor;
+    }
 }
 
 void CameraControl::fly(glm::vec3 left_up_forward) {

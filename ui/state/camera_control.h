@@ -35,7 +35,8 @@ public:
     /// pixels of a picture of `size`.
     void pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size);
 
-    /// Multiplies the distance to the target, which stays; very near, it is pushed ahead.
+    /// Multiplies the distance to the target, which stays; very near, it is pushed ahead. An orthographic camera
+    /// sees that much more instead, from where it is.
     void dolly(float factor);
 
     /// Moves camera and target: to the left, up and ahead, in radii of the scene.
@@ -47,11 +48,13 @@ public:
 private:
     void turn_about(glm::vec3 pivot, float yaw, float pitch);
     void move(glm::vec3 by);
+    void widen(float factor);         // what an orthographic camera sees
     float distance_of_center() const; // ahead of the camera, within reason
     float handedness() const;         // -1 for a camera that sees mirrored
 
     Camera home_;
     Camera camera_;
+    glm::vec3 axis_lengths_{1}; // of the camera's matrix
     float home_distance_ = 1;
     float distance_ = 1;
     glm::vec3 scene_center_{0};
