@@ -91,8 +91,10 @@ std::string lights_of(const Scene& scene) {
     for (const Shape& shape : d.shapes)
         triangles += shape.area_light >= 0 ? shape.mesh.triangles.size() : 0;
     const auto is_spot = [](const PointLight& light) { return light.cutoff < 180; };
+    const auto is_projector = [&](const PointLight& light) { return light.slide && !is_spot(light); };
     const auto spots = std::count_if(d.point_lights.begin(), d.point_lights.end(), is_spot);
-    const auto points = static_cast<std::ptrdiff_t>(d.point_lights.size()) - spots;
+    const auto projectors = std::count_if(d.point_lights.begin(), d.point_lights.end(), is_projector);
+    const auto points = static_cast<std::ptrdiff_t>(d.point_lights.size()) - spots - projectors;
     std::vector<std::string> parts;
     if (!d.area_lights.empty())
         parts.push_back(fmt::format("{} area (of {} triangles)", d.area_lights.size(), triangles));
@@ -100,6 +102,8 @@ std::string lights_of(const Scene& scene) {
         parts.push_back(fmt::format("{} point", points));
     if (spots > 0)
         parts.push_back(fmt::format("{} spot", spots));
+    if (projectors > 0)
+        parts.push_back(fmt::format("{} projector", projectors));
     if (!d.directional_lights.empty())
         parts.push_back(fmt::format("{} directional", d.directional_lights.size()));
     if (const auto& map = d.environment.map)

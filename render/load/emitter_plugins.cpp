@@ -1,11 +1,13 @@
 #include "render/load/plugins.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include <glm/common.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -32,13 +34,17 @@ Rgb light_parameter(Properties& p, std::string_view name) {
     return checked_light(p, name, p.color(name, Rgb(1)));
 }
 
-AreaLight read_area(LoadContext& context, Properties& p) {
-    AreaLight light;
-    light.radiance = texture_parameter(context, p, "radiance", Rgb(1));
-    if (Rgb* constant = std::get_if<Rgb>(&light.radiance.kind))
-        *constant = checked_light(p, "radiance", *constant);
+/// A quantity of light that varies over a surface.
+Texture light_texture_parameter(LoadContext& context, Properties& p, std::string_view name) {
+    Texture texture = texture_parameter(context, p, name, Rgb(1));
+    if (Rgb* constant = std::get_if<Rgb>(&texture.kind))
+        *constant = checked_light(p, name, *constant);
     p.ignore({"sampling_weight"});
-    return light;
+    return texture;
+}
+
+AreaLight read_area(LoadContext& context, Properties& p) {
+    return {light_texture_parameter(context, p, "radiance")};
 }
 
 glm::vec3 unit_parameter(Properties& p, std::string_view name, glm::vec3 v) {
@@ -55,6 +61,17 @@ void read_point(LoadContext& context, Properties& p) {
     context.scene.point_lights.push_back(light);
 }
 
+/// The texture of a spot, as wide as its cone; its u and v run against those of a camera.
+std::optional<Slide> read_slide(LoadContext& context, Properties& p, float cutoff) {
+    if (!(cutoff < 90)) {
+        p.note(*p.take("texture"), "the texture is not used: a cone of 90 degrees and more has no picture");
+        return {};
+    }
+    const glm::mat4 turned = glm::scale(glm::mat4(p.rotation("to_world")), {-1, -1, 1});
+    return Slide{
+        texture_parameter(context, p, "texture", Rgb(1)), {turned, 2 * cutoff, FovAxis::x}, Slide::Kind::share};
+}
+
 void read_spot(LoadContext& context, Properties& p) {
     PointLight light;
     light.intensity = light_parameter(p, "intensity");
@@ -68,7 +85,23 @@ void read_spot(LoadContext& context, Properties& p) {
     if (!(light.full_within >= 0 && light.full_within <= light.cutoff))
         p.take("beam_width")->fail("'beam_width' must be between 0 and 'cutoff_angle'", "value");
     if (p.has("texture"))
-        p.note(*p.take("texture"), "the texture of a spot is not used");
+        light.slide = read_slide(context, p, light.cutoff);
+    context.scene.point_lights.push_back(light);
+}
+
+/// Mitsuba 3
+void read_projector(LoadContext& context, Properties& p) {
+    Slide slide;
+    slide.kind = Slide::Kind::irradiance;
+    slide.picture = light_texture_parameter(context, p, "irradiance");
+    slide.camera.to_world = glm::mat4(p.rotation("to_world"));
+    read_field_of_view(p, slide.camera);
+    PointLight light;
+    light.intensity = Rgb(p.number("scale", 1));
+    if (light.intensity.r < 0)
+        p.take("scale")->fail("'scale' must not be negative", "value");
+    light.position = glm::vec3(p.transform("to_world")[3]);
+    light.slide = slide;
     context.scene.point_lights.push_back(light);
 }
 
@@ -113,6 +146,7 @@ constexpr Plugin<AreaLight (*)(LoadContext&, Properties&)> plugins_in_shapes[] =
 constexpr Plugin<void (*)(LoadContext&, Properties&)> plugins_in_scenes[] = {
     {"point", read_point},
     {"spot", read_spot},
+    {"projector", read_projector},
     {"directional", read_directional},
     {"constant", read_constant},
     {"envmap", read_environment_map},

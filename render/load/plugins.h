@@ -75,6 +75,9 @@ inline constexpr Rgb marking_color{1.0f, 0.0f, 1.0f};
 /// An <integrator>: of its settings only the depth belongs to the scene; methods are chosen in the program.
 void read_integrator(LoadContext& context, const XmlElement& element);
 
+/// What a plugin with a perspective sees: "fov" with "fov_axis", or "focal_length".
+void read_field_of_view(Properties& properties, Camera& camera);
+
 /// A <sensor> with its film: camera and size.
 void read_sensor(LoadContext& context, const XmlElement& element);
 

@@ -90,6 +90,16 @@ Texture scaled(Texture texture, float factor) {
     return texture;
 }
 
+/// Mitsuba 3: numbers that no spectrum is made of.
+Texture read_raw_constant(LoadContext& context, Properties& p) {
+    const auto value = p.take("value");
+    if (!value)
+        p.element().fail("'rawconstant' needs a 'value'");
+    if (value->tag() == "vector" || value->tag() == "point")
+        return Rgb(read_point(*value));
+    return read_color(*value, Rgb(1), context.notes);
+}
+
 /// 0.6: another texture times a factor.
 Texture read_scale(LoadContext& context, Properties& p) {
     const Rgb factors = p.color("scale", Rgb(1));
@@ -124,8 +134,12 @@ Texture read_mesh_attribute(LoadContext&, Properties& p) {
 }
 
 constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
-    {"bitmap", read_bitmap_texture},      {"checkerboard", read_checkerboard},     {"scale", read_scale},
-    {"vertexcolors", read_vertex_colors}, {"mesh_attribute", read_mesh_attribute},
+    {"bitmap", read_bitmap_texture},
+    {"checkerboard", read_checkerboard},
+    {"scale", read_scale},
+    {"vertexcolors", read_vertex_colors},
+    {"mesh_attribute", read_mesh_attribute},
+    {"rawconstant", read_raw_constant},
 };
 
 } // namespace

@@ -38,19 +38,6 @@ float fov_of_focal_length(Properties& p) {
     return glm::degrees(2 * std::atan(std::hypot(36.0f, 24.0f) / (2 * static_cast<float>(*length))));
 }
 
-void read_field_of_view(Properties& p, Camera& camera) {
-    if (!p.has("fov")) {
-        camera.fov = fov_of_focal_length(p);
-        camera.fov_axis = FovAxis::diagonal;
-        p.ignore({"fov_axis"});
-        return;
-    }
-    camera.fov = p.number("fov", camera.fov);
-    camera.fov_axis = fov_axis_parameter(p);
-    if (!(camera.fov > 0 && camera.fov < 180))
-        p.take("fov")->fail("the field of view must be between 0 and 180 degrees", "value");
-}
-
 float positive_parameter(Properties& p, std::string_view name, float fallback) {
     const float value = p.number(name, fallback);
     if (!(value > 0))
@@ -113,6 +100,19 @@ constexpr SensorKind sensors[] = {
 };
 
 } // namespace
+
+void read_field_of_view(Properties& p, Camera& camera) {
+    if (!p.has("fov")) {
+        camera.fov = fov_of_focal_length(p);
+        camera.fov_axis = FovAxis::diagonal;
+        p.ignore({"fov_axis"});
+        return;
+    }
+    camera.fov = p.number("fov", camera.fov);
+    camera.fov_axis = fov_axis_parameter(p);
+    if (!(camera.fov > 0 && camera.fov < 180))
+        p.take("fov")->fail("the field of view must be between 0 and 180 degrees", "value");
+}
 
 void read_integrator(LoadContext& context, const XmlElement& element) {
     const NestingGuard guard(context, element);

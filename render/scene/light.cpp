@@ -9,20 +9,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace tessera {
-
-Rgb PointLight::toward(glm::vec3 direction) const {
-    if (cutoff >= 180)
-        return intensity;
-    // acos would have no digits left for narrow cones.
-    const float angle =
-        glm::degrees(std::atan2(glm::length(glm::cross(direction, axis)), glm::dot(direction, axis)));
-    if (angle <= full_within)
-        return intensity;
-    return angle >= cutoff ? Rgb(0) : intensity * ((cutoff - angle) / (cutoff - full_within));
-}
 
 std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) const {
     if (is_at_infinity())
@@ -37,15 +25,6 @@ std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) con
         return {};
     return LightRay{direction, intensity, pdf * distance2};
 }
-
-namespace {
-
-double cone_solid_angle(const PointLight& light) {
-    const double half_way = 0.5 * glm::radians(double(light.cutoff) + double(light.full_within));
-    return 2 * double(pi) * (1 - std::cos(half_way));
-}
-
-} // namespace
 
 LightTable::LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors)
     : pdf_a_(description.area_lights.size(), 0.0f), points_(description.point_lights),
@@ -63,7 +42,7 @@ LightTable::LightTable(const SceneDescription& description, float radius, const 
     };
     const double disk = double(pi) * radius * radius; // what light from infinity falls through
     for (std::size_t i = 0; i < points_.size(); ++i)
-        add(Point{i, 0}, cone_solid_angle(points_[i]) * luminance(points_[i].intensity));
+        add(Point{i, 0}, points_[i].power());
     for (std::size_t i = 0; i < directionals_.size(); ++i)
         add(Directional{i, 0}, disk * luminance(directionals_[i].irradiance));
     if (!description.environment.empty() && (factors.empty() || factors[powers_.size()] > 0)) {

@@ -3,6 +3,7 @@
 #include "recon/image.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
+#include "render/scene/point_light.h"
 #include "render/surface/mesh.h"
 #include "render/surface/texture.h"
 #include "render/trace/rays.h"
@@ -26,18 +27,6 @@ struct SceneDescription;
 /// A mesh that gives off light on its front side, the same in every direction.
 struct AreaLight {
     Texture radiance{Rgb(1)};
-};
-
-/// A point that gives off light, in all directions or within a cone.
-struct PointLight {
-    glm::vec3 position{0};
-    Rgb intensity{1};        ///< power per solid angle
-    glm::vec3 axis{0, 0, 1}; ///< unit, of the cone
-    float cutoff = 180;      ///< degrees from the axis beyond which there is no light; 180: no cone
-    float full_within = 180; ///< degrees up to which there is all of it; in between it falls linearly
-
-    /// Intensity toward a unit direction.
-    Rgb toward(glm::vec3 direction) const;
 };
 
 /// Light that arrives from one direction everywhere.

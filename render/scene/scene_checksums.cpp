@@ -103,6 +103,7 @@ private:
     void take(const Relief& relief);
     void take(const Material& material);
     void take(const AreaLight& light);
+    void take(const Slide& slide);
     void take(const PointLight& light);
     void take(const DirectionalLight& light);
     void take(const EnvironmentMap& map);
@@ -232,9 +233,16 @@ void SceneDigest::take(const AreaLight& light) {
     add(radiance);
 }
 
+void SceneDigest::take(const Slide& slide) {
+    const auto& [picture, camera, kind] = slide;
+    add(picture, camera, kind);
+}
+
 void SceneDigest::take(const PointLight& light) {
-    const auto& [position, intensity, axis, cutoff, full_within] = light;
+    const auto& [position, intensity, axis, cutoff, full_within, slide] = light;
     add(position, intensity, axis, cutoff, full_within);
+    if (slide) // without one a light's checksum is as it was before there were such
+        add(*slide);
 }
 
 void SceneDigest::take(const DirectionalLight& light) {

@@ -104,6 +104,14 @@ TEST(Colors, BlackBodies) {
         body);
 }
 
+TEST(Colors, RawConstantsAreNumbersOrVectors) {
+    EXPECT_EQ(color("<texture name='reflectance' type='rawconstant'><float name='value' value='0.4'/></texture>"),
+              Rgb(0.4f));
+    EXPECT_EQ(color("<texture name='reflectance' type='rawconstant'><vector name='value' value='0.3, 0.2, 1'/>"
+                    "</texture>"),
+              Rgb(0.3f, 0.2f, 1));
+}
+
 TEST(Colors, TexturesOfTheOldSyntax) {
     EXPECT_EQ(color("<texture name='reflectance' type='scale'><float name='scale' value='0.5'/>"
                     "<texture type='checkerboard'><float name='color0' value='0.8'/></texture></texture>"),

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/vec3.hpp>
 #include <gmock/gmock.h>
 
@@ -60,6 +61,41 @@ TEST(EmitterPlugins, DirectionIsTheWayOfTheLight) {
                                     "<rgb name='irradiance' value='3'/></emitter>");
     EXPECT_EQ(loaded.description.directional_lights.at(0).to_light, glm::vec3(0, 1, 0));
     EXPECT_EQ(loaded.description.directional_lights.at(0).irradiance, Rgb(3));
+}
+
+// Of the cone u grows with +x, and v with +y, as in Mitsuba 3.
+TEST(EmitterPlugins, SpotWithATexture) {
+    const LoadedScene loaded = load("<emitter type='spot'><float name='cutoff_angle' value='40'/>"
+                                    "<texture type='checkerboard' name='texture'><rgb name='color0' value='1'/>"
+                                    "<rgb name='color1' value='0'/></texture></emitter>");
+    EXPECT_TRUE(loaded.notes.empty());
+    const PointLight& spot = loaded.description.point_lights.at(0);
+    const auto toward = [&](float x, float y) { return spot.toward(glm::normalize(glm::vec3(x, y, 1))).r; };
+    EXPECT_EQ(toward(0.2f, 0.2f), 1);
+    EXPECT_EQ(toward(-0.2f, -0.2f), 1);
+    EXPECT_EQ(toward(-0.2f, 0.2f), 0);
+    EXPECT_EQ(toward(0.2f, -0.2f), 0);
+
+    const LoadedScene wide = load("<emitter type='spot'><float name='cutoff_angle' value='95'/>"
+                                  "<texture type='checkerboard' name='texture'/></emitter>");
+    ASSERT_EQ(wide.notes.size(), 1u);
+    EXPECT_THAT(wide.notes[0].text, testing::HasSubstr("the texture is not used: a cone of 90 degrees"));
+    EXPECT_FALSE(wide.description.point_lights.at(0).slide);
+}
+
+TEST(EmitterPlugins, ProjectorGivesAPlaneBeforeItPiTimesItsPicture) {
+    const LoadedScene loaded = load("<emitter type='projector'><float name='fov' value='60'/>"
+                                    "<float name='scale' value='2'/><rgb name='irradiance' value='1, 2, 3'/>"
+                                    "<transform name='to_world'><translate x='7'/></transform></emitter>");
+    EXPECT_TRUE(loaded.notes.empty());
+    const PointLight& light = loaded.description.point_lights.at(0);
+    EXPECT_EQ(light.position, glm::vec3(7, 0, 0));
+    const glm::vec3 plane_point(0.2f, 0.1f, 1);
+    const float distance = glm::length(plane_point);
+    const Rgb irradiance = light.toward(plane_point / distance) / (distance * distance) / distance;
+    EXPECT_LT(glm::distance(irradiance, 2 * glm::pi<float>() * Rgb(1, 2, 3)), 1e-4f);
+    EXPECT_EQ(light.toward(glm::normalize(glm::vec3(0.58f, 0, 1))), Rgb(0)); // tan 30 is 0.577
+    EXPECT_EQ(light.toward({0, 0, -1}), Rgb(0));
 }
 
 TEST(EmitterPlugins, ThereIsOneEnvironment) {
@@ -123,15 +159,21 @@ TEST(EmitterPlugins, BadValuesAreNamed) {
                 has("'cutoff_angle' must be between 0 and 180"));
     EXPECT_THAT(error_of("<emitter type='directional'><vector name='direction' x='0' y='0' z='0'/></emitter>"),
                 has("the direction must not be 0"));
+    EXPECT_THAT(error_of("<emitter type='projector'><float name='scale' value='-1'/></emitter>"),
+                has("'scale' must not be negative"));
+    EXPECT_THAT(error_of("<emitter type='projector'><float name='fov' value='180'/></emitter>"),
+                has("the field of view must be between 0 and 180 degrees"));
+    EXPECT_THAT(error_of("<emitter type='projector'><rgb name='irradiance' value='-1'/></emitter>"),
+                has("'irradiance' must not be negative"));
     EXPECT_THAT(error_of("<emitter type='envmap'/>"), has("'envmap' needs a 'filename'"));
     EXPECT_THAT(error_of("<emitter type='sky'><float name='turbidity' value='70'/></emitter>"),
                 has("'turbidity' must be from 1 to 10"));
 }
 
 TEST(EmitterPlugins, UnknownOnesAreMissingLight) {
-    const LoadedScene loaded = load("<emitter type='projector'/>");
+    const LoadedScene loaded = load("<emitter type='laser'/>");
     ASSERT_EQ(loaded.notes.size(), 1u);
-    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'projector' is not known; it gives no light"));
+    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'laser' is not known; it gives no light"));
 }
 
 } // namespace

@@ -223,6 +223,39 @@ TEST(Intersector, MaskStopsItsShareOfRays) {
         EXPECT_NEAR(n / count, 0.3, 4 * std::sqrt(0.21 / count));
 }
 
+/// A picture of two by one pixels, wider than high.
+Texture two_pixels() {
+    Bitmap bitmap;
+    bitmap.width = 2;
+    bitmap.height = 1;
+    bitmap.floats = {Rgb(1, 0, 0), Rgb(0, 3, 0)};
+    Texture texture;
+    texture.kind = BitmapTexture{std::make_shared<const Bitmap>(bitmap), Filter::nearest};
+    return texture;
+}
+
+TEST(Slide, LiesAsACamerasPictureWouldAndHasItsPower) {
+    PointLight light;
+    light.slide = Slide{two_pixels(), {glm::mat4(1), 90, FovAxis::x}, Slide::Kind::irradiance};
+    const auto toward = [&](float x, float y) { return light.toward(glm::normalize(glm::vec3(x, y, 1))); };
+    EXPECT_GT(toward(0.9f, 0.4f).r, 0); // +x is to the left
+    EXPECT_GT(toward(-0.9f, -0.4f).g, 0);
+    EXPECT_EQ(toward(-0.9f, -0.4f).r, 0);
+    EXPECT_EQ(toward(0.9f, 0.6f), Rgb(0)); // half as high as wide
+    EXPECT_EQ(toward(1.1f, 0), Rgb(0));
+    double power = 0; // over the plane at distance 1, 2 wide and 1 high
+    constexpr int steps = 200;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const glm::vec3 p(2 * (float(i) + 0.5f) / steps - 1, (float(j) + 0.5f) / steps - 0.5f, 1);
+            const float d = glm::length(p);
+            power += luminance(light.toward(p / d)) / (d * d * d) * 2.0 / (steps * steps);
+        }
+    EXPECT_NEAR(light.power(), power, 1e-3 * power);
+    light.slide->kind = Slide::Kind::share;
+    EXPECT_EQ(toward(0.9f, 0.9f), Rgb(1, 0, 0)); // square
+}
+
 } // namespace
 
 } // namespace tessera

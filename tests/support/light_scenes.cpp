@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera::test {
@@ -57,6 +58,26 @@ std::shared_ptr<const Scene> point_lights() {
     r.point({{0.5f, 1.0f, 0.5f}, Rgb(2, 1, 1), glm::normalize(glm::vec3(-0.3f, -1, -0.5f)), 35, 10});
     r.directional({glm::normalize(glm::vec3(0.4f, 1, 0.7f)), Rgb(0.3f, 0.4f, 0.9f)});
     r.quad({-0.3f, -0.2f, 0.3f}, {0.5f, 0, 0}, {0, 0.1f, -0.3f}, r.w);
+    return r.build();
+}
+
+/// A projector and a spot with a pattern, side by side, on walls and a glossy floor.
+std::shared_ptr<const Scene> slides() {
+    OpenRoom r;
+    r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
+    r.quad({1, -1, -1}, {0, 0, 2}, {0, 1.2f, 0}, r.w);
+    Texture pattern;
+    pattern.kind = CheckerboardTexture{Rgb(4, 2, 1), Rgb(0, 0.5f, 3)};
+    pattern.to_uv = glm::mat3(2.5f);
+    const glm::vec3 at(0.2f, 0.8f, 0.9f), spot(-0.6f, 0.7f, 0.5f);
+    PointLight projector{at, Rgb(0.3f)};
+    projector.slide = Slide{
+        pattern, {glm::mat4(glm::mat3(look_at(at, {-0.2f, -1, -0.5f}))), 60, FovAxis::x}, Slide::Kind::irradiance};
+    const glm::mat3 down(look_at(spot, {0, -1, 0}));
+    PointLight cone{spot, Rgb(1), down[2], 40, 25};
+    cone.slide = Slide{pattern, {glm::mat4(down), 80, FovAxis::x}, Slide::Kind::share};
+    r.point(projector);
+    r.point(cone);
     return r.build();
 }
 
@@ -134,6 +155,7 @@ std::vector<TestScene> light_scenes() {
         {"environment_gloss", environment_gloss(), 4, 0.1f},
         {"point_lights", point_lights(), 4},
         {"point_lights_half_vectors", point_lights(), 4, 0.3f},
+        {"slides", slides(), 4},
         {"textured_light", textured_light(), 4},
         {"masks", masks(), 4},
         {"masks_outside", masks_outside(), 4},
