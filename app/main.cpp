@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
     } catch (const tessera::OutOfMemory& error) {
         fmt::print(stderr, "tessera: {}\n", error.what());
         return tessera::exit_failure;
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "tessera: there is not enough memory for this\n");
+    } catch (const std::bad_alloc& error) {
+        fmt::print(stderr, "tessera: {}\n", tessera::message_of(error));
         return tessera::exit_failure;
     } catch (const std::exception& error) {
         fmt::print(stderr, "tessera: {}\n", error.what());

@@ -152,6 +152,15 @@ PoissonSolver::PoissonSolver(int width, int height)
 
 PoissonSolver::~PoissonSolver() = default;
 
+std::uint64_t PoissonSolver::bytes(int width, int height, int threads) {
+    const int size = next_smooth(width);
+    const std::uint64_t columns = (static_cast<std::uint64_t>(size) + column_block - 1) / column_block;
+    const std::uint64_t block = std::uint64_t{3} * column_block * static_cast<std::uint64_t>(height); // values
+    const std::uint64_t scratch =
+        std::uint64_t{8} * lanes * static_cast<std::uint64_t>(size) + (size > width ? block : 0); // values
+    return sizeof(float) * (columns * block + static_cast<std::uint64_t>(threads) * scratch);
+}
+
 void PoissonSolver::solve(const PoissonProblem& problem, RgbImage& image, const ParallelFor& parallel_for) {
     prepare(problem.alpha, image);
     const RowSource right_side = [&](int y, int begin, int end, float* out) {

@@ -3,6 +3,7 @@
 #include "recon/lane_dct.h"
 #include "recon/poisson_problem.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -68,6 +69,9 @@ public:
     /// `width` and `height` are >= 1.
     PoissonSolver(int width, int height);
     ~PoissonSolver();
+
+    /// The memory that a solver for images of that size takes, if it works on so many threads.
+    static std::uint64_t bytes(int width, int height, int threads);
 
     int width() const { return width_; }
     int height() const { return height_; }

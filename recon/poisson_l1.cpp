@@ -124,6 +124,13 @@ float typical_value(const RgbImage& image) {
 
 L1Solver::L1Solver(int width, int height) : solver_(width, height) {}
 
+std::uint64_t L1Solver::bytes(int width, int height, int threads) {
+    constexpr std::uint64_t images = 4; // its members, but for the borders
+    const auto rows = static_cast<std::uint64_t>(height);
+    return PoissonSolver::bytes(width, height, threads) +
+           sizeof(Rgb) * static_cast<std::uint64_t>(width) * (images * rows + (rows + band_rows - 1) / band_rows);
+}
+
 int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, RgbImage& image,
                     const ParallelFor& parallel_for, const SolveWatch& watch) {
     const float scale = typical_value(problem.primal);

@@ -3,6 +3,8 @@
 #include "recon/parallel.h"
 #include "recon/poisson_direct.h"
 
+#include <cstdint>
+
 namespace tessera {
 
 /// What an L1 solve minimises, and for how long.
@@ -36,6 +38,9 @@ class L1Solver {
 public:
     /// `width` and `height` are >= 1.
     L1Solver(int width, int height);
+
+    /// The memory that such a solver takes, if it works on so many threads.
+    static std::uint64_t bytes(int width, int height, int threads);
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if
     /// stopped, which is looked at between them. The same bits for any parallel_for. Allocates images in the first

@@ -277,6 +277,12 @@ void take_step(const Factors& turn, const Factors& step, int count, const float*
 
 WeightedSolver::WeightedSolver(int width, int height) : solver_(width, height) {}
 
+std::uint64_t WeightedSolver::bytes(int width, int height, int threads) {
+    constexpr std::uint64_t images = 6; // its members
+    return PoissonSolver::bytes(width, height, threads) +
+           images * sizeof(Rgb) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
 void WeightedSolver::make_room() {
     for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_, &correction_})
         if (kept->empty())

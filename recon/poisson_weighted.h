@@ -4,12 +4,19 @@
 #include "recon/parallel.h"
 #include "recon/poisson_direct.h"
 
+#include <cstdint>
+
 namespace tessera {
 
 /// How far gradients are to be trusted, in [0, 1]: x(x, y) is that of dx(x, y), y(x, y) that of dy(x, y). The last
 /// column of x and the last row of y are 0, as nothing is measured there.
 struct EdgeWeights {
     Image<float> x, y;
+
+    /// The memory that they take.
+    static std::uint64_t bytes(int width, int height) {
+        return 2 * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
 };
 
 /// Weights from the variances V of `images`, for a primal of weight alpha^2. Where nothing is noisy, they are 1.
@@ -51,6 +58,9 @@ class WeightedSolver {
 public:
     /// `width` and `height` are >= 1.
     WeightedSolver(int width, int height);
+
+    /// The memory that such a solver takes, if it works on so many threads.
+    static std::uint64_t bytes(int width, int height, int threads);
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if
     /// stopped, which is looked at between them. The same bits for any parallel_for. Where numbers are too large

@@ -98,6 +98,27 @@ void Reconstructor::forget() {
         solvers_->weighted->forget();
 }
 
+std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads) const {
+    const std::uint64_t image = sizeof(Rgb) * static_cast<std::uint64_t>(width) * height;
+    const Solvers* kept =
+        solvers_ && solvers_->width == width && solvers_->height == height ? &*solvers_ : nullptr;
+    switch (norm) {
+    case Norm::none:
+        return image;
+    case Norm::uniform:
+        return 2 * image;
+    case Norm::l2:
+        return image + (kept && kept->l2 ? 0 : PoissonSolver::bytes(width, height, threads));
+    case Norm::l1:
+    case Norm::mixed:
+        return image + (kept && kept->l1 ? 0 : L1Solver::bytes(width, height, threads));
+    case Norm::weighted:
+        return image + EdgeWeights::bytes(width, height) +
+               (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
+    }
+    return 0;
+}
+
 std::string_view to_string(Norm norm) {
     switch (norm) {
     case Norm::none:

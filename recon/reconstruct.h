@@ -6,6 +6,7 @@
 #include "recon/poisson_problem.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -73,6 +74,10 @@ public:
 
     /// The next image starts from nothing.
     void forget();
+
+    /// The most memory that reconstruct() takes beside its images, on so many threads: for the picture, and for
+    /// what its solver does not have already from images before.
+    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1) const;
 
 private:
     struct Solvers;

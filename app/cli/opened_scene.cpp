@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "embedded/cornell_box_xml.h"
+#include "render/io/available_memory.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
@@ -101,10 +102,12 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     std::optional<Camera> camera;
     if (!source.camera.empty())
         camera = read_camera(source.camera); // first: it is read in no time, and may be broken
-    LoadedScene loaded =
-        source.file.empty()
-            ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for, progress)
-            : load_mitsuba_xml(source.file, source.variables, parallel_for, progress, source.strict);
+    LoadedScene loaded = with_memory_for("the scene " + to_string(source), [&] {
+        return source.file.empty()
+                   ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for,
+                                       progress)
+                   : load_mitsuba_xml(source.file, source.variables, parallel_for, progress, source.strict);
+    });
     loaded.description.camera = camera.value_or(loaded.description.camera);
     OpenedScene opened;
     opened.notes = std::move(loaded.notes);
@@ -122,7 +125,8 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
                 told.step();
         return !told.given_up();
     });
-    opened.scene = std::make_shared<const Scene>(std::move(loaded.description));
+    opened.scene = with_memory_for("the scene's BVH and lights",
+                                   [&] { return std::make_shared<const Scene>(std::move(loaded.description)); });
     opened.bvh_seconds = opened.scene->bvh_seconds();
     opened.bvh_cpu_seconds = process_cpu_seconds() - cpu_after_load;
     return opened;

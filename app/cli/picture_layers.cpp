@@ -1,13 +1,17 @@
 #include "app/cli/picture_layers.h"
 
 #include "app/cli/terminal.h"
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
+#include "render/run/fitting_reconstruction.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include <fmt/core.h>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -17,6 +21,17 @@ namespace {
 void add_layer(ExrFile& file, std::string name, RgbImage image) {
     if (!image.empty())
         file.layers.push_back({std::move(name), std::move(image)});
+}
+
+void add_buffers(ExrFile& file, GradientImages&& images) {
+    add_layer(file, "primal", std::move(images.primal));
+    add_layer(file, "dx", std::move(images.dx));
+    add_layer(file, "dy", std::move(images.dy));
+    add_layer(file, "direct", std::move(images.very_direct));
+    add_layer(file, "primal_variance", grey(images.primal_variance));
+    add_layer(file, "dx_variance", grey(images.dx_variance));
+    add_layer(file, "dy_variance", grey(images.dy_variance));
+    file.attributes[patch_attribute] = fmt::format("{}", images.patch);
 }
 
 } // namespace
@@ -30,33 +45,40 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
             "{}: a PNG file holds one picture; buffers and several reconstructions take EXR", output.string()));
 }
 
+std::uint64_t bytes_for_layers(glm::ivec2 size, bool has_gradients, const ReconstructionLayers& wanted,
+                               int threads) {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    const std::uint64_t images = pixels * (sizeof(Rgb) + (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)));
+    std::uint64_t done = 0, most = images;
+    for (Norm norm : wanted.norms) {
+        most = std::max(most,
+                        images + done +
+                            Reconstructor().bytes_for(size.x, size.y, has_gradients ? norm : Norm::none, threads));
+        done += pixels * sizeof(Rgb);
+    }
+    return most;
+}
+
 // Nothing is kept that is not to be written: a picture takes more memory here than many a scene.
-ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
+ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats) {
     ExrFile file;
     const ParallelFor parallel_for = pool.loops();
     ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
         settings.norm = norm;
+        Reconstructor solver; // its memory goes before the next norm's comes
         const double cpu = pool.cpu_seconds();
-        Reconstruction r = reconstruct(images, settings, parallel_for);
+        Reconstruction r = reconstruct_if_it_fits(solver, images, settings, parallel_for, pool.size());
         stats.push_back({norm, r.seconds, pool.cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
-    if (wanted.buffers) {
-        add_layer(file, "primal", std::move(images.primal));
-        add_layer(file, "dx", std::move(images.dx));
-        add_layer(file, "dy", std::move(images.dy));
-        add_layer(file, "direct", std::move(images.very_direct));
-        add_layer(file, "primal_variance", grey(images.primal_variance));
-        add_layer(file, "dx_variance", grey(images.dx_variance));
-        add_layer(file, "dy_variance", grey(images.dy_variance));
-        file.attributes[patch_attribute] = fmt::format("{}", images.patch);
-    }
+    if (wanted.buffers)
+        add_buffers(file, std::move(images));
     return file;
 }
 
-ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
+ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
                        ThreadPool& pool, std::vector<ReconstructionStats>& stats) {
     ExrFile file = reconstruct_layers(std::move(images), wanted, pool, stats);
     if (!wanted.buffers || maps.empty())
@@ -68,6 +90,18 @@ ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const Recon
         add_layer(file, fmt::format("shifts_{}", to_string(outcome)), grey(maps.share(outcome)));
     }
     add_layer(file, "survival", grey(maps.survival()));
+    return file;
+}
+
+ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr) {
+    ExrFile file;
+    if (is_exr && images.has_gradients()) {
+        add_buffers(file, std::move(images));
+        return file;
+    }
+    for (std::size_t i = 0; i < images.very_direct.size(); ++i)
+        images.primal.data()[i] += images.very_direct.data()[i];
+    add_layer(file, "", std::move(images.primal));
     return file;
 }
 
@@ -106,7 +140,7 @@ void write_picture(const std::filesystem::path& output, const ExrFile& file) {
     try {
         write_as(output, extension, file);
     } catch (const std::exception& error) {
-        throw std::runtime_error(error.what() + keep_aside(extension, file));
+        throw std::runtime_error(message_of(error) + keep_aside(extension, file));
     }
 }
 

@@ -5,8 +5,11 @@
 #include "render/io/exr.h"
 #include "render/run/thread_pool.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -32,14 +35,25 @@ struct ReconstructionStats {
 /// Throws BadInput unless the name ends in .exr, or in .png with no more than one picture to hold.
 void check_picture_name(const std::filesystem::path& output, const ReconstructionLayers& wanted);
 
-/// The layers wanted, named as their norms; of the buffers those that are not empty. What each reconstruction cost
-/// is appended to `stats`. Nobody else may use the pool meanwhile.
-ExrFile reconstruct_layers(GradientImages images, const ReconstructionLayers& wanted, ThreadPool& pool,
+/// The most memory that it takes to make the layers of a picture of that size on so many threads, the images they
+/// are made of included.
+std::uint64_t bytes_for_layers(glm::ivec2 size, bool has_gradients, const ReconstructionLayers& wanted,
+                               int threads);
+
+/// The layers wanted, named as their norms; of the buffers those that are not empty, which are taken from
+/// `images`. What each reconstruction cost is appended to `stats`. Throws OutOfMemory where there is no memory for
+/// one; `images` are then as they were. Nobody else may use the pool meanwhile.
+ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats);
 
-/// Those layers and, where pixels share paths, the maps of how that went.
-ExrFile picture_layers(GradientImages images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
+/// Those layers and, where pixels share paths, the maps of how that went. Throws likewise.
+ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
                        ThreadPool& pool, std::vector<ReconstructionStats>& stats);
+
+/// What there is to keep of a picture that there is no memory to reconstruct; takes little itself. Of gradients
+/// and for EXR that are the buffers, of which `tessera reconstruct` makes the picture elsewhere; else, the primal
+/// and very direct light.
+ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr);
 
 /// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Where that fails, on a
 /// full disk, it is kept in the temporary folder: a render may have taken days. Throws std::runtime_error that

@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/experiment/artefacts.h"
 #include "recon/metrics.h"
+#include "render/io/available_memory.h"
 #include "render/io/exr.h"
 #include "render/io/json_text.h"
 #include "render/run/reference_image.h"
@@ -153,7 +154,7 @@ int run_compare(const CompareOptions& options) {
             print_text(comparison);
         return 0;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "tessera compare: %s\n", error.what());
+        std::fprintf(stderr, "tessera compare: %s\n", message_of(error).c_str());
         return 2;
     }
 }

@@ -5,6 +5,8 @@
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
+#include "render/io/available_memory.h"
+#include "render/io/files.h"
 #include "render/io/json_text.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
@@ -70,6 +72,29 @@ bool warn_of_bad_pixels(const ExrFile& file) {
     return true;
 }
 
+/// Before the first pass, as after the last one it would be late to learn that it was all in vain.
+void ask_for_picture(const ResolvedRender& wanted, int threads) {
+    const RenderSettings& settings = wanted.settings;
+    check_image_size(wanted.size.x, wanted.size.y);
+    ask_for_memory(std::max(Render::bytes(wanted.size, settings, threads),
+                            bytes_for_layers(wanted.size, has_gradients(settings.method), wanted.layers, threads)),
+                   fmt::format("{}x{} pixels of {}", wanted.size.x, wanted.size.y, short_name(settings.method)));
+}
+
+/// The layers wanted; what there is to keep where there is no memory left to reconstruct, and why, in `failure`.
+ExrFile layers_of(Render& render, const ResolvedRender& wanted, bool is_exr, ThreadPool& pool,
+                  std::vector<ReconstructionStats>& stats, std::string& failure) {
+    const ReuseMaps maps = wanted.layers.buffers ? render.reuse_maps() : ReuseMaps{};
+    GradientImages images = render.take_images();
+    try {
+        return picture_layers(std::move(images), maps, wanted.layers, pool, stats);
+    } catch (const OutOfMemory& error) {
+        failure = error.what();
+        stats.clear();
+        return unreconstructed_layers(std::move(images), is_exr);
+    }
+}
+
 } // namespace
 
 int run_render(const RenderOptions& options) {
@@ -85,13 +110,14 @@ int run_render(const RenderOptions& options) {
     print_notes(opened.notes);
 
     const ResolvedRender wanted = resolve(options, *opened.scene);
+    ask_for_picture(wanted, pool.size());
     Render render(opened.scene, opened.scene->camera(), wanted.size, wanted.settings);
-    render_passes(options, wanted, render, pool);
+    with_memory_for("the render", [&] { render_passes(options, wanted, render, pool); });
     warn_of_refused(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
-    const ReuseMaps maps = options.layers.buffers ? render.reuse_maps() : ReuseMaps{};
-    ExrFile file = picture_layers(render.take_images(), maps, wanted.layers, pool, recon);
+    std::string failure;
+    ExrFile file = layers_of(render, wanted, extension_of(options.output) == ".exr", pool, recon, failure);
     const nlohmann::json settings =
         settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings.alpha);
     file.attributes["tessera:version"] = TESSERA_VERSION;
@@ -105,6 +131,9 @@ int run_render(const RenderOptions& options) {
     }
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
+    if (!failure.empty())
+        throw OutOfMemory(
+            fmt::format("{}: {}; the picture is not reconstructed", options.output.string(), failure));
     return is_finite ? exit_ok : exit_failure;
 }
 

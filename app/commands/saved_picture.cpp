@@ -53,8 +53,8 @@ ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<Recons
     if (!finished)
         wanted.norms = {norm};
     ThreadPool pool(1); // no thread but this one
-    ExrFile exr =
-        picture_layers(*snapshot.images, snapshot.reuse ? *snapshot.reuse : ReuseMaps{}, wanted, pool, stats);
+    ExrFile exr = picture_layers(GradientImages(*snapshot.images), snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
+                                 wanted, pool, stats);
     if (finished) {
         exr.layers.insert(exr.layers.begin(), {"", finished->image});
         stats.push_back({norm, finished->seconds, std::numeric_limits<double>::quiet_NaN(), finished->iterations,

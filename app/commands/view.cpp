@@ -1,5 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
+#include "render/io/available_memory.h"
 #include "render/io/plain_images.h"
 #include "ui/gl/gl.h"
 #include "ui/settings/preferences.h"
@@ -81,7 +82,7 @@ private:
             const ScreenPixels screen = read_screen(surface_.pixels());
             write_png(options_.screenshot, screen.size, screen.rgb);
         } catch (const std::exception& e) {
-            return fail(e.what());
+            return fail(message_of(e));
         }
         return false;
     }

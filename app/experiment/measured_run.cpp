@@ -2,6 +2,7 @@
 
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
+#include "render/run/fitting_reconstruction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +113,9 @@ void MeasuredRun::measure(int halvings) {
     const GradientImages buffers = render_.images();
     for (std::size_t i = 0; i < reconstructions_.size(); ++i) {
         const double cpu = process_cpu_seconds();
-        Reconstruction r = reconstruct(buffers, reconstructions_[i], parallel_for);
+        Reconstructor reconstructor;
+        Reconstruction r =
+            reconstruct_if_it_fits(reconstructor, buffers, reconstructions_[i], parallel_for, pool_.size());
         const double reconstruction_cpu = process_cpu_seconds() - cpu;
         measurements_[i].push_back({halvings,
                                     render_.settings().seed,

@@ -1,5 +1,6 @@
 #include "render/estimator/pass.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -66,6 +67,8 @@ int block_edge(const RenderSettings& settings) {
                                          : usual_block_edge;
 }
 
+constexpr int long_path = 16; // vertices: memory for paths is for 2^n of them, and of a block's some are as long
+
 glm::ivec2 block_origin(const Pass& pass) {
     return reuses_paths(pass.settings.method) ? pass.grid.origin : glm::ivec2(0);
 }
@@ -76,6 +79,15 @@ Rgb light_along(const Ray& ray, const Tracer& tracer) {
 }
 
 } // namespace
+
+std::uint64_t Worker::bytes(const RenderSettings& settings) {
+    const auto edge = static_cast<std::uint64_t>(block_edge(settings) + 1); // with one more column and row
+    const std::uint64_t paths = settings.method == Method::pt ? 1 : edge * edge;
+    const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
+    const std::uint64_t a_vertex =
+        sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
+    return sizeof(Worker) + paths * (sizeof(BasePath) + vertices * a_vertex);
+}
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const ReusePlan& plan, int index_)

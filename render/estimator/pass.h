@@ -8,6 +8,7 @@
 #include "render/settings/settings.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -118,6 +119,9 @@ struct Worker {
         : tracer{scene, counters, settings}, reuse(tracer, settings, settings.weight_threshold) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
+
+    /// About the memory that one takes: that of the base paths of a block, which are as long as they happen to be.
+    static std::uint64_t bytes(const RenderSettings& settings);
 
     Counters counters;
     double cpu_seconds = 0;

@@ -102,4 +102,8 @@ void ask_for_memory(std::uint64_t bytes, const std::string& what) {
                                       memory_text(available)));
 }
 
+std::string message_of(const std::exception& error) {
+    return dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
+}
+
 } // namespace tessera

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tessera {
 
@@ -17,5 +20,19 @@ public:
 /// need 12.1 GiB of memory, and 7.0 GiB are free", where the machine, the control group or the limit of address
 /// space (ulimit -v) leaves fewer `bytes`. `what` is in the plural.
 void ask_for_memory(std::uint64_t bytes, const std::string& what);
+
+/// Does `work`, and returns what it returns. Where memory ends in the midst of it, unforeseen, throws OutOfMemory
+/// that says during what: "there is not enough memory for loading box.xml".
+template <class Work>
+decltype(auto) with_memory_for(const std::string& what, Work&& work) {
+    try {
+        return std::forward<Work>(work)();
+    } catch (const std::bad_alloc&) {
+        throw OutOfMemory("there is not enough memory for " + what);
+    }
+}
+
+/// What an exception says, for people: of itself, std::bad_alloc says "std::bad_alloc".
+std::string message_of(const std::exception& error);
 
 } // namespace tessera

@@ -207,7 +207,7 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file) {
         write_layers(temporary.path(), file);
         temporary.commit();
     } catch (const std::exception& error) {
-        throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
+        throw std::runtime_error("cannot write " + path.string() + ": " + message_of(error));
     }
 }
 
@@ -238,7 +238,7 @@ ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
                                return names;
                            });
     } catch (const std::exception& error) {
-        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+        throw std::runtime_error("cannot read " + path.string() + ": " + message_of(error));
     }
 }
 
@@ -247,7 +247,7 @@ std::map<std::string, std::string> read_exr_attributes(const std::filesystem::pa
         open_file(path);
         return attributes_of(Imf::MultiPartInputFile(path.c_str()).header(0));
     } catch (const std::exception& error) {
-        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+        throw std::runtime_error("cannot read " + path.string() + ": " + message_of(error));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "render/io/files.h"
 
+#include "render/io/available_memory.h"
 #include "render/io/memory.h"
 #include "render/io/text.h"
 
@@ -80,6 +81,7 @@ std::string read_bytes(const std::filesystem::path& file) {
     const std::streamoff size = stream.tellg();
     if (size < 0)
         throw std::runtime_error("the file cannot be read");
+    ask_for_memory(static_cast<std::uint64_t>(size), "the bytes of the file");
     std::string bytes(static_cast<std::size_t>(size), '\0');
     stream.seekg(0);
     if (!stream.read(bytes.data(), size))

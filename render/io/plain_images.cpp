@@ -1,5 +1,6 @@
 #include "render/io/plain_images.h"
 
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/text.h"
 
@@ -80,7 +81,7 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
         out.close();
         temporary.commit();
     } catch (const std::exception& error) {
-        throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
+        throw std::runtime_error("cannot write " + path.string() + ": " + message_of(error));
     }
 }
 
@@ -181,7 +182,7 @@ RgbImage read_pfm(const std::filesystem::path& path) {
     try {
         return parse_pfm(read_bytes(path));
     } catch (const std::exception& error) {
-        throw std::runtime_error("cannot read " + path.string() + ": " + error.what());
+        throw std::runtime_error("cannot read " + path.string() + ": " + message_of(error));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "render/load/load_context.h"
 
+#include "render/io/available_memory.h"
 #include "render/io/text.h"
 
 #include <algorithm>
@@ -103,7 +104,7 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
         try {
             outcomes[index].note = jobs_[index].read(wanted);
         } catch (const std::exception& e) {
-            outcomes[index].error = e.what();
+            outcomes[index].error = message_of(e);
         }
         progress.step();
     });

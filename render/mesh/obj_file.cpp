@@ -1,3 +1,4 @@
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/mesh/meshes.h"
 
@@ -83,6 +84,13 @@ ObjCounts scan(std::istream& stream) {
 class ObjBuilder {
 public:
     explicit ObjBuilder(const ObjCounts& counts) {
+        // Most is taken at the end, where the mesh is made of the lists; normals are its own, or computed ones.
+        const std::size_t a_vertex = 3 * sizeof(glm::vec3) + sizeof(ObjVertex) + sizeof(unsigned) +
+                                     (counts.uvs > 0 ? sizeof(glm::vec2) : 0);
+        ask_for_memory(counts.positions * a_vertex + counts.normals * sizeof(glm::vec3) +
+                           counts.uvs * sizeof(glm::vec2) + counts.triangles * sizeof(glm::uvec3),
+                       "its " + std::to_string(counts.positions) + " vertices and " +
+                           std::to_string(counts.triangles) + " triangles");
         positions_.reserve(counts.positions);
         first_of_.reserve(counts.positions);
         vertices_.reserve(counts.positions); // as many or more, if each is in use

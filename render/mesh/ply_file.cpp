@@ -1,3 +1,4 @@
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/mesh/meshes.h"
 #include "render/mesh/ply_format.h"
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -134,6 +136,8 @@ private:
                 for (; row < element.count; ++row)
                     for (const PlyProperty& property : element.properties)
                         skip(values_, property);
+        } catch (const OutOfMemory&) {
+            throw; // of all its rows, not of this one
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(element.name + " " + std::to_string(row) + ": " + e.what());
         }
@@ -153,6 +157,9 @@ private:
         const bool has_normals = has[nx] && has[ny] && has[nz];
         const bool has_uvs = has[u] && has[v];
         const bool has_colors = has[red] && has[green] && has[blue];
+        ask_for_memory(element.count * (2 * sizeof(glm::vec3) + // positions and normals: its own, or computed ones
+                                        (has_uvs ? sizeof(glm::vec2) : 0) + (has_colors ? sizeof(Rgb) : 0)),
+                       "its " + std::to_string(element.count) + " vertices");
         mesh_.positions.reserve(element.count);
         mesh_.normals.reserve(has_normals ? element.count : 0);
         mesh_.uvs.reserve(has_uvs ? element.count : 0);
@@ -192,6 +199,7 @@ private:
     }
 
     void read_faces(const PlyElement& element, std::uint64_t& row) {
+        ask_for_memory(element.count * sizeof(glm::uvec3), "its " + std::to_string(element.count) + " faces");
         mesh_.triangles.reserve(element.count);
         for (; row < element.count; ++row)
             for (const PlyProperty& property : element.properties) {

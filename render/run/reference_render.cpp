@@ -2,6 +2,7 @@
 
 #include "render/io/json_text.h"
 #include "render/run/checkpoint.h"
+#include "render/run/fitting_reconstruction.h"
 #include "render/run/picture_identity.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
@@ -77,7 +78,8 @@ double ReferenceRender::seconds_left() const {
 
 FloorFreeError ReferenceRender::error_so_far() const {
     const auto image = [&](const Render& half) {
-        return reconstruct(half.images(), recipe_.reconstruction).image;
+        Reconstructor reconstructor;
+        return reconstruct_if_it_fits(reconstructor, half.images(), recipe_.reconstruction).image;
     };
     return measure_reference_error(image(halves_[0]), image(halves_[1]));
 }
@@ -89,7 +91,9 @@ ReferenceImage ReferenceRender::finish() {
     reference.camera = camera_json(subject_.camera);
     reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
     for (std::size_t i = 0; i < 2; ++i) {
-        reference.halves[i] = reconstruct(halves_[i].take_images(), recipe_.reconstruction).image;
+        Reconstructor reconstructor;
+        reference.halves[i] =
+            reconstruct_if_it_fits(reconstructor, halves_[i].take_images(), recipe_.reconstruction).image;
         reference.seeds[i] = halves_[i].settings().seed;
     }
     reference.mean = mean_of(reference.halves[0], reference.halves[1]);

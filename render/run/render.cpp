@@ -22,6 +22,10 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             s.very_direct_grid > 1};
 }
 
+std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
+    return static_cast<std::uint64_t>(threads) * Worker::bytes(settings);
+}
+
 /// Throws std::runtime_error for a size that no image has, or no memory.
 glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
     check_image_size(size.x, size.y);
@@ -41,6 +45,14 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
     done_blocks_.resize(most_blocks(size, settings));
 }
 
+std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int threads) {
+    // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
+    const std::uint64_t means =
+        (sizeof(Rgb) + sizeof(float)) * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    return Film::bytes(size.x, size.y, buffers_of(settings)) +
+           std::max(means, bytes_of_threads(threads, settings));
+}
+
 /// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
 /// it is so in smaller squares: this is the most.
 GradientImages Render::with_patch(GradientImages images) const {
@@ -53,6 +65,8 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     const auto start = std::chrono::steady_clock::now();
     const Pass pass(*scene_, camera_, size_, settings_, plan_, spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
+    if (spp_ == 0)
+        ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
     std::vector<std::unique_ptr<Worker>> workers;
     for (int i = 0; i < pool.size(); ++i)
         workers.push_back(std::make_unique<Worker>(*scene_, settings_));

@@ -22,9 +22,12 @@ public:
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
            const RenderSettings& settings);
 
+    /// The most memory that a render takes on so many threads, and means of its passes.
+    static std::uint64_t bytes(glm::ivec2 size, const RenderSettings& settings, int threads);
+
     /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
     /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
-    /// picture.
+    /// picture. Throws OutOfMemory where the first has none for its threads.
     bool pass(ThreadPool& pool, std::stop_token stop = {});
 
     int spp() const { return spp_; }

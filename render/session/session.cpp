@@ -1,3 +1,4 @@
+#include "render/io/available_memory.h"
 #include "render/run/thread_pool.h"
 #include "render/session/session_pane.h"
 
@@ -249,7 +250,7 @@ void Session::render_pass(Pane& pane, std::stop_token session_stop) {
         pane.render_generation = 0;
         give_up(pane, generation);
         report(fmt::format("{}, seed {}: {}", short_name(request.settings.method), request.settings.seed,
-                           error.what()));
+                           message_of(error)));
     }
 }
 

@@ -1,5 +1,7 @@
 #include "render/session/session_pane.h"
 
+#include "render/io/available_memory.h"
+#include "render/run/fitting_reconstruction.h"
 #include "render/run/thread_pool.h"
 
 #include <algorithm>
@@ -106,7 +108,7 @@ void Session::tell() {
             on_publish_();
     } catch (const std::exception& error) {
         const std::lock_guard lock(mutex_);
-        messages_.push_back(fmt::format("the newest picture is not shown: {}", error.what()));
+        messages_.push_back(fmt::format("the newest picture is not shown: {}", message_of(error)));
     }
 }
 
@@ -116,7 +118,7 @@ void Session::publish_passes(Pane& pane) {
     try {
         publish(pane, snapshot_of(*pane.render, pane.render_generation, 1));
     } catch (const std::exception& error) {
-        report(fmt::format("pass {} is not shown: {}", pane.render->spp(), error.what()));
+        report(fmt::format("pass {} is not shown: {}", pane.render->spp(), message_of(error)));
     }
     pane.published_spp = pane.render->spp();
     pane.published_at = std::chrono::steady_clock::now();
@@ -164,10 +166,10 @@ void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const R
     std::shared_ptr<const Snapshot> latest;
     std::string failure;
     try {
-        *result = pane.solver_for(snapshot, settings)
-                      .reconstruct(*snapshot.images, settings, serial_for, {stop, &pane.solving_share});
+        *result = reconstruct_if_it_fits(pane.solver_for(snapshot, settings), *snapshot.images, settings,
+                                         serial_for, 1, {stop, &pane.solving_share});
     } catch (const std::exception& error) {
-        failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, error.what());
+        failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, message_of(error));
     }
     {
         const std::lock_guard lock(mutex_);

@@ -1,5 +1,6 @@
 #include "render/trace/intersector.h"
 
+#include "render/io/available_memory.h"
 #include "render/sampling/sampling.h"
 #include "render/surface/texture.h"
 
@@ -75,6 +76,8 @@ void on_error(void* kept, RTCError code, const char* text) noexcept {
     if (code == RTC_ERROR_CANCELLED)
         return; // by the monitor: see build()
     try {
+        if (code == RTC_ERROR_OUT_OF_MEMORY)
+            throw OutOfMemory("there is not enough memory for the BVH");
         throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " +
                                  (text ? text : ""));
     } catch (...) { // or there is no memory for the message
@@ -264,6 +267,17 @@ void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, Mask* mask, unsi
     rtcReleaseGeometry(geometry);
 }
 
+/// What Embree takes while it builds, which is more than what it keeps: measured on up to 4 million triangles, 105
+/// bytes for each of a smooth surface and 134 for each of a soup, of which 72 and 101 remain.
+constexpr std::uint64_t build_bytes_a_triangle = 136;
+
+void ask_for_build(const std::vector<Shape>& shapes) {
+    std::uint64_t triangles = 0;
+    for (const Shape& shape : shapes)
+        triangles += shape.mesh.triangles.size();
+    ask_for_memory(triangles * build_bytes_a_triangle, std::to_string(triangles) + " triangles in a BVH");
+}
+
 /// The largest magnitude of a coordinate.
 float extent(const std::vector<Shape>& shapes) {
     float largest = 0;
@@ -297,6 +311,7 @@ Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
 Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities)
     : impl_(std::make_unique<Impl>()) {
+    ask_for_build(shapes);
     // Embree's 512-bit kernels trace single rays some 4 % slower than its 256-bit ones (measured on an EPYC).
     impl_->device = rtcNewDevice("max_isa=avx2");
     if (!impl_->device)

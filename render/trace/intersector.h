@@ -65,7 +65,7 @@ public:
     ///                   empty: all shapes are opaque.
     ///
     /// Meshes and textures must stay where they are for as long as this lives. Throws std::runtime_error with
-    /// what Embree says where it fails.
+    /// what Embree says where it fails, OutOfMemory where the BVH cannot be had.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/io/available_memory.h"
+
 #include <atomic>
 #include <exception>
 #include <functional>
@@ -60,7 +62,7 @@ public:
             try {
                 job->result = work(stop);
             } catch (const std::exception& error) {
-                job->error = error.what();
+                job->error = message_of(error);
             }
             job->finished = true;
             if (done)

@@ -1,5 +1,7 @@
 #include "ui/jobs/scene_load.h"
 
+#include "render/io/available_memory.h"
+
 #include <exception>
 #include <stop_token>
 #include <utility>
@@ -16,7 +18,7 @@ SceneLoadResult load_scene(const SceneOrigin& origin, LoadProgress& progress) {
         if (!loaded.scene)
             loaded.error = origin.name + ": no scene";
     } catch (const std::exception& e) { // the notes until then are kept
-        loaded.error = e.what();
+        loaded.error = message_of(e);
     }
     return loaded;
 }

@@ -1,5 +1,6 @@
 #include "ui/settings/preferences.h"
 
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/json_text.h"
 #include "ui/state/file_names.h"
@@ -70,7 +71,7 @@ Preferences read(const fs::path& file, std::string& note, Condition& condition) 
         return preferences;
     } catch (const std::exception& error) {
         note = file.string() + " is ignored, as it " +
-               (condition == Condition::broken ? "is broken: " : "cannot be read: ") + error.what();
+               (condition == Condition::broken ? "is broken: " : "cannot be read: ") + message_of(error);
         return {};
     }
 }

@@ -1,3 +1,4 @@
+#include "render/io/available_memory.h"
 #include "ui/gl/gui.h"
 #include "ui/settings/settings_file.h"
 #include "ui/viewer/script.h"
@@ -76,7 +77,7 @@ void ScriptPlayer::after_frame() {
     try {
         outside_.screenshot(file);
     } catch (const std::exception& error) {
-        fail(error.what());
+        fail(message_of(error));
     }
 }
 

@@ -1,3 +1,4 @@
+#include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
 #include "render/scene/camera.h"
@@ -71,7 +72,7 @@ void Viewer::load_settings(const std::filesystem::path& file) {
         apply_settings_file(state_, file);
         state_.add_message(Message::Kind::note, "The settings are now those of " + file.string());
     } catch (const std::exception& e) {
-        state_.add_message(Message::Kind::error, e.what());
+        state_.add_message(Message::Kind::error, message_of(e));
     }
 }
 

@@ -1,0 +1,21 @@
+#include "render/run/fitting_reconstruction.h"
+
+#include "render/io/available_memory.h"
+
+#include <string>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const GradientImages& images,
+                                      const ReconstructionSettings& settings, const ParallelFor& parallel_for,
+                                      int threads, const SolveWatch& watch) {
+    const int width = images.primal.width(), height = images.primal.height();
+    const Norm norm = images.has_gradients() ? settings.norm : Norm::none;
+    const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
+    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads), what);
+    return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
+}
+
+} // namespace tessera

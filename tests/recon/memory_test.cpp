@@ -1,0 +1,51 @@
+// What reconstructions say they will take, against what they take.
+
+#include "recon/reconstruct.h"
+#include "tests/recon/test_images.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+namespace tessera {
+namespace {
+
+using namespace test;
+
+std::size_t bytes_in_use() {
+    const struct mallinfo2 info = ::mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+TEST(ReconstructionMemory, IsWhatWasTold) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers count for themselves";
+#endif
+    for (const int width : {480, 499}) { // the latter is solved on 500 columns
+        GradientImages images = noisy_images(width, 400);
+        images.patch = 3;
+        for (const Norm norm : all_norms) {
+            Reconstructor reconstructor;
+            const double told = static_cast<double>(reconstructor.bytes_for(width, 400, norm));
+            const std::size_t before = bytes_in_use();
+            std::size_t most = before;
+            const ParallelFor watched = [&](int count, const std::function<void(int)>& body) {
+                most = std::max(most, bytes_in_use());
+                serial_for(count, body);
+                most = std::max(most, bytes_in_use());
+            };
+            const Reconstruction result = reconstructor.reconstruct(images, {norm, 0.2f}, watched);
+            const double taken = static_cast<double>(std::max(most, bytes_in_use()) - before);
+            EXPECT_GT(told, 0.95 * taken) << to_string(norm) << " " << width;
+            EXPECT_LT(told, 1.05 * taken) << to_string(norm) << " " << width;
+            // What it has is not asked for twice.
+            const double again = static_cast<double>(reconstructor.bytes_for(width, 400, norm));
+            const bool has_solver = norm != Norm::none && norm != Norm::uniform;
+            EXPECT_EQ(again < told, has_solver) << to_string(norm);
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera
