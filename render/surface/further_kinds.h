@@ -30,21 +30,11 @@ float relative_index_of(const Kind& kind, glm::vec3 to_previous) {
 struct FurtherKinds {
     std::variant<Mixture, Coated, Principled, ThinPrincipled, Ward, DiffuseTransmitter, MediumLayer> kind;
 
-    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-        return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
-    }
-    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-        return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
-    }
-    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
-        return std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-    }
-    float roughness() const {
-        return std::visit([](const auto& b) { return b.roughness(); }, kind);
-    }
-    float relative_index(glm::vec3 to_previous) const {
-        return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
-    }
+    BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
+    std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
+    float roughness() const;
+    float relative_index(glm::vec3 to_previous) const;
 };
 
 } // namespace tessera

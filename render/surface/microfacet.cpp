@@ -84,6 +84,16 @@ glm::vec3 sample_visible_ggx(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) 
     return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(n.z, 0.0f)));
 }
 
+/// The square of a vector, stretched along x and squeezed along y. What is the same in all directions, as most
+/// facets are, is spared the division.
+float stretched_square(float x, float y, float stretch) {
+    if (stretch != 1) [[unlikely]] {
+        x *= stretch;
+        y /= stretch;
+    }
+    return x * x + y * y;
+}
+
 } // namespace
 
 Microfacets Microfacets::anisotropic(MicrofacetDistribution distribution, float along_tangent,
@@ -97,8 +107,7 @@ float Microfacets::density(glm::vec3 normal) const {
         return 0;
     const float a2 = alpha * alpha;
     // Slopes squeezed to those of facets of one roughness, alpha: an area of slopes stays as large [Heitz 2014].
-    const float x = normal.x / stretch, y = normal.y * stretch;
-    const float sin2 = x * x + y * y;
+    const float sin2 = stretched_square(normal.y, normal.x, stretch);
     const float cos2 = normal.z * normal.z;
     if (distribution == MicrofacetDistribution::ggx) {
         const float d = sin2 + a2 * cos2;
@@ -111,8 +120,7 @@ float Microfacets::density(glm::vec3 normal) const {
 float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
     if (glm::dot(direction, normal) * direction.z <= 0)
         return 0;
-    const float x = direction.x * stretch, y = direction.y / stretch;
-    const float sin2 = x * x + y * y;
+    const float sin2 = stretched_square(direction.x, direction.y, stretch);
     const float cos2 = direction.z * direction.z;
     if (sin2 <= 0)
         return 1;

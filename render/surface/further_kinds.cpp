@@ -1,0 +1,27 @@
+#include "render/surface/further_kinds.h"
+
+namespace tessera {
+
+// Apart from the header, so that all else that visits a Bsdf stays small.
+
+BsdfValue FurtherKinds::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
+    return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
+}
+
+std::optional<BsdfSample> FurtherKinds::sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
+    return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
+}
+
+DeltaValue FurtherKinds::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
+    return std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+}
+
+float FurtherKinds::roughness() const {
+    return std::visit([](const auto& b) { return b.roughness(); }, kind);
+}
+
+float FurtherKinds::relative_index(glm::vec3 to_previous) const {
+    return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
+}
+
+} // namespace tessera
