@@ -11,6 +11,7 @@ namespace tessera {
 
 void BasePath::reset(const Random& numbers, int light_samples) {
     very_direct = direct = indirect = Rgb(0);
+    albedo = Rgb(1);
     random = numbers;
     pixel_width = 0;
     size_ = 0;
@@ -185,6 +186,7 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pix
     }
     path.keep();
     path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
+    path.albedo = primary.vertex.bsdf.albedo(primary.vertex.to_previous);
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());

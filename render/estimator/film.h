@@ -49,7 +49,7 @@ struct PixelSample {
     Rgb dy{0}; ///< to the pixel below
     Rgb very_direct{0};
     ReuseCounts reuse{};
-    float base_luminance = -1; ///< of what its own base path has to share; negative: it sees nothing
+    float base_luminance = -1; ///< PathReuse::arriving_luminance of its own base path
 };
 
 /// What a film keeps beside primal and very direct light.

@@ -38,7 +38,7 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
 PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], estimator.shared_luminance(path)};
+    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], estimator.arriving_luminance(path)};
 }
 
 namespace {
@@ -188,13 +188,12 @@ void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& work
 
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker) {
     const BasePath& path = *worker.set.paths[static_cast<std::size_t>(k)];
-    const Rgb light = worker.reuse.shared_light(path);
     ReuseDecision decision;
-    if (is_black(light)) {
+    if (is_black(worker.reuse.shared_light(path))) {
         ++worker.counters.dark_paths;
         return decision;
     }
-    decision.survival = roulette.survival(light);
+    decision.survival = roulette.survival(path);
     if (path.random.draw(0, Draw::reuse_survival) < decision.survival)
         decision.scale = 1 / decision.survival;
     ++(decision.survives() ? worker.counters.reused_paths : worker.counters.skipped_paths);

@@ -2,6 +2,8 @@
 
 #include "render/estimator/shift.h"
 
+#include <algorithm>
+#include <limits>
 #include <span>
 
 namespace tessera {
@@ -35,9 +37,11 @@ public:
 
     /// What of a path's radiance is shifted to the others of its set.
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
-    /// Luminance of the same; negative: the path sees nothing.
-    float shared_luminance(const BasePath& path) const {
-        return path.empty() ? -1 : luminance(shared_light(path));
+    /// Luminance of the same as it arrives at x_1, whatever is reflected there: over the albedo. Finite, and
+    /// negative where the path sees nothing.
+    float arriving_luminance(const BasePath& path) const {
+        const float l = luminance(shared_light(path) / path.albedo);
+        return path.empty() ? -1 : std::min(l, std::numeric_limits<float>::max());
     }
     /// What of a path's radiance stays with its own pixel.
     Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }

@@ -67,11 +67,11 @@ int ReusePlan::part_edge(PixelRect tile) const {
 
 namespace {
 
-/// How much the luminance of what the paths share differs from path to path.
+/// How much the light that the paths share, as it arrives, differs from path to path.
 float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const> set) {
     double sum = 0, squares = 0; // the squares of a float may be beyond floats
     for (const BasePath* path : set) {
-        const double l = luminance(reuse.shared_light(*path));
+        const double l = std::max(reuse.arriving_luminance(*path), 0.0f);
         sum += l;
         squares += l * l;
     }
@@ -83,7 +83,7 @@ float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const
 
 ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
                              std::span<const BasePath* const> set)
-    : q_min_(settings.q_min) {
+    : reuse_(reuse), kind_(kind), q_min_(settings.q_min) {
     switch (kind) {
     case RouletteKind::relative:
         threshold_ = settings.rr_scale * standard_deviation(reuse, set);
@@ -96,8 +96,9 @@ ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, 
     }
 }
 
-float ReuseRoulette::survival(Rgb light) const {
-    const float l = luminance(light);
+float ReuseRoulette::survival(const BasePath& path) const {
+    const float l =
+        kind_ == RouletteKind::absolute ? luminance(reuse_.shared_light(path)) : reuse_.arriving_luminance(path);
     return l < threshold_ ? std::max(l / threshold_, q_min_) : 1;
 }
 

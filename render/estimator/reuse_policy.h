@@ -33,7 +33,7 @@ public:
     int part_edge(PixelRect tile) const;
 
     /// Learns from a whole pass.
-    /// @param luminance  of what each pixel's base path has to share; negative: it sees nothing
+    /// @param luminance  PathReuse::arriving_luminance of each pixel's base path
     void learn(const Image<float>& luminance);
     /// Learns from one pixel of a pass. A plan's bits depend on the order of those of a tile's evidence(): row by
     /// row.
@@ -71,20 +71,25 @@ struct ReuseDecision {
 /// The roulette that decides which base paths of one sampling set are shifted to all its pixels. A path whose
 /// light has luminance L is reused with probability
 ///   q = clamp(L / threshold, q_min, 1).
-/// Absolute: the threshold is a radiance, rr_delta [Bauszat 2017, 3.3]. Relative: it is rr_scale standard
-/// deviations of the set's own L, the noise that a lost path would drown in. Then the unit of light does not
-/// matter, a set that is lit evenly keeps all its paths, and one in which few paths carry light spends its time on
-/// these. As q stands on nothing but the base paths at hand, and survivors weigh 1/q, the estimate stays unbiased.
+/// Absolute: L is what leaves toward the camera and the threshold a radiance, rr_delta [Bauszat 2017, 3.3].
+/// Relative: L is what arrives (PathReuse::arriving_luminance), as the light of a path that begins on a dark texel
+/// is worth as much to the bright ones as any; lost with its own small radiance for a measure, it would weigh 1/q
+/// there when it is not. The threshold is rr_scale standard deviations of the set's own L, the noise that a lost
+/// path would drown in. Then the unit of light does not matter, a set that is lit evenly keeps all its paths, and
+/// one in which few paths carry light spends its time on these. As q stands on nothing but the base paths at hand,
+/// and survivors weigh 1/q, the estimate stays unbiased.
 class ReuseRoulette {
 public:
     /// @param settings  has the thresholds; its own kind is not looked at
     ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
                   std::span<const BasePath* const> set);
 
-    /// Probability that a path with this light (PathReuse::shared_light) is reused.
-    float survival(Rgb light) const;
+    /// Probability that a path that carries light is reused.
+    float survival(const BasePath& path) const;
 
 private:
+    const PathReuse& reuse_;
+    RouletteKind kind_;
     float threshold_ = 0; // luminance
     float q_min_;
 };

@@ -123,7 +123,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
         for (int y = seen.y0; y < seen.y1; ++y)
             for (int x = seen.x0; x < seen.x1; ++x) {
                 trace_pixel(earlier, worker.tracer, x, y, earlier.camera_sample({x, y}), worker.path);
-                plan.learn(x, y, worker.reuse.shared_luminance(worker.path));
+                plan.learn(x, y, worker.reuse.arriving_luminance(worker.path));
             }
     }
     return plan;

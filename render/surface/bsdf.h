@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <variant>
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 namespace tessera {
@@ -20,6 +21,8 @@ namespace tessera {
 ///   sample(to_previous, lobe, u)          a direction of any part; empty: light ends here
 ///   evaluate_delta(to_previous, scatter)  the delta part of that kind: direction, value and probability
 ///   roughness()                           of the roughest non-delta part, 1 for diffuse; 0: there is none
+///   albedo(to_previous)                   about the share of light from everywhere that leaves along to_previous,
+///                                         by a closed form; 1 for what only reflects and refracts as glass does
 /// Directions are unit, in the shading frame, and point away from the surface. Values hold for radiance that
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
@@ -56,6 +59,11 @@ struct Bsdf {
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
+    }
+
+    /// About the directional albedo. Never below a hundredth in any channel, so that light can be divided by it.
+    Rgb albedo(glm::vec3 to_previous) const {
+        return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));
     }
 
     /// Where light is scattered through the surface: index on the far side over that on the side of to_previous,

@@ -28,6 +28,7 @@ struct Diffuse {
 
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const { return 1; }
+    Rgb albedo(glm::vec3) const { return reflectance; }
 };
 
 /// Diffuse V-shaped grooves with the light that goes from one wall to the other [Oren 1994], as Mitsuba's
@@ -41,6 +42,7 @@ struct RoughDiffuse {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const { return 1; }
+    Rgb albedo(glm::vec3) const { return reflectance; }
 };
 
 /// The modified Phong model [Lafortune 1994], a diffuse part and a lobe about the mirror direction; the upper side
@@ -58,6 +60,7 @@ struct Phong {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const;
+    Rgb albedo(glm::vec3) const { return diffuse_reflectance + specular_reflectance; }
 };
 
 } // namespace tessera

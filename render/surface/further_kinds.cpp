@@ -20,6 +20,10 @@ float FurtherKinds::roughness() const {
     return std::visit([](const auto& b) { return b.roughness(); }, kind);
 }
 
+Rgb FurtherKinds::albedo(glm::vec3 to_previous) const {
+    return std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind);
+}
+
 float FurtherKinds::relative_index(glm::vec3 to_previous) const {
     return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
 }

@@ -34,6 +34,7 @@ struct FurtherKinds {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const;
+    Rgb albedo(glm::vec3 to_previous) const;
     float relative_index(glm::vec3 to_previous) const;
 };
 

@@ -18,6 +18,9 @@ struct RoughConductor {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const { return facets.alpha; }
+    Rgb albedo(glm::vec3 to_previous) const {
+        return specular_reflectance * fresnel_conductor(to_previous.z, eta, k);
+    }
 };
 
 /// A perfectly smooth conductor, or with eta = 0 and k = 1 a perfect mirror; the upper side only.
@@ -30,6 +33,7 @@ struct SmoothConductor {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const { return 0; }
+    Rgb albedo(glm::vec3) const { return Rgb(1); }
 };
 
 /// A perfectly smooth boundary between two dielectrics. Radiance is divided by the square of the relative index
@@ -43,6 +47,7 @@ struct SmoothDielectric {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const { return 0; }
+    Rgb albedo(glm::vec3) const { return Rgb(1); }
 };
 
 /// A thin pane of a dielectric, as one surface: light is reflected, or goes straight on; the bounces between the
@@ -56,6 +61,7 @@ struct ThinDielectric {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const { return 0; }
+    Rgb albedo(glm::vec3) const { return Rgb(1); }
 };
 
 /// Microfacets of a boundary between two dielectrics [Walter 2007]. Radiance is divided by the square of the
@@ -71,6 +77,7 @@ struct RoughDielectric {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const { return facets.alpha; }
+    Rgb albedo(glm::vec3) const { return Rgb(1); }
     float relative_index(glm::vec3 to_previous) const { return to_previous.z > 0 ? eta : 1 / eta; }
 };
 

@@ -113,6 +113,15 @@ std::optional<BsdfSample> Coated::sample(glm::vec3 to_previous, float lobe, glm:
     return std::make_optional<BsdfSample>(*to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
+/// As if diffuse light left through the boundary as easily as light comes in along to_previous.
+Rgb Coated::albedo(glm::vec3 to_previous) const {
+    const Inside previous = enter({to_previous.x, to_previous.y, std::abs(to_previous.z)}, material->eta);
+    const float in = previous.transmittance, z = previous.direction.z;
+    const Rgb below =
+        in > 0 ? material->base->resolve(at).albedo(previous.direction) * absorption(*this, z, z) : Rgb(0);
+    return (1 - in) * material->specular_reflectance.evaluate(at) + in * below;
+}
+
 float Coated::roughness() const {
     return material->base->resolve(at).roughness();
 }
@@ -188,6 +197,12 @@ std::optional<BsdfSample> Mixture::sample(glm::vec3 to_previous, float lobe, glm
     if (!(v.pdf_w > 0))
         return {};
     return std::make_optional<BsdfSample>(s->to_next, v.f_cos, v.pdf_w, false, s->scatter);
+}
+
+Rgb Mixture::albedo(glm::vec3 to_previous) const {
+    Rgb sum(0);
+    for_each_part(*this, [&](const Bsdf& part, float weight) { sum += weight * part.albedo(to_previous); });
+    return sum;
 }
 
 float Mixture::roughness() const {

@@ -20,6 +20,7 @@ struct Coated {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const;
+    Rgb albedo(glm::vec3 to_previous) const;
 };
 
 struct MixtureMaterial;
@@ -34,6 +35,7 @@ struct Mixture {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const;
+    Rgb albedo(glm::vec3 to_previous) const;
     float relative_index(glm::vec3 to_previous) const;
 };
 

@@ -140,6 +140,13 @@ BsdfValue Plastic::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     return v;
 }
 
+Rgb Plastic::albedo(glm::vec3 to_previous) const {
+    const float in = coating->transmittance(to_previous.z);
+    // What diffuse light from inside gets out is 1 - internal_reflectance, over 1/eta^2 of the solid angle.
+    const float out = (1 - coating->internal_reflectance) * coating->eta * coating->eta;
+    return (1 - in) * specular_reflectance + in * out * base;
+}
+
 DeltaValue Plastic::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
     if (!is_smooth() || to_previous.z <= 0 || scatter != Scatter::reflect)
         return {};

@@ -47,6 +47,7 @@ struct Plastic {
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     /// The roughness of the base, through which paths can be connected; without one that of the coating.
     float roughness() const { return is_black(base) ? facets.alpha : 1; }
+    Rgb albedo(glm::vec3 to_previous) const;
 
 private:
     bool is_smooth() const { return facets.alpha <= 0; }

@@ -164,6 +164,14 @@ float Principled::roughness() const {
     return base.facets.alpha;
 }
 
+/// As if all facets lay flat; without sheen and clear coat.
+Rgb Principled::albedo(glm::vec3 to_previous) const {
+    const Base base(*this);
+    const float fresnel = fresnel_dielectric(to_previous.z, material->eta).reflectance;
+    return fresnel_of(*this, base, fresnel, std::abs(to_previous.z)) + base.diffuse * base.color +
+           base.transmission * (1 - fresnel) * glm::sqrt(base.color);
+}
+
 float Principled::relative_index(glm::vec3 to_previous) const {
     if (material->spec_trans.scalar(at) <= 0 || material->metallic.scalar(at) >= 1)
         return 1;

@@ -23,6 +23,7 @@ struct Principled {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const;
+    Rgb albedo(glm::vec3 to_previous) const;
     float relative_index(glm::vec3 to_previous) const;
 };
 
@@ -36,6 +37,7 @@ struct ThinPrincipled {
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     float roughness() const;
+    Rgb albedo(glm::vec3 to_previous) const;
 };
 
 } // namespace tessera

@@ -111,4 +111,10 @@ float ThinPrincipled::roughness() const {
     return std::max(sheet.reflecting().alpha, sheet.transmitting().alpha);
 }
 
+Rgb ThinPrincipled::albedo(glm::vec3 to_previous) const {
+    const Sheet sheet(*this);
+    const float fresnel = fresnel_dielectric(std::abs(to_previous.z), sheet.eta).reflectance;
+    return sheet.color * (1 - sheet.specular * fresnel) + sheet.specular * fresnel;
+}
+
 } // namespace tessera

@@ -50,7 +50,7 @@ Rgb MediumLayer::unscattered(float cosine) const {
 }
 
 BsdfValue MediumLayer::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-    if (to_previous.z == 0 || to_next.z == 0 || is_black(albedo * depth))
+    if (to_previous.z == 0 || to_next.z == 0 || is_black(scattered * depth))
         return {};
     // Scattered once at some depth z, with what is left on the way there and from there: an integral of
     // exponentials over z, from 0 to the layer's depth.
@@ -61,7 +61,7 @@ BsdfValue MediumLayer::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const 
     const Rgb integral = rate < 1e-3f ? depth : (1.0f - glm::exp(-rate * depth)) / rate;
     const float p = phase(-glm::dot(to_previous, to_next), g);
     const float straight = evaluate_delta(to_previous, Scatter::transmit).probability;
-    return {albedo * way * integral * (p * out), (1 - straight) * p};
+    return {scattered * way * integral * (p * out), (1 - straight) * p};
 }
 
 DeltaValue MediumLayer::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
@@ -88,7 +88,7 @@ std::optional<BsdfSample> MediumLayer::sample(glm::vec3 to_previous, float lobe,
 }
 
 float MediumLayer::roughness() const {
-    return is_black(albedo * depth) ? 0 : 1 - std::abs(g);
+    return is_black(scattered * depth) ? 0 : 1 - std::abs(g);
 }
 
 } // namespace tessera

@@ -31,6 +31,7 @@ struct Ward {
     DeltaValue evaluate_delta(glm::vec3, Scatter) const { return {}; }
     /// Of the lobe the geometric mean.
     float roughness() const;
+    Rgb albedo(glm::vec3) const { return diffuse_reflectance + specular_reflectance; }
 };
 
 } // namespace tessera

@@ -3,6 +3,7 @@
 #include "render/estimator/reuse_policy.h"
 #include "tests/support/rooms.h"
 
+#include <utility>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -15,31 +16,41 @@ namespace tessera::test {
 
 namespace {
 
-/// Base paths whose light is given; direct light is a quarter of it.
+/// A base path whose light is given; direct light is a quarter of it.
+BasePath path_with(Rgb light, float albedo) {
+    BasePath path;
+    path.reset(Random(0, 0, 0), 1);
+    path.spare();
+    path.keep();
+    path.direct = 0.25f * light;
+    path.indirect = 0.75f * light;
+    path.albedo = Rgb(albedo);
+    return path;
+}
+
+/// Of base paths with this light, all of which begin on surfaces of one albedo.
 class Roulette {
 public:
-    Roulette(const RenderSettings& settings, const std::vector<float>& light, float scale = 1)
-        : settings_(settings) {
-        for (const float l : light) {
-            BasePath path;
-            path.direct = Rgb(0.25f * l * scale);
-            path.indirect = Rgb(0.75f * l * scale);
-            paths_.push_back(path);
-        }
+    Roulette(const RenderSettings& settings, const std::vector<float>& light, float scale = 1, float albedo = 0.5f)
+        : settings_(settings), albedo_(albedo) {
+        for (const float l : light)
+            paths_.push_back(path_with(Rgb(l * scale), albedo));
     }
 
-    float survival(Rgb light) const {
+    float survival(Rgb light) const { return survival(path_with(light, albedo_)); }
+    float survival(const BasePath& path) const {
         static const std::shared_ptr<const Scene> scene = Room().build();
         Counters counters;
         const PathReuse reuse({*scene, counters, settings_}, settings_, 0);
         std::vector<const BasePath*> set;
-        for (const BasePath& path : paths_)
-            set.push_back(&path);
-        return ReuseRoulette(settings_.roulette, settings_, reuse, set).survival(light);
+        for (const BasePath& each : paths_)
+            set.push_back(&each);
+        return ReuseRoulette(settings_.roulette, settings_, reuse, set).survival(path);
     }
 
 private:
     RenderSettings settings_;
+    float albedo_;
     std::vector<BasePath> paths_;
 };
 
@@ -83,7 +94,9 @@ TEST(ReuseRoulette, RelativeIsLuminanceOverTheNoiseOfTheSet) {
     EXPECT_EQ(roulette.survival(Rgb(8)), 1);
     // Reconnection leaves direct light where it is.
     s.shift = ShiftKind::reconnection;
-    EXPECT_NEAR(Roulette(s, lit_in_part).survival(Rgb(0.9f)), 0.9 / (0.5 * 0.75 * deviation), 1e-5);
+    BasePath indirect = path_with(Rgb(0.9f), 0.5f);
+    indirect.indirect = std::exchange(indirect.direct, Rgb(0)) + indirect.indirect;
+    EXPECT_NEAR(Roulette(s, lit_in_part).survival(indirect), 0.9 / (0.5 * 0.75 * deviation), 1e-5);
 }
 
 TEST(ReuseRoulette, RelativeKeepsAllOfASetThatIsLitEvenly) {
@@ -97,6 +110,17 @@ TEST(ReuseRoulette, TheUnitOfLightDoesNotMatter) {
     for (const float scale : {1e-25f, 1e-3f, 1e3f, 1e25f})
         for (const float l : {0.3f, 1.0f, 2.0f, 5.0f})
             EXPECT_FLOAT_EQ(Roulette(s, lit_in_part, scale).survival(Rgb(l * scale)), roulette.survival(Rgb(l)));
+}
+
+/// As much light arrives at a dark texel as at a bright one, and it is worth as much to all others.
+TEST(ReuseRoulette, RelativeJudgesTheLightThatArrives) {
+    const Roulette roulette(settings_of(RouletteKind::relative), lit_in_part, 1, 0.8f);
+    for (const float l : {0.3f, 1.0f, 2.0f})
+        EXPECT_FLOAT_EQ(roulette.survival(path_with(Rgb(l * 0.02f), 0.8f * 0.02f)), roulette.survival(Rgb(l)));
+    // Published is the radiance that leaves.
+    const Roulette absolute(settings_of(RouletteKind::absolute), lit_in_part, 1, 0.8f);
+    EXPECT_FLOAT_EQ(absolute.survival(path_with(Rgb(0.05f), 0.016f)),
+                    absolute.survival(path_with(Rgb(0.05f), 0.8f)));
 }
 
 } // namespace

@@ -147,13 +147,13 @@ TEST(BsdfPlugins, MediumLayer) {
     const auto layer = [](const Material& m) {
         return std::get<MediumLayer>(std::get<FurtherKinds>(m.resolve({}).kind).kind);
     };
-    EXPECT_FLOAT_EQ(layer(r.material).albedo.r, 0.8f);
+    EXPECT_FLOAT_EQ(layer(r.material).scattered.r, 0.8f);
     EXPECT_FLOAT_EQ(layer(r.material).depth.r, 0.25f);
     EXPECT_EQ(layer(r.material).g, 0.5f);
     const Read share =
         read("<bsdf type='hk'><rgb name='sigma_t' value='2'/><rgb name='albedo' value='0.9'/></bsdf>");
     EXPECT_EQ(share.notes, "");
-    EXPECT_FLOAT_EQ(layer(share.material).albedo.r, 0.9f);
+    EXPECT_FLOAT_EQ(layer(share.material).scattered.r, 0.9f);
     EXPECT_FLOAT_EQ(layer(share.material).depth.r, 2);
     EXPECT_FLOAT_EQ(layer(read("<bsdf type='hk'/>").material).depth.r, 0.74f + 0.032f); // skin1
     EXPECT_EQ(read("<bsdf type='hk'><string name='material' value='gold'/><phase type='rayleigh'/></bsdf>").notes,

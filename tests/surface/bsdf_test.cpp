@@ -274,6 +274,25 @@ TEST_P(EveryBsdf, SendsOutNoMoreThanItGets) {
     }
 }
 
+/// Only roughly: rough metals lose light between their facets, and lobes do at grazing views.
+TEST_P(EveryBsdf, AlbedoIsAboutWhatItSendsOut) {
+    Uniform uniform(29);
+    for (const glm::vec3 to_previous : views()) {
+        const Rgb albedo = bsdf().albedo(to_previous);
+        EXPECT_GT(std::min({albedo.r, albedo.g, albedo.b}), 0);
+        if (!is_opaque() || to_previous.z < 0.3f)
+            continue;
+        double sum = 0;
+        constexpr int samples = 20000;
+        for (int i = 0; i < samples; ++i)
+            if (const auto s = draw(bsdf(), to_previous, uniform))
+                sum += luminance(s->f_cos / s->pdf_w);
+        const double ratio = sum / samples / luminance(albedo);
+        EXPECT_GT(ratio, 0.3) << "z " << to_previous.z;
+        EXPECT_LT(ratio, 1.35) << "z " << to_previous.z;
+    }
+}
+
 TEST_P(EveryBsdf, OpaqueOnesAreBlackBelowTheSurface) {
     if (!is_opaque())
         return;
