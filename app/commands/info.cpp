@@ -76,11 +76,13 @@ TextureSummary summarise_textures(const Scene& scene) {
 
 double mesh_bytes(const Scene& scene) {
     double bytes = 0;
-    for (const Shape& s : scene.shapes())
-        bytes +=
-            static_cast<double>(s.mesh.positions.size() * sizeof(glm::vec3) +
-                                s.mesh.normals.size() * sizeof(glm::vec3) + s.mesh.uvs.size() * sizeof(glm::vec2) +
-                                s.mesh.colors.size() * sizeof(Rgb) + s.mesh.triangles.size() * sizeof(glm::uvec3));
+    for (const Shape& s : scene.shapes()) {
+        bytes += static_cast<double>(
+            s.mesh.positions.size() * sizeof(glm::vec3) + s.mesh.normals.size() * sizeof(glm::vec3) +
+            s.mesh.uvs.size() * sizeof(glm::vec2) + s.mesh.triangles.size() * sizeof(glm::uvec3));
+        for (const MeshAttribute& attribute : s.mesh.attributes)
+            bytes += static_cast<double>(attribute.values.size() * sizeof(glm::vec3));
+    }
     return bytes;
 }
 
@@ -143,7 +145,7 @@ void print_traits(const SceneTraits& traits) {
     print("glossy below 0.1", traits.glossy_lobes, "material");
     print("transmission", traits.transmission, "material");
     print("textures", traits.textures, "material");
-    print("vertex colours", traits.vertex_colors, "material");
+    print("mesh attributes", traits.mesh_attributes, "material");
     print("relief", traits.relief, "material");
     print("masks", traits.masks, "material");
     print("shading normals", traits.shading_normals, "shape");

@@ -98,9 +98,10 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         const glm::uvec3 t = shape.triangles[hit.triangle];
         at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
     }
-    if (shape.colors) {
-        const glm::uvec3 t = shape.triangles[hit.triangle];
-        at.vertex_color = interpolate(shape.colors[t.x], shape.colors[t.y], shape.colors[t.z], hit.barycentric);
+    if (shape.attributed) {
+        at.mesh = shape.attributed;
+        at.triangle = hit.triangle;
+        at.barycentric = hit.barycentric;
     }
     // In its place, as a copy of what was only just written, number by number, has to wait.
     new (&v.bsdf) Bsdf(shape.material->resolve(at));

@@ -79,6 +79,7 @@ struct LoadContext {
     bool strict = false;     ///< a file that is not there ends the load
     FileSearch files;
 
+    std::vector<XmlElement> shape_elements; ///< one for each of scene.shapes
     std::map<std::string, XmlElement> ids;
     std::set<std::string> referred;        ///< ids that some <ref> names
     std::map<const void*, int> materials;  ///< by XmlElement::key(), index into scene.materials

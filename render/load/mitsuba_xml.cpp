@@ -141,6 +141,7 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     const Stopwatch reading;
     context.jobs.run(parallel_for, context.notes, progress);
     result.file_seconds = reading.seconds();
+    note_missing_attributes(context);
     order_notes(context.notes, document.documents());
     result.description = std::move(context.scene);
     result.notes = std::move(context.notes);

@@ -52,6 +52,9 @@ void read_sun(LoadContext& context, Properties& properties);
 /// Adds a <shape> to the scene; one of an unknown plugin is left out, with a note.
 void add_shape(LoadContext& context, const XmlElement& element);
 
+/// Notes the attributes that textures look up and meshes do not have; for when all files are read.
+void note_missing_attributes(LoadContext& context);
+
 /// A <texture>. An unknown plugin becomes a marking colour, with a note.
 Texture read_texture(LoadContext& context, const XmlElement& element);
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -88,6 +90,18 @@ void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std:
     read_round_shape(p, shapes[index], make_cylinder(), to_shape);
 }
 
+/// 0.6: the sharpest angle between faces that normals smooth over.
+std::optional<float> max_smooth_angle_parameter(Properties& p, bool face_normals) {
+    if (!p.has("max_smooth_angle"))
+        return {};
+    const float angle = p.number("max_smooth_angle", 0);
+    if (!(angle >= 0 && angle <= 180))
+        p.take("max_smooth_angle")->fail("'max_smooth_angle' must be from 0 to 180 degrees", "value");
+    if (face_normals)
+        p.take("max_smooth_angle")->fail("'max_smooth_angle' and 'face_normals' exclude each other");
+    return angle;
+}
+
 /// A mesh in a file. `flip_v` is the format's default: images begin with the top row. `read` may ask for the
 /// normals of faces in the placement.
 void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index,
@@ -95,6 +109,7 @@ void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& sha
     const std::optional<LoadContext::File> file = context.take_file(p, "the shape is left out");
     MeshPlacement placement = placement_parameters(p);
     placement.face_normals = p.boolean("face_normals", false);
+    placement.max_smooth_angle = max_smooth_angle_parameter(p, placement.face_normals);
     flip_v = p.boolean("flip_tex_coords", flip_v);
     if (!file)
         return;
@@ -176,8 +191,29 @@ void add_shape(LoadContext& context, const XmlElement& element) {
     shape.area_light = area_light_parameter(context, properties);
     shape.material = material_parameter(context, properties, shape.area_light >= 0);
     shapes.push_back(std::move(shape));
+    context.shape_elements.push_back(element);
     plugin->read(context, properties, shapes, shapes.size() - 1);
     properties.report_unused();
+}
+
+void note_missing_attributes(LoadContext& context) {
+    const SceneDescription& scene = context.scene;
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+        const Shape& shape = scene.shapes[i];
+        if (shape.mesh.triangles.empty())
+            continue; // that has its own note
+        std::vector<const Texture*> textures =
+            scene.materials[static_cast<std::size_t>(shape.material)].textures();
+        if (shape.area_light >= 0)
+            textures.push_back(&scene.area_lights[static_cast<std::size_t>(shape.area_light)].radiance);
+        for (const Texture* texture : textures) {
+            const auto* wanted = std::get_if<AttributeTexture>(&texture->kind);
+            if (wanted && !shape.mesh.attribute(wanted->name))
+                context.notes.push_back(
+                    {context.shape_elements[i].position(),
+                     "the shape has no attribute '" + wanted->name + "'; white stands for it"});
+        }
+    }
 }
 
 } // namespace tessera

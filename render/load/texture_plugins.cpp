@@ -111,26 +111,26 @@ Texture read_scale(LoadContext& context, Properties& p) {
     return scaled(texture_parameter(context, p, "value", Rgb(1)), factor);
 }
 
-Texture vertex_colors(float scale) {
+Texture attribute_texture(const std::string& name, float scale) {
     Texture texture;
-    texture.kind = VertexColorTexture{};
+    texture.kind = AttributeTexture{name};
     texture.scale = scale;
     return texture;
 }
 
 /// 0.6
 Texture read_vertex_colors(LoadContext&, Properties&) {
-    return vertex_colors(1);
+    return attribute_texture(std::string(vertex_color), 1);
 }
 
-/// Mitsuba 3: of a mesh's attributes only its colours are read.
+/// Mitsuba 3
 Texture read_mesh_attribute(LoadContext&, Properties& p) {
     const std::string name = p.text("name", "");
-    const float scale = p.number("scale", 1);
-    if (name == "vertex_color")
-        return vertex_colors(scale);
-    p.note("the attribute '" + name + "' is not read; magenta stands for it");
-    return marking_color;
+    if (!p.has("name"))
+        p.element().fail("'mesh_attribute' needs the 'name' of one");
+    if (!name.starts_with("vertex_") && !name.starts_with("face_"))
+        p.take("name")->fail("'" + name + "' is no attribute: its name begins with 'vertex_' or 'face_'", "value");
+    return attribute_texture(name, p.number("scale", 1));
 }
 
 constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {

@@ -106,6 +106,8 @@ std::string place_mesh(Mesh& mesh, const MeshPlacement& placement) {
     transform_positions(mesh, placement.to_world);
     if (placement.face_normals) {
         mesh.normals.clear();
+    } else if (placement.max_smooth_angle) {
+        smooth_normals(mesh, *placement.max_smooth_angle);
     } else if (mesh.normals.empty()) {
         compute_normals(mesh);
     } else {

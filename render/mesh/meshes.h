@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,7 +26,7 @@ struct PlyColors {
 };
 
 /// Stanford PLY, text or binary of either byte order: vertices with x y z, nx ny nz, u v (or s t, or texture_u
-/// texture_v), red green blue (or r g b, or the same with diffuse_ before them) and faces; polygons become fans,
+/// texture_v), faces, and attributes of both such as red green blue (see PlyLayout); polygons become fans,
 /// other elements and properties are passed over. Throws as read_obj does.
 Mesh read_ply(const std::filesystem::path& file, PlyColors colors = {});
 Mesh parse_ply(std::string_view bytes, PlyColors colors = {});
@@ -44,8 +45,9 @@ SerializedMesh parse_serialized(std::istream& stream, int index);
 /// How a shape's mesh becomes the scene's.
 struct MeshPlacement {
     glm::mat4 to_world{1.0f};
-    bool face_normals = false; ///< drop the normals of the vertices, and compute none
-    bool flip_normals = false; ///< turn the inside out
+    bool face_normals = false;               ///< drop the normals of the vertices, and compute none
+    std::optional<float> max_smooth_angle{}; ///< smooth_normals() with this in place of the file's normals
+    bool flip_normals = false;               ///< turn the inside out
 };
 
 /// Moves a mesh of a file to its place. Normals move with the inverse transpose; where the file has none, or
@@ -60,6 +62,11 @@ void place_flat_mesh(Mesh& mesh, const MeshPlacement& placement);
 /// Smooth normals, the faces weighted by their angles [Thuermer and Wuethrich 1998]. A vertex without a face of
 /// positive area gets +z.
 void compute_normals(Mesh& mesh);
+
+/// Smooth normals as of compute_normals(), but for edges between faces whose normals are further apart than
+/// `max_angle` (degrees): there vertices are split, so that each side has its own. Edges join vertices in one
+/// place.
+void smooth_normals(Mesh& mesh, float max_angle);
 
 /// The square [-1, 1]^2 in the plane z = 0, its front toward +z, with uv from 0 to 1.
 Mesh make_rectangle();

@@ -2,8 +2,8 @@
 #include "render/io/files.h"
 #include "render/mesh/meshes.h"
 #include "render/mesh/ply_format.h"
+#include "render/mesh/ply_layout.h"
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -51,46 +51,6 @@ void skip(PlyValues& values, const PlyProperty& property) {
         values.next(property.type);
 }
 
-// The places of a vertex's properties in a row of numbers.
-enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, slots, unused = slots };
-
-Slot slot_of(const PlyProperty& property) {
-    struct Name {
-        std::string_view name;
-        Slot slot;
-    };
-    static constexpr Name names[] = {
-        {"x", x},
-        {"y", y},
-        {"z", z},
-        {"nx", nx},
-        {"ny", ny},
-        {"nz", nz},
-        {"u", u},
-        {"v", v},
-        {"s", u},
-        {"t", v},
-        {"texture_u", u},
-        {"texture_v", v},
-        {"red", red},
-        {"green", green},
-        {"blue", blue},
-        {"r", red},
-        {"g", green},
-        {"b", blue},
-        {"color_0", red}, // as Mitsuba 3 writes them
-        {"color_1", green},
-        {"color_2", blue},
-        {"diffuse_red", red},
-        {"diffuse_green", green},
-        {"diffuse_blue", blue},
-    };
-    for (const Name& known : names)
-        if (!property.is_list && known.name == property.name)
-            return known.slot;
-    return unused;
-}
-
 /// What stands for full intensity: integers are shares of their largest value.
 float largest_color(PlyType type) {
     if (type == PlyType::float32 || type == PlyType::float64)
@@ -108,6 +68,8 @@ PlyHeader take_header(ByteWindow& bytes) {
 }
 
 class PlyReader {
+    using Slot = PlyLayout::Slot;
+
 public:
     PlyReader(std::istream& stream, PlyColors colors)
         : bytes_(stream), header_(take_header(bytes_)), values_(bytes_, header_.format), colors_(colors) {}
@@ -120,6 +82,7 @@ public:
             read_element(element);
         }
         check_indices();
+        check_attributes();
         mesh_.triangles.shrink_to_fit();
         return std::move(mesh_);
     }
@@ -146,68 +109,86 @@ private:
     void read_vertices(const PlyElement& element, std::uint64_t& row) {
         if (!mesh_.positions.empty())
             throw std::runtime_error("a second list of vertices is one too many");
-        std::vector<Slot> slot_of_property;
-        std::array<bool, slots + 1> has{};
-        for (const PlyProperty& property : element.properties) {
-            slot_of_property.push_back(slot_of(property));
-            has[slot_of_property.back()] = true;
-        }
-        if (!has[x] || !has[y] || !has[z])
+        const PlyLayout layout(element, "vertex_");
+        if (!layout.has({Slot::x, Slot::y, Slot::z}))
             throw std::runtime_error("there is no x, y and z");
-        const bool has_normals = has[nx] && has[ny] && has[nz];
-        const bool has_uvs = has[u] && has[v];
-        const bool has_colors = has[red] && has[green] && has[blue];
+        const bool has_normals = layout.has({Slot::nx, Slot::ny, Slot::nz});
+        const bool has_uvs = layout.has({Slot::u, Slot::v});
         ask_for_memory(element.count * (2 * sizeof(glm::vec3) + // positions and normals: its own, or computed ones
-                                        (has_uvs ? sizeof(glm::vec2) : 0) + (has_colors ? sizeof(Rgb) : 0)),
+                                        (has_uvs ? sizeof(glm::vec2) : 0) + layout.attributes().size() * sizeof(Rgb)),
                        "its " + std::to_string(element.count) + " vertices");
         mesh_.positions.reserve(element.count);
         mesh_.normals.reserve(has_normals ? element.count : 0);
         mesh_.uvs.reserve(has_uvs ? element.count : 0);
-        mesh_.colors.reserve(has_colors ? element.count : 0);
+        const std::size_t first = add_attributes(layout, element.count);
+        std::vector<float> numbers(element.properties.size());
+        const auto number = [&](Slot slot) { return numbers[*layout.place(slot)]; };
         for (; row < element.count; ++row) {
-            std::array<float, slots + 1> values{};
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                if (slot_of_property[i] == unused)
-                    skip(values_, element.properties[i]);
-                else
-                    values[slot_of_property[i]] = next_number(element.properties[i], slot_of_property[i]);
-            }
-            mesh_.positions.push_back({values[x], values[y], values[z]});
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                read_number(element.properties[i], layout.is_used(i), numbers[i]);
+            mesh_.positions.push_back({number(Slot::x), number(Slot::y), number(Slot::z)});
             if (has_normals)
-                mesh_.normals.push_back({values[nx], values[ny], values[nz]});
+                mesh_.normals.push_back({number(Slot::nx), number(Slot::ny), number(Slot::nz)});
             if (has_uvs)
-                mesh_.uvs.push_back({values[u], values[v]});
-            if (has_colors)
-                mesh_.colors.push_back({values[red], values[green], values[blue]});
+                mesh_.uvs.push_back({number(Slot::u), number(Slot::v)});
+            fill_attributes(first, layout, element, numbers, 1);
         }
     }
 
-    float next_number(const PlyProperty& property, Slot slot) {
-        const float value = next_finite(property);
-        if (slot != red && slot != green && slot != blue)
-            return value;
-        const float largest = largest_color(property.type);
-        return (largest == 1 ? colors_.srgb_floats : colors_.srgb_bytes) ? srgb_to_linear(value / largest)
-                                                                         : value / largest;
+    /// Room for the attributes of a layout; returns the place of the first.
+    std::size_t add_attributes(const PlyLayout& layout, std::size_t count) {
+        const std::size_t first = mesh_.attributes.size();
+        for (const PlyAttribute& attribute : layout.attributes())
+            mesh_.attributes.emplace_back(MeshAttribute{attribute.name, {}}).values.reserve(count);
+        return first;
     }
 
-    float next_finite(const PlyProperty& property) {
-        const auto value = static_cast<float>(values_.next(property.type));
-        if (!std::isfinite(value))
+    void fill_attributes(std::size_t first, const PlyLayout& layout, const PlyElement& element,
+                         const std::vector<float>& numbers, std::size_t count) {
+        for (const PlyAttribute& attribute : layout.attributes()) {
+            glm::vec3 value;
+            for (int i = 0; i < 3; ++i) {
+                const std::size_t property = attribute.properties[static_cast<std::size_t>(i)];
+                value[i] = attribute.is_color ? decoded(numbers[property], element.properties[property].type)
+                                              : numbers[property];
+            }
+            std::vector<glm::vec3>& values = mesh_.attributes[first++].values;
+            values.insert(values.end(), count, value);
+        }
+    }
+
+    float decoded(float color, PlyType type) const {
+        const float largest = largest_color(type);
+        const bool is_srgb = largest == 1 ? colors_.srgb_floats : colors_.srgb_bytes;
+        return is_srgb ? srgb_to_linear(color / largest) : color / largest;
+    }
+
+    void read_number(const PlyProperty& property, bool is_used, float& number) {
+        if (!is_used)
+            return skip(values_, property);
+        number = static_cast<float>(values_.next(property.type));
+        if (!std::isfinite(number))
             throw std::runtime_error("its " + property.name + " is not a finite number");
-        return value;
     }
 
     void read_faces(const PlyElement& element, std::uint64_t& row) {
-        ask_for_memory(element.count * sizeof(glm::uvec3), "its " + std::to_string(element.count) + " faces");
+        const PlyLayout layout(element, "face_");
+        ask_for_memory(element.count * (sizeof(glm::uvec3) + layout.attributes().size() * sizeof(Rgb)),
+                       "its " + std::to_string(element.count) + " faces");
         mesh_.triangles.reserve(element.count);
-        for (; row < element.count; ++row)
-            for (const PlyProperty& property : element.properties) {
+        const std::size_t first = add_attributes(layout, element.count);
+        std::vector<float> numbers(element.properties.size());
+        for (; row < element.count; ++row) {
+            const std::size_t before = mesh_.triangles.size();
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
                 if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
                     read_fan(property);
                 else
-                    skip(values_, property);
+                    read_number(property, layout.is_used(i), numbers[i]);
             }
+            fill_attributes(first, layout, element, numbers, mesh_.triangles.size() - before);
+        }
     }
 
     void read_fan(const PlyProperty& property) {
@@ -238,6 +219,13 @@ private:
                 if (t[i] >= mesh_.positions.size())
                     throw std::runtime_error("a face refers to vertex " + std::to_string(t[i]) +
                                              ", but there are " + std::to_string(mesh_.positions.size()));
+    }
+
+    /// Faces may stand in several lists.
+    void check_attributes() const {
+        for (const MeshAttribute& attribute : mesh_.attributes)
+            if (attribute.is_of_faces() && attribute.values.size() != mesh_.triangles.size())
+                throw std::runtime_error("not all faces have the attribute '" + attribute.name + "'");
     }
 
     ByteWindow bytes_;

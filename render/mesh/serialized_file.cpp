@@ -182,7 +182,8 @@ SerializedMesh parse_serialized(std::istream& stream, int index) {
     if (flags & has_uvs)
         rows.read(result.mesh.uvs, vertices, "texture coordinate");
     if (flags & has_colors)
-        rows.read(result.mesh.colors, vertices, "colour");
+        rows.read(result.mesh.attributes.emplace_back(MeshAttribute{std::string(vertex_color), {}}).values,
+                  vertices, "colour");
     read_triangles(zlib, result.mesh, triangles);
     result.face_normals = flags & has_face_normals;
     return result;

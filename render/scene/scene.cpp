@@ -33,8 +33,8 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
     record.has_frame_along_u = material.is_anisotropic();
     if (!mesh.uvs.empty() && (is_textured || record.has_frame_along_u))
         record.uvs = mesh.uvs.data();
-    if (!mesh.colors.empty() && is_textured)
-        record.colors = mesh.colors.data();
+    if (!mesh.attributes.empty() && is_textured)
+        record.attributed = &mesh;
     return record;
 }
 

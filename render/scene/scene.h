@@ -31,7 +31,7 @@ struct ShapeRecord {
     const glm::vec3* positions;
     const glm::vec3* normals; ///< null: every triangle has its own normal
     const glm::vec2* uvs;     ///< null: none, or nothing looks them up
-    const Rgb* colors;        ///< null: none, or nothing looks them up
+    const Mesh* attributed;   ///< null: it has no attributes, or nothing looks them up
     const Material* material;
     Rgb emitted;                 ///< radiance given off on the front side, where it is the same everywhere
     const Texture* emission_map; ///< null: it is
@@ -84,7 +84,7 @@ struct SceneTraits {
     int glossy_lobes = 0;     ///< materials with microfacets of alpha below 0.1, but not perfectly smooth
     int transmission = 0;     ///< materials that let light through
     int textures = 0;         ///< materials that look up any texture
-    int vertex_colors = 0;    ///< materials that look up the colours of vertices
+    int mesh_attributes = 0;  ///< materials that look up attributes of meshes, such as colours of vertices
     int relief = 0;           ///< materials with a bump or normal map
     int masks = 0;            ///< materials with an opacity other than 1
     int shading_normals = 0;  ///< shapes whose normals are interpolated

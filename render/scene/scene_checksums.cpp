@@ -11,6 +11,7 @@
 #include <variant>
 
 #include <fmt/core.h>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -85,7 +86,7 @@ private:
     void take(const Bitmap& bitmap);
     void take(const BitmapTexture& texture);
     void take(const CheckerboardTexture& texture);
-    void take(const VertexColorTexture&) {}
+    void take(const AttributeTexture& texture);
     void take(const Texture& texture);
     void take(const Microfacets& facets);
     void take(const DiffuseMaterial& material);
@@ -116,8 +117,18 @@ private:
 };
 
 void SceneDigest::take(const Mesh& mesh) {
-    const auto& [positions, normals, uvs, colors, triangles] = mesh;
-    add(positions, normals, uvs, colors, triangles);
+    const auto& [positions, normals, uvs, attributes, triangles] = mesh;
+    // Colours of vertices are where they were when there were no other attributes.
+    const MeshAttribute* colors = mesh.attribute(vertex_color);
+    add(positions, normals, uvs, colors ? colors->values : std::vector<glm::vec3>(), triangles);
+    for (const auto& [name, values] : attributes)
+        if (name != vertex_color)
+            add(std::vector<char>(name.begin(), name.end()), values);
+}
+
+void SceneDigest::take(const AttributeTexture& texture) {
+    if (texture.name != vertex_color)
+        add(std::vector<char>(texture.name.begin(), texture.name.end()));
 }
 
 void SceneDigest::take(const Bitmap& bitmap) {

@@ -33,7 +33,7 @@ float least_red(const Texture& texture) {
         std::visit(Overloaded{[](const Rgb& constant) { return constant.r; },
                               [](const BitmapTexture& b) { return b.bitmap ? least_red(*b.bitmap) : 0.0f; },
                               [](const CheckerboardTexture& c) { return std::min(c.color0.r, c.color1.r); },
-                              [](const VertexColorTexture&) { return 0.0f; }},
+                              [](const AttributeTexture&) { return 0.0f; }},
                    texture.kind);
     return texture.is_constant() ? least : least * texture.scale;
 }
@@ -121,10 +121,10 @@ bool is_mask(const Material& m) {
     return m.opacity && !(m.opacity->is_constant() && std::get<Rgb>(m.opacity->kind) == Rgb(1));
 }
 
-bool looks_up_vertex_colors(const Material& m) {
+bool looks_up_attributes(const Material& m) {
     const std::vector<const Texture*> all = m.textures();
     return std::any_of(all.begin(), all.end(),
-                       [](const Texture* t) { return std::holds_alternative<VertexColorTexture>(t->kind); });
+                       [](const Texture* t) { return std::holds_alternative<AttributeTexture>(t->kind); });
 }
 
 void add(const Material& m, SceneTraits& traits) {
@@ -133,7 +133,7 @@ void add(const Material& m, SceneTraits& traits) {
     traits.glossy_lobes += l.glossy;
     traits.transmission += l.transmission;
     traits.textures += m.is_textured();
-    traits.vertex_colors += looks_up_vertex_colors(m);
+    traits.mesh_attributes += looks_up_attributes(m);
     traits.relief += m.relief.has_value();
     traits.masks += is_mask(m);
 }

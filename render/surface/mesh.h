@@ -2,7 +2,10 @@
 
 #include "recon/image.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -11,19 +14,39 @@
 
 namespace tessera {
 
+struct Mesh;
+
 /// Where on a surface a texture is looked up.
 struct SurfacePoint {
     glm::vec2 uv{0};
-    Rgb vertex_color{1}; ///< of a mesh that has such, interpolated
+    const Mesh* mesh = nullptr; ///< null: it has no attributes, or nothing looks them up
+    std::uint32_t triangle = 0;
+    glm::vec2 barycentric{0}; ///< weights of the second and third corner
+
+    /// An attribute of the mesh, interpolated between vertices; white where there is none of that name.
+    Rgb attribute(std::string_view name) const;
+};
+
+/// The name of the attribute that vertices most often have.
+inline constexpr std::string_view vertex_color = "vertex_color";
+
+/// Numbers that a mesh has at its vertices or on its faces, for textures to look up.
+struct MeshAttribute {
+    std::string name; ///< as in Mitsuba 3: begins with "vertex_" or "face_", and that is what it is of
+    std::vector<glm::vec3> values; ///< one a position, or one a triangle; colours are linear, one number is grey
+
+    bool is_of_faces() const { return name.starts_with("face_"); }
 };
 
 /// Triangles in world space.
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;    ///< unit, one a position; empty: every triangle has its own normal
-    std::vector<glm::vec2> uvs;        ///< one a position; empty: barycentric coordinates serve as uv
-    std::vector<glm::vec3> colors;     ///< linear RGB, one a position; empty: none
-    std::vector<glm::uvec3> triangles; ///< indices of positions, counter-clockwise seen from outside
+    std::vector<glm::vec3> normals;        ///< unit, one a position; empty: every triangle has its own normal
+    std::vector<glm::vec2> uvs;            ///< one a position; empty: barycentric coordinates serve as uv
+    std::vector<MeshAttribute> attributes; ///< no two of the same name
+    std::vector<glm::uvec3> triangles;     ///< indices of positions, counter-clockwise seen from outside
+
+    const MeshAttribute* attribute(std::string_view name) const; ///< null: there is none of that name
 };
 
 /// The unit normal of a triangle, on the side to which the corners' normals point where there are any, else the
@@ -62,9 +85,11 @@ inline SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::v
     SurfacePoint at{barycentric};
     if (!mesh.uvs.empty())
         at.uv = first * mesh.uvs[t.x] + barycentric.x * mesh.uvs[t.y] + barycentric.y * mesh.uvs[t.z];
-    if (!mesh.colors.empty())
-        at.vertex_color =
-            first * mesh.colors[t.x] + barycentric.x * mesh.colors[t.y] + barycentric.y * mesh.colors[t.z];
+    if (!mesh.attributes.empty()) {
+        at.mesh = &mesh;
+        at.triangle = static_cast<std::uint32_t>(triangle);
+        at.barycentric = barycentric;
+    }
     return at;
 }
 

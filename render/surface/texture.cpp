@@ -120,7 +120,7 @@ Rgb Texture::evaluate(const SurfacePoint& at) const {
         return scale * look_up(*bitmap, uv);
     if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&kind))
         return scale * look_up(*checkerboard, uv);
-    return scale * at.vertex_color;
+    return scale * at.attribute(std::get<AttributeTexture>(kind).name);
 }
 
 glm::vec2 Texture::gradient(const SurfacePoint& at) const {

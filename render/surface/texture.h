@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -40,13 +41,15 @@ struct CheckerboardTexture {
     Rgb color1{0.2f};
 };
 
-/// The colours that the mesh has at its vertices.
-struct VertexColorTexture {};
+/// What the mesh itself has at its vertices or on its faces (MeshAttribute).
+struct AttributeTexture {
+    std::string name;
+};
 
 /// A colour over a surface: constant, or looked up. As in Mitsuba, v = 0 is the top of a bitmap; the v of an
 /// OBJ file, which counts from the bottom, is turned over when the file is read.
 struct Texture {
-    std::variant<Rgb, BitmapTexture, CheckerboardTexture, VertexColorTexture> kind = Rgb(0.5f);
+    std::variant<Rgb, BitmapTexture, CheckerboardTexture, AttributeTexture> kind = Rgb(0.5f);
     glm::mat3 to_uv{1.0f}; ///< applied to (u, v, 1) before the look-up
     float scale = 1;       ///< factor on what was looked up; constants have it in them
 
@@ -64,7 +67,7 @@ struct Texture {
     /// Derivatives of the luminance by u and v. 0 for all but bitmaps: a checkerboard has only steps.
     glm::vec2 gradient(const SurfacePoint& at) const;
 
-    /// The mean over uv in [0, 1]^2 before to_uv; of vertex colours white.
+    /// The mean over uv in [0, 1]^2 before to_uv; of attributes white.
     Rgb mean() const;
 
     bool is_black() const { return is_constant() && std::get<Rgb>(kind) == Rgb(0); }

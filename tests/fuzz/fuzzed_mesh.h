@@ -21,7 +21,9 @@ inline void require_sound(const Mesh& mesh) {
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
     require(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
-    require(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
+    for (const MeshAttribute& attribute : mesh.attributes)
+        require(attribute.values.size() ==
+                (attribute.is_of_faces() ? mesh.triangles.size() : mesh.positions.size()));
 }
 
 /// Fails for a mesh that does not hold together, or has normals that cannot be shaded.

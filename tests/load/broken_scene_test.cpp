@@ -111,6 +111,12 @@ constexpr Broken broken_scenes[] = {
     {"raw constant without a value",
      "<bsdf type='diffuse'><texture name='reflectance' type='rawconstant'/></bsdf>",
      "2:22: 'rawconstant' needs a 'value'"},
+    {"attribute without a name", "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'/></bsdf>",
+     "2:22: 'mesh_attribute' needs the 'name' of one"},
+    {"attribute of nothing",
+     "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'>\n<string name='name' value='color'/>"
+     "</texture></bsdf>",
+     "3:28: 'color' is no attribute: its name begins with 'vertex_' or 'face_'"},
     {"blackbody without temperature",
      "<shape type='cube'><emitter type='area'><blackbody name='radiance'/></emitter></shape>",
      "2:41: <blackbody> needs the attribute 'temperature'"},
@@ -274,6 +280,15 @@ TEST(BrokenScenes, Files) {
     expect(shape("obj", "nan.obj"), "2:50: cannot load 'nan.obj': line 2: not a list of 3 numbers or more");
     expect(shape("obj", "index.obj"),
            "2:50: cannot load 'index.obj': face 2 refers to position 4, but there are 3 before it");
+    folder.write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto smooth = [&](const std::string& parameters) {
+        return folder.write("s.xml", scene_with("<shape type='obj'><string name='filename' value='good.obj'/>\n" +
+                                                parameters + "</shape>"));
+    };
+    expect(smooth("<float name='maxSmoothAngle' value='181'/>"),
+           "3:37: 'max_smooth_angle' must be from 0 to 180 degrees");
+    expect(smooth("<float name='maxSmoothAngle' value='9'/><boolean name='faceNormals' value='true'/>"),
+           "3:1: 'max_smooth_angle' and 'face_normals' exclude each other");
     expect(shape("obj", "far.obj"), "2:50: cannot load 'far.obj': the position of vertex 0 is not finite");
     expect(folder.write("s.xml", scene_with("<bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
                                             "<string name='filename' value='no-image.png'/></texture></bsdf>")),

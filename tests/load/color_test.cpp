@@ -119,29 +119,47 @@ TEST(Colors, TexturesOfTheOldSyntax) {
     EXPECT_EQ(color("<texture name='reflectance' type='scale'><rgb name='scale' value='0.5'/>"
                     "<rgb name='value' value='0.2, 0.4, 0.6'/></texture>"),
               0.5f * Rgb(0.2f, 0.4f, 0.6f));
-    const SurfacePoint at{glm::vec2(0), Rgb(0.1f, 0.2f, 0.3f)};
-    EXPECT_EQ(reflectance("<texture name='reflectance' type='vertexcolors'/>").evaluate(at), at.vertex_color);
-    EXPECT_EQ(reflectance("<texture name='reflectance' type='mesh_attribute'>"
-                          "<string name='name' value='vertex_color'/><float name='scale' value='2'/></texture>")
-                  .evaluate(at),
-              2.0f * at.vertex_color);
-    EXPECT_EQ(notes_of("<texture name='reflectance' type='mesh_attribute'><string name='name' value='face_x'/>"
-                       "</texture>"),
-              "the attribute 'face_x' is not read; magenta stands for it\n");
+}
+
+TEST(Colors, AttributesOfMeshes) {
+    Mesh mesh;
+    mesh.positions.resize(4);
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.attributes = {{"vertex_color", {Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1), Rgb(0)}},
+                       {"face_color", {Rgb(0.1f, 0.2f, 0.3f), Rgb(0.5f)}}};
+    const SurfacePoint at = surface_point(mesh, 1, {0.25f, 0.5f});
+    EXPECT_EQ(reflectance("<texture name='reflectance' type='vertexcolors'/>").evaluate(at), Rgb(0.25f, 0, 0.25f));
+    const auto attribute = [](const std::string& name) {
+        return reflectance("<texture name='reflectance' type='mesh_attribute'><string name='name' value='" + name +
+                           "'/><float name='scale' value='2'/></texture>");
+    };
+    EXPECT_EQ(attribute("vertex_color").evaluate(at), 2.0f * Rgb(0.25f, 0, 0.25f));
+    EXPECT_EQ(attribute("face_color").evaluate(at), Rgb(1));
+    EXPECT_EQ(attribute("face_color").evaluate(surface_point(mesh, 0, {0.25f, 0.5f})), Rgb(0.2f, 0.4f, 0.6f));
+    EXPECT_EQ(attribute("face_else").evaluate(at), Rgb(2)); // white
+    const LoadedScene loaded = parse("<shape type='cube'><bsdf type='diffuse'><texture name='reflectance' "
+                                     "type='mesh_attribute'><string name='name' value='face_x'/></texture></bsdf>"
+                                     "</shape>");
+    ASSERT_FALSE(loaded.notes.empty());
+    EXPECT_EQ(loaded.notes.back().text, "the shape has no attribute 'face_x'; white stands for it");
 }
 
 TEST(Colors, OfPlyFiles) {
     const std::string bytes = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    expect_near(parse_ply(ply(bytes, "255 128 0")).colors.at(0), Rgb(1, 0.215861f, 0), 1e-5f);
-    expect_near(parse_ply(ply(bytes, "255 128 0"), {false, false}).colors.at(0), Rgb(1, 128 / 255.0f, 0), 1e-6f);
+    expect_near(parse_ply(ply(bytes, "255 128 0")).attribute(vertex_color)->values.at(0), Rgb(1, 0.215861f, 0),
+                1e-5f);
+    expect_near(parse_ply(ply(bytes, "255 128 0"), {false, false}).attribute(vertex_color)->values.at(0),
+                Rgb(1, 128 / 255.0f, 0), 1e-6f);
     const std::string floats = "property float r\nproperty float g\nproperty float b\n";
-    EXPECT_EQ(parse_ply(ply(floats, "0.5 1.5 0")).colors.at(0), Rgb(0.5f, 1.5f, 0));
-    EXPECT_NEAR(parse_ply(ply(floats, "0.5 1 0"), {true, true}).colors.at(0).r, 0.214041f, 1e-5f);
+    EXPECT_EQ(parse_ply(ply(floats, "0.5 1.5 0")).attribute(vertex_color)->values.at(0), Rgb(0.5f, 1.5f, 0));
+    EXPECT_NEAR(parse_ply(ply(floats, "0.5 1 0"), {true, true}).attribute(vertex_color)->values.at(0).r, 0.214041f,
+                1e-5f);
     EXPECT_NEAR(parse_ply(ply("property ushort red\nproperty ushort green\nproperty ushort blue\n", "65535 0 0"))
-                    .colors.at(0)
+                    .attribute(vertex_color)
+                    ->values.at(0)
                     .r,
                 1, 1e-6);
-    EXPECT_TRUE(parse_ply(ply("property float red\n", "1")).colors.empty());
+    EXPECT_FALSE(parse_ply(ply("property float red\n", "1")).attribute(vertex_color));
 }
 
 TEST(Colors, MetalsByName) {

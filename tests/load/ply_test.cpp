@@ -125,6 +125,28 @@ TEST(Ply, FacesMayStandFirst) {
     EXPECT_TRUE(mesh.uvs.empty());
 }
 
+TEST(Ply, AttributesHaveMitsubasNames) {
+    const auto mesh =
+        parse_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float foo_1\nproperty float foo_2\nproperty float foo_3\n"
+                  "property float rough_0\nproperty float pair_0\nproperty float pair_1\n"
+                  "property float quality\nproperty float tint_g\nproperty float tint_r\n"
+                  "property float tint_b\nelement face 2\nproperty uchar red\n"
+                  "property list int int vertex_index\nproperty uchar green\nproperty uchar blue\n"
+                  "end_header\n"
+                  "0 0 0 1 2 3 0.5 0 0 9 7 6 8\n1 0 0 4 5 6 0.25 0 0 9 7 6 8\n"
+                  "1 1 0 1 2 3 1 0 0 9 7 6 8\n0 1 0 1 2 3 1 0 0 9 7 6 8\n"
+                  "255 4 0 1 2 3 0 255\n0 3 0 1 2 255 0\n");
+    ASSERT_EQ(mesh.attributes.size(), 4u);
+    EXPECT_EQ(mesh.attribute("vertex_foo")->values.at(1), glm::vec3(4, 5, 6));
+    EXPECT_EQ(mesh.attribute("vertex_rough")->values.at(1), glm::vec3(0.25f));
+    EXPECT_EQ(mesh.attribute("vertex_tint_color")->values.at(3), glm::vec3(6, 7, 8));
+    const std::vector<glm::vec3> faces = {{1, 0, 1}, {1, 0, 1}, {0, 1, 0}}; // the first is two triangles
+    EXPECT_EQ(mesh.attribute("face_color")->values, faces);
+    EXPECT_FALSE(mesh.attribute("vertex_pair"));
+    EXPECT_FALSE(mesh.attribute("vertex_quality"));
+}
+
 TEST(Ply, TruncatedAnywhereItThrowsOrLoads) {
     for (const std::string& whole : {ascii_square, binary_square<std::uint8_t, std::int32_t>(false, "uchar int"),
                                      binary_square<std::uint8_t, std::int32_t>(true, "uchar int")}) {
@@ -170,6 +192,14 @@ TEST(Ply, Errors) {
               "line 4: the type 'text' is not known");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
               "vertex 0: there is no x, y and z");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                       "property float z\nproperty float a_0\nend_header\n0 0 0 nan\n"),
+              "vertex 0: its a_0 is not a finite number");
+    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face 1\nproperty list int int vertex_index\nproperty float a_0\n"
+                       "element face 1\nproperty list int int vertex_index\nend_header\n" +
+                       three + "3 0 1 2 5\n3 0 1 2\n"),
+              "not all faces have the attribute 'face_a'");
     EXPECT_EQ(error_of("ply\nend_header\n"), "line 2: the header names no format");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "line 3: the header has no end");
     EXPECT_EQ(error_of(""), "line 1: the header has no end");

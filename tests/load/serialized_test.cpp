@@ -52,7 +52,7 @@ TEST(Serialized, BothVersionsAndPrecisions) {
             EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
             EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(4, {0, 0, -2}));
             EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-            EXPECT_EQ(mesh.colors, std::vector<glm::vec3>(4, {1, 0.5f, 0.25f}));
+            EXPECT_EQ(mesh.attribute(vertex_color)->values, std::vector<glm::vec3>(4, {1, 0.5f, 0.25f}));
             EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
         }
     }
@@ -136,7 +136,7 @@ TEST(Serialized, InAScene) {
                             .mesh;
     EXPECT_EQ(second.positions[2], glm::vec3(2, 2, 5));
     EXPECT_EQ(second.normals, std::vector<glm::vec3>(4, {0, 0, 1})); // computed
-    EXPECT_EQ(second.colors.size(), 4u);
+    EXPECT_EQ(second.attribute(vertex_color)->values.size(), 4u);
 }
 
 } // namespace tessera

@@ -31,6 +31,7 @@ def make_resources(mi, folder: Path) -> None:
     mesh.write_ply(folder / "waves.ply", normals=True)
     mesh.write_ply(folder / "flat.ply", normals=False)
     mesh.write_serialized(folder / "waves.serialized")
+    mesh.write_attributes(folder / "attributes.ply")
 
 
 def write_png(mi, path: Path, values: np.ndarray) -> None:
@@ -88,6 +89,25 @@ class Waves:
         header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}"]
         header += [f"property float {name}" for name in names]
         header += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", ""]
+        path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
+
+    def write_attributes(self, path: Path) -> None:
+        """Colours of vertices, a roughness of theirs, and colours of faces and another of theirs."""
+        u, v = self.uvs.T
+        colors = np.stack([0.2 + 0.6 * u, 0.7 - 0.5 * v, 0.3 + 0.3 * np.sin(9 * u * v)], -1)
+        rough = (0.1 + 0.4 * v)[:, None]
+        vertices = np.concatenate([self.positions, self.normals, self.uvs, colors, rough], -1).astype("<f4")
+        faces = np.zeros(len(self.faces), dtype=[("count", "u1"), ("index", "<i4", 3), ("own", "<f4", 6)])
+        faces["count"] = 3
+        faces["index"] = self.faces
+        k = np.arange(len(faces))
+        faces["own"] = np.stack([k % 3 / 3, k % 5 / 5, k % 7 / 7, k % 2 / 2, k % 4 / 5, 0.5 + 0 * k], -1)
+        names = ["x", "y", "z", "nx", "ny", "nz", "u", "v", "color_0", "color_1", "color_2", "rough_0"]
+        header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}"]
+        header += [f"property float {name}" for name in names]
+        header += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
+        header += [f"property float {name}" for name in ["r", "g", "b", "tint_x", "tint_y", "tint_z"]]
+        header += ["end_header", ""]
         path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
 
     def write_serialized(self, path: Path) -> None:

@@ -102,13 +102,13 @@ TEST(SceneTraits, MasksAndRelief) {
     EXPECT_EQ(traits_of_material(m).relief, 1);
 }
 
-TEST(SceneTraits, VertexColoursAndShadingNormals) {
+TEST(SceneTraits, AttributesAndShadingNormals) {
     Texture colors;
-    colors.kind = VertexColorTexture{};
+    colors.kind = AttributeTexture{"vertex_color"};
     SceneBuilder b;
     b.sphere({0, 0, 0}, 1, b.material({"", DiffuseMaterial{colors}}));
     const SceneTraits traits = traits_of(b.build()->description());
-    EXPECT_EQ(traits.vertex_colors, 1);
+    EXPECT_EQ(traits.mesh_attributes, 1);
     EXPECT_EQ(traits.shading_normals, 1);
 }
 
