@@ -50,6 +50,18 @@ std::string line_of(const std::vector<const LoadNote*>& same) {
 
 constexpr int per_cent = 100; // steps of the BVH's progress
 
+/// What goes wrong knows no file: it gets the scene's name.
+std::shared_ptr<const Scene> build(SceneDescription description, const std::string& name) {
+    try {
+        return with_memory_for("its BVH and lights",
+                               [&] { return std::make_shared<const Scene>(std::move(description)); });
+    } catch (const OutOfMemory& error) {
+        throw OutOfMemory(name + ": " + error.what());
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(name + ": " + error.what());
+    }
+}
+
 } // namespace
 
 SceneNotes group_notes(const std::vector<LoadNote>& notes) {
@@ -125,8 +137,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
                 told.step();
         return !told.given_up();
     });
-    opened.scene = with_memory_for("the scene's BVH and lights",
-                                   [&] { return std::make_shared<const Scene>(std::move(loaded.description)); });
+    opened.scene = build(std::move(loaded.description), to_string(source));
     opened.bvh_seconds = opened.scene->bvh_seconds();
     opened.bvh_cpu_seconds = process_cpu_seconds() - cpu_after_load;
     return opened;

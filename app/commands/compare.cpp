@@ -81,8 +81,12 @@ ImageComparison compare(const CompareOptions& options) {
         references.first = mean_of(references.first, *references.second);
     }
     result.metrics = measure_error(image, references.first);
-    if (options.tile > 0)
+    if (options.tile > 0) {
+        if (options.tile < 2 || std::min(image.width(), image.height()) < 4 * options.tile)
+            throw std::runtime_error(options.image.string() + ": a spectrum of tiles takes tiles of 2 pixels and "
+                                                              "more, and 4 of them along either edge");
         result.tiles = measure_tile_spectrum(image, references.first, options.tile);
+    }
     result.share_without_light = share_without_light(image);
     return result;
 }

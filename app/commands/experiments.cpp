@@ -89,8 +89,10 @@ std::vector<StabilityCase> cases_of(const ExperimentOptions& suite) {
         const auto is_same = [&](const StabilityCase& c) {
             return scene_name(c.scene.source) == scene_name(scene.source);
         };
-        if (std::any_of(cases.begin(), cases.end(), is_same))
-            throw BadInput(fmt::format("two scenes are named \"{}\"", scene_name(scene.source)));
+        const auto same = std::find_if(cases.begin(), cases.end(), is_same);
+        if (same != cases.end())
+            throw BadInput(fmt::format("{} and {} are both named \"{}\"", to_string(same->scene.source),
+                                       to_string(scene.source), scene_name(scene.source)));
         StabilityCase& c = cases.emplace_back();
         c.scene = scene;
         c.options = std::make_unique<ExperimentOptions>(options_for(scene, suite));

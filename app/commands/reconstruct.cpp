@@ -87,10 +87,11 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"repaired_pixels", input.repaired}};
 }
 
-void check_finite(const ExrFile& file) {
+void check_finite(const ExrFile& file, const std::filesystem::path& input) {
     for (const ExrLayer& layer : file.layers)
         if (const std::string bad = text_of_bad_pixel(layer.image); !bad.empty())
-            throw BadInput(fmt::format("the values are too large to reconstruct from: {}", bad));
+            throw BadInput(
+                fmt::format("{}: the values are too large to reconstruct from: {}", input.string(), bad));
 }
 
 } // namespace
@@ -115,7 +116,7 @@ int run_reconstruct(const ReconstructOptions& options) {
     ThreadPool pool(options.threads);
     std::vector<ReconstructionStats> recon;
     ExrFile file = reconstruct_layers(std::move(input.images), options.layers, pool, recon);
-    check_finite(file);
+    check_finite(file, options.inputs.front());
     file.attributes = std::move(input.attributes);
     file.attributes["tessera:reconstruction"] = to_text(settings);
     write_picture(options.output, file);

@@ -27,7 +27,7 @@ namespace {
 using nlohmann::json;
 
 std::string text_of(const std::filesystem::path& file) {
-    return std::filesystem::exists(file) ? read_bytes(file) : std::string();
+    return std::filesystem::exists(file) ? read_text(file) : std::string();
 }
 
 /// Adds the text to the file's end, where it is on the disk when this returns.

@@ -135,7 +135,8 @@ void ReferenceJob::take(ViewerState& state, const Job::Outcome& outcome) {
     const Order& order = outcome.request;
     const std::string file = order.file.string();
     if (!outcome.result)
-        return state.add_message(Message::Kind::error, "The reference was not made: " + outcome.error);
+        return state.add_message(Message::Kind::error,
+                                 "The reference " + file + " was not made: " + outcome.error);
     const Made& made = *outcome.result;
     for (const Counted& half : made.halves)
         state.add_refused("The reference", half.counters, state.active().slot,
