@@ -76,13 +76,13 @@ TextureSummary summarise_textures(const Scene& scene) {
 
 double mesh_bytes(const Scene& scene) {
     double bytes = 0;
-    for (const Shape& s : scene.shapes()) {
+    for_each_shape(scene.description(), [&](const Shape& s) {
         bytes += static_cast<double>(
             s.mesh.positions.size() * sizeof(glm::vec3) + s.mesh.normals.size() * sizeof(glm::vec3) +
             s.mesh.uvs.size() * sizeof(glm::vec2) + s.mesh.triangles.size() * sizeof(glm::uvec3));
         for (const MeshAttribute& attribute : s.mesh.attributes)
             bytes += static_cast<double>(attribute.values.size() * sizeof(glm::vec3));
-    }
+    });
     return bytes;
 }
 
@@ -123,6 +123,9 @@ void print_scene(const Scene& scene, const TextureSummary& textures) {
         ++materials[kind_of(m)];
     fmt::print("shapes     {}\n", scene.shapes().size());
     fmt::print("triangles  {}\n", scene.triangle_count());
+    if (const SceneDescription& d = scene.description(); !d.groups.empty())
+        fmt::print("instances  {} of {} shape group{}\n", d.instances.size(), d.groups.size(),
+                   d.groups.size() == 1 ? "" : "s");
     fmt::print("materials  {}\n", scene.materials().size());
     for (const auto& [kind, count] : materials)
         fmt::print("           {} x {}\n", count, kind);
@@ -149,6 +152,7 @@ void print_traits(const SceneTraits& traits) {
     print("relief", traits.relief, "material");
     print("masks", traits.masks, "material");
     print("shading normals", traits.shading_normals, "shape");
+    print("instances", traits.instances, "instance");
     print("area lights", traits.area_lights, "shape");
     print("other lights", traits.point_lights, "light");
     fmt::print("  {:<16} {}\n", "environment", traits.environment ? "yes" : "none");

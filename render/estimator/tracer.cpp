@@ -16,18 +16,23 @@ T interpolate(T a, T b, T c, glm::vec2 barycentric) {
     return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
 }
 
-/// Derivatives of the position by u and v over a triangle. False: uv says nothing of directions.
-bool position_derivatives(const ShapeRecord& shape, glm::uvec3 t, glm::vec3& by_u, glm::vec3& by_v) {
+/// Derivatives of the position by u and v over the triangle that is hit. False: uv says nothing of directions.
+bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
+    const glm::uvec3 t = shape.triangles[hit.triangle];
     const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
     const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
     by_u = edge1; // without uvs, barycentric coordinates are the uv
     by_v = edge2;
-    if (!shape.uvs)
-        return true;
-    const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
-    const float determinant = d1.x * d2.y - d1.y * d2.x;
-    by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
-    by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
+    if (shape.uvs) {
+        const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
+        const float determinant = d1.x * d2.y - d1.y * d2.x;
+        by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
+        by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
+    }
+    if (hit.placement) {
+        by_u = hit.placement->vector(by_u);
+        by_v = hit.placement->vector(by_v);
+    }
     return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
 }
 
@@ -35,7 +40,7 @@ bool position_derivatives(const ShapeRecord& shape, glm::uvec3 t, glm::vec3& by_
 /// about the triangle's normal as it happens to, which is how Mitsuba 3 has it.
 Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
     glm::vec3 by_u, by_v;
-    if (!shape.uvs || !position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v))
+    if (!shape.uvs || !position_derivatives(shape, hit, by_u, by_v))
         by_u = Frame(geometric_normal).tangent;
     return {normal, by_u};
 }
@@ -81,15 +86,22 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         const glm::uvec3 t = shape.triangles[hit.triangle];
         v.position =
             interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
+        if (hit.placement)
+            v.position = hit.placement->point(v.position);
     }
     v.geometric_normal = hit.geometric_normal;
     glm::vec3 normal = v.geometric_normal;
     if (shape.normals) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
         const glm::vec3 n0 = shape.normals[t.x], n1 = shape.normals[t.y], n2 = shape.normals[t.z];
-        if (glm::dot(n0 + n1 + n2, v.geometric_normal) < 0)
+        const glm::vec3 sum = n0 + n1 + n2;
+        const float side =
+            hit.placement ? hit.placement->side(sum, v.geometric_normal) : glm::dot(sum, v.geometric_normal);
+        if (side < 0)
             v.geometric_normal = -v.geometric_normal; // as front_normal() has it
-        const glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
+        glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
+        if (hit.placement)
+            n = hit.placement->of_normals * n;
         const float length = glm::length(n);
         normal = length > 0 ? n * (1 / length) : v.geometric_normal;
     }
@@ -109,16 +121,16 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
     glm::vec3 bent = normal;
     if (shape.material->relief) {
         glm::vec3 by_u, by_v;
-        if (position_derivatives(shape, shape.triangles[hit.triangle], by_u, by_v)) {
+        if (position_derivatives(shape, hit, by_u, by_v)) {
             bent = bend(*shape.material->relief, at, normal, by_u, by_v);
             v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
         }
     }
-    const float side = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
-    const Frame frame =
-        shape.has_frame_along_u ? frame_along_u(shape, hit, v.geometric_normal, side * bent) : Frame(side * bent);
+    const float shown = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
+    const Frame frame = shape.has_frame_along_u ? frame_along_u(shape, hit, v.geometric_normal, shown * bent)
+                                                : Frame(shown * bent);
     if (v.bsdf.is_bent())
-        v.bsdf.unbent_normal = frame.to_local(side * normal);
+        v.bsdf.unbent_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
     v.frame = frame;
     v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;

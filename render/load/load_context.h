@@ -79,10 +79,17 @@ struct LoadContext {
     bool strict = false;     ///< a file that is not there ends the load
     FileSearch files;
 
-    std::vector<XmlElement> shape_elements; ///< one for each of scene.shapes
+    /// Which shape of which list in `scene` is whose; the lists stay in place.
+    struct LoadedShape {
+        const std::vector<Shape>* shapes;
+        std::size_t index;
+        XmlElement element;
+    };
+    std::vector<LoadedShape> shapes;
     std::map<std::string, XmlElement> ids;
     std::set<std::string> referred;        ///< ids that some <ref> names
     std::map<const void*, int> materials;  ///< by XmlElement::key(), index into scene.materials
+    std::map<const void*, int> groups;     ///< by XmlElement::key(), index into scene.groups
     std::map<const void*, Material> bsdfs; ///< by XmlElement::key(): what is referred to often is read once
     std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>> bitmaps; ///< by path and whether sRGB
     std::map<std::tuple<float, MicrofacetDistribution, float>, std::shared_ptr<const Coating>>

@@ -49,7 +49,8 @@ void read_sunsky(LoadContext& context, Properties& properties);
 void read_sky(LoadContext& context, Properties& properties);
 void read_sun(LoadContext& context, Properties& properties);
 
-/// Adds a <shape> to the scene; one of an unknown plugin is left out, with a note.
+/// Adds a <shape> to the scene, be it triangles, a group of shapes or an instance of such; one of an unknown
+/// plugin is left out, with a note.
 void add_shape(LoadContext& context, const XmlElement& element);
 
 /// Notes the attributes that textures look up and meshes do not have; for when all files are read.

@@ -2,6 +2,7 @@
 #include "render/mesh/meshes.h"
 #include "render/sampling/sampling.h"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +12,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 namespace tessera {
@@ -176,30 +179,88 @@ int area_light_parameter(LoadContext& context, Properties& p) {
     return emitters.empty() ? -1 : add_shape_emitter(context, emitters[0]);
 }
 
-} // namespace
-
-void add_shape(LoadContext& context, const XmlElement& element) {
-    Properties properties(element, context.notes);
+/// Adds a shape of triangles to `shapes`, which stay where they are until all files are read; one of an unknown
+/// plugin is left out, with a note.
+void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
     const auto* plugin = find_plugin(plugins, properties.type());
     if (!plugin) {
         properties.note("the shape '" + properties.type() + "' is not known and left out");
         return;
     }
-    std::vector<Shape>& shapes = context.scene.shapes;
     Shape shape;
     shape.name = properties.name();
     shape.area_light = area_light_parameter(context, properties);
     shape.material = material_parameter(context, properties, shape.area_light >= 0);
     shapes.push_back(std::move(shape));
-    context.shape_elements.push_back(element);
+    context.shapes.push_back({&shapes, shapes.size() - 1, properties.element()});
     plugin->read(context, properties, shapes, shapes.size() - 1);
     properties.report_unused();
 }
 
+/// A shape in a group: as in Mitsuba it may neither give light nor be a group or an instance itself.
+void add_to_group(LoadContext& context, const XmlElement& element, std::vector<Shape>& shapes) {
+    Properties properties(element, context.notes);
+    if (properties.type() == "shapegroup" || properties.type() == "instance")
+        element.fail("a shapegroup holds neither groups nor instances", "type");
+    for (const XmlElement& child : element.children())
+        if (const XmlElement nested = context.resolve(child); nested.tag() == "emitter")
+            child.fail("a shape of a shapegroup cannot give light: lights have no instances");
+    add_mesh_shape(context, properties, shapes);
+}
+
+/// The index in scene.groups of a <shape type="shapegroup">, which is read when it is met for the first time.
+int group_of(LoadContext& context, const XmlElement& element) {
+    if (const auto known = context.groups.find(element.key()); known != context.groups.end())
+        return known->second;
+    Properties properties(element, context.notes);
+    ShapeGroup& group = context.scene.groups.emplace_back();
+    const int index = static_cast<int>(context.scene.groups.size()) - 1;
+    context.groups[element.key()] = index;
+    group.name = properties.name();
+    for (const XmlElement& shape : context.take_nested(properties, "shape"))
+        add_to_group(context, shape, group.shapes);
+    if (group.shapes.empty())
+        properties.note("there are no shapes in the group");
+    properties.report_unused();
+    return index;
+}
+
+/// The transform of an instance: rays are taken into its group's space, and must be finite there.
+glm::mat4 placement_of(Properties& p) {
+    constexpr double largest = 1e12; // of the inverse's elements
+    const glm::mat4 to_world = p.transform("to_world");
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(to_world));
+    for (int i = 0; i < 16; ++i)
+        if (!(std::abs(inverse[i / 4][i % 4]) < largest))
+            p.element().fail("the 'to_world' of an instance must have an inverse");
+    return to_world;
+}
+
+void add_instance(LoadContext& context, Properties& properties) {
+    const std::vector<XmlElement> nested = context.take_nested(properties, "shape");
+    if (nested.size() != 1 || nested[0].attribute("type") != "shapegroup")
+        properties.element().fail("an instance has one shapegroup in it, or a reference to one");
+    const int group = group_of(context, nested[0]);
+    context.scene.instances.push_back({group, placement_of(properties)});
+    properties.report_unused();
+}
+
+} // namespace
+
+void add_shape(LoadContext& context, const XmlElement& element) {
+    Properties properties(element, context.notes);
+    if (properties.type() == "shapegroup")
+        group_of(context, element);
+    else if (properties.type() == "instance")
+        add_instance(context, properties);
+    else
+        add_mesh_shape(context, properties, context.scene.shapes);
+}
+
 void note_missing_attributes(LoadContext& context) {
     const SceneDescription& scene = context.scene;
-    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
-        const Shape& shape = scene.shapes[i];
+    for (const LoadContext::LoadedShape& loaded : context.shapes) {
+        const Shape& shape = (*loaded.shapes)[loaded.index];
         if (shape.mesh.triangles.empty())
             continue; // that has its own note
         std::vector<const Texture*> textures =
@@ -209,9 +270,8 @@ void note_missing_attributes(LoadContext& context) {
         for (const Texture* texture : textures) {
             const auto* wanted = std::get_if<AttributeTexture>(&texture->kind);
             if (wanted && !shape.mesh.attribute(wanted->name))
-                context.notes.push_back(
-                    {context.shape_elements[i].position(),
-                     "the shape has no attribute '" + wanted->name + "'; white stands for it"});
+                context.notes.push_back({loaded.element.position(), "the shape has no attribute '" + wanted->name +
+                                                                        "'; white stands for it"});
         }
     }
 }

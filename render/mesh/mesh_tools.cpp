@@ -24,12 +24,6 @@ bool is_unit(glm::vec3 v) {
     return std::abs(glm::dot(v, v) - 1) < 1e-3f;
 }
 
-/// The inverse transpose times the determinant's size: defined for flattened shapes, too.
-glm::mat3 normal_matrix(const glm::mat3& m) {
-    const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    return glm::determinant(m) < 0 ? -cofactors : cofactors;
-}
-
 void transform_positions(Mesh& mesh, const glm::mat4& to_world) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         mesh.positions[i] = glm::vec3(to_world * glm::vec4(mesh.positions[i], 1));

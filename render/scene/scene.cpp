@@ -4,9 +4,13 @@
 #include <chrono>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace tessera {
 
@@ -42,11 +46,39 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
 /// Mitsuba all of the surface shines.
 std::vector<const Texture*> opacities_of(const SceneDescription& description) {
     std::vector<const Texture*> opacities;
-    for (const Shape& shape : description.shapes) {
+    for_each_shape(description, [&](const Shape& shape) {
         const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
         opacities.push_back(material.opacity && shape.area_light < 0 ? &*material.opacity : nullptr);
-    }
+    });
     return opacities;
+}
+
+struct Box {
+    glm::vec3 low{std::numeric_limits<float>::max()};
+    glm::vec3 high{std::numeric_limits<float>::lowest()};
+
+    bool is_empty() const { return low.x > high.x; }
+    void add(glm::vec3 p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
+void add(const std::vector<Shape>& shapes, Box& box) {
+    for (const Shape& shape : shapes)
+        for (glm::vec3 p : shape.mesh.positions)
+            box.add(p);
+}
+
+/// Adds the corners of a box that is placed.
+void add(const Box& placed, const glm::mat4& to_world, Box& box) {
+    if (placed.is_empty())
+        return;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? placed.low.x : placed.high.x, corner & 2 ? placed.low.y : placed.high.y,
+                          corner & 4 ? placed.low.z : placed.high.z);
+        box.add(glm::vec3(to_world * glm::vec4(p, 1)));
+    }
 }
 
 } // namespace
@@ -55,33 +87,33 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     measure();
     lights_ = LightTable(description_, radius_);
     const auto start = std::chrono::steady_clock::now();
-    intersector_ = Intersector(description_.shapes, opacities_of(description_));
+    intersector_ =
+        Intersector(description_.shapes, opacities_of(description_), description_.groups, description_.instances);
     bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (const std::vector<double> factors = learn_light_factors(*this); !factors.empty())
         lights_ = LightTable(description_, radius_, factors);
-    for (const Shape& shape : description_.shapes)
-        records_.push_back(make_record(shape, description_, lights_));
+    for_each_shape(description_,
+                   [&](const Shape& shape) { records_.push_back(make_record(shape, description_, lights_)); });
 }
 
-/// Finds the sphere around all triangles.
+/// Finds the sphere around all triangles, for those of instances around the boxes of their groups.
 void Scene::measure() {
-    glm::vec3 low(std::numeric_limits<float>::max());
-    glm::vec3 high(std::numeric_limits<float>::lowest());
-    for (const Shape& shape : description_.shapes)
-        for (glm::vec3 p : shape.mesh.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    if (low.x <= high.x) {
-        center_ = 0.5f * (low + high);
-        radius_ = std::max(0.5f * glm::length(high - low), std::numeric_limits<float>::min());
+    Box box;
+    add(description_.shapes, box);
+    std::vector<Box> of_groups(description_.groups.size());
+    for (std::size_t i = 0; i < of_groups.size(); ++i)
+        add(description_.groups[i].shapes, of_groups[i]);
+    for (const Instance& instance : description_.instances)
+        add(of_groups[static_cast<std::size_t>(instance.group)], instance.to_world, box);
+    if (!box.is_empty()) {
+        center_ = 0.5f * (box.low + box.high);
+        radius_ = std::max(0.5f * glm::length(box.high - box.low), std::numeric_limits<float>::min());
     }
 }
 
 std::size_t Scene::triangle_count() const {
     std::size_t sum = 0;
-    for (const Shape& shape : description_.shapes)
-        sum += shape.mesh.triangles.size();
+    for_each_shape(description_, [&](const Shape& shape) { sum += shape.mesh.triangles.size(); });
     return sum;
 }
 

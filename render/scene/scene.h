@@ -6,6 +6,7 @@
 #include "render/surface/mesh.h"
 #include "render/trace/intersector.h"
 
+#include <deque>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -15,6 +16,8 @@ namespace tessera {
 /// All that a scene file says, and nothing derived: what a loader fills in.
 struct SceneDescription {
     std::vector<Shape> shapes;
+    std::deque<ShapeGroup> groups; ///< seen only where instances put them; they stay in place while more come
+    std::vector<Instance> instances;
     std::vector<Material> materials;
     std::vector<AreaLight> area_lights;
     std::vector<PointLight> point_lights;
@@ -24,6 +27,16 @@ struct SceneDescription {
     glm::ivec2 size{768, 576}; ///< of the film, pixels
     int max_depth = 65; ///< edges of a light path, as in Mitsuba: 1 is emission only; -1 in a file becomes 65
 };
+
+/// Calls visit(shape) for all shapes, as hits count them: the scene's own, and then those of the groups.
+template <class Visit>
+void for_each_shape(const SceneDescription& scene, Visit&& visit) {
+    for (const Shape& shape : scene.shapes)
+        visit(shape);
+    for (const ShapeGroup& group : scene.groups)
+        for (const Shape& shape : group.shapes)
+            visit(shape);
+}
 
 /// What a hit needs of its shape, close together; pointers into the shape's mesh.
 struct ShapeRecord {
@@ -55,12 +68,14 @@ public:
     int max_depth() const { return description_.max_depth; }
     const LightTable& lights() const { return lights_; }
     const Intersector& intersector() const { return intersector_; }
+    /// Of a shape as hits count them.
     const ShapeRecord& record(std::uint32_t shape) const { return records_[shape]; }
 
     /// A sphere around all triangles.
     glm::vec3 center() const { return center_; }
     float radius() const { return radius_; }
 
+    /// Of all shapes; those of a group count once.
     std::size_t triangle_count() const;
     double bvh_seconds() const { return bvh_seconds_; }
 
@@ -88,6 +103,7 @@ struct SceneTraits {
     int relief = 0;           ///< materials with a bump or normal map
     int masks = 0;            ///< materials with an opacity other than 1
     int shading_normals = 0;  ///< shapes whose normals are interpolated
+    int instances = 0;        ///< of groups of shapes
     int area_lights = 0;      ///< emitting shapes
     int point_lights = 0;     ///< lights without extent: points, spots, directions
     bool environment = false; ///< light from infinitely far away

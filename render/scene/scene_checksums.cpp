@@ -73,7 +73,7 @@ private:
     template <class... T>
     void take(const std::variant<T...>& value) {
         take(value.index());
-        std::visit([this](const auto& v) { take(v); }, value);
+        std::visit([this](const auto& v) { this->take(v); }, value);
     }
     template <class T>
     void take(const std::shared_ptr<const T>& value) {
@@ -292,21 +292,26 @@ void SceneDigest::take(const Camera& camera) {
 } // namespace
 
 SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera) {
-    const auto& [shapes, materials, area_lights, point_lights, directional_lights, environment, own_camera, size,
-                 max_depth] = scene;
+    const auto& [shapes, groups, instances, materials, area_lights, point_lights, directional_lights, environment,
+                 own_camera, size, max_depth] = scene;
     BitmapChecksums bitmaps;
     std::vector<std::uint32_t> of_materials;
     for (const Material& material : materials)
         of_materials.push_back(SceneDigest(bitmaps).add(material).checksum());
     SceneDigest geometry(bitmaps), surfaces(bitmaps), lights(bitmaps);
-    for (const auto& [name, mesh, material, area_light] : shapes) {
+    for_each_shape(scene, [&](const Shape& shape) {
+        const auto& [name, mesh, material, area_light] = shape;
         geometry.add(mesh);
         surfaces.add(
             of_materials.at(static_cast<std::size_t>(material))); // not its index: unused ones may come and go
         lights.add(area_light >= 0);
         if (area_light >= 0)
-            lights.add(area_lights.at(static_cast<std::size_t>(area_light)));
-    }
+            lights.add(scene.area_lights.at(static_cast<std::size_t>(area_light)));
+    });
+    for (const auto& [name, of_group] : groups) // what belongs together: without any, nothing is added
+        geometry.add(of_group.size());
+    for (const auto& [group, to_world] : instances)
+        geometry.add(group, to_world);
     lights.add(point_lights, directional_lights, environment);
     return {geometry.checksum(), surfaces.checksum(), lights.checksum(),
             SceneDigest(bitmaps).add(camera).checksum()};

@@ -143,11 +143,12 @@ void add(const Material& m, SceneTraits& traits) {
 SceneTraits traits_of(const SceneDescription& scene) {
     SceneTraits traits;
     std::vector<bool> used(scene.materials.size());
-    for (const Shape& shape : scene.shapes) {
+    for_each_shape(scene, [&](const Shape& shape) {
         used[static_cast<std::size_t>(shape.material)] = true;
         traits.shading_normals += !shape.mesh.normals.empty();
         traits.area_lights += shape.area_light >= 0;
-    }
+    });
+    traits.instances = static_cast<int>(scene.instances.size());
     traits.point_lights = static_cast<int>(scene.point_lights.size() + scene.directional_lights.size());
     traits.environment = !scene.environment.empty();
     for (std::size_t i = 0; i < used.size(); ++i)

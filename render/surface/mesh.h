@@ -9,6 +9,9 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -63,6 +66,25 @@ struct Shape {
     int material = 0;    ///< index into SceneDescription::materials
     int area_light = -1; ///< index into SceneDescription::area_lights, -1: gives off no light
 };
+
+/// Shapes in a space of their own, held once however often they stand in the scene.
+struct ShapeGroup {
+    std::string name;
+    std::vector<Shape> shapes; ///< none gives off light
+};
+
+/// A group of shapes in the scene. Others than groups there are none in it.
+struct Instance {
+    int group = 0;            ///< index into SceneDescription::groups
+    glm::mat4 to_world{1.0f}; ///< affine; has an inverse
+};
+
+/// What takes normals along with a transform of points: its inverse transpose times the determinant's size, which
+/// is defined for flat transforms, too.
+inline glm::mat3 normal_matrix(const glm::mat3& m) {
+    const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    return glm::determinant(m) < 0 ? -cofactors : cofactors;
+}
 
 inline glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 t) {
     // Double is needed: the square of a small or large triangle's area is beyond floats.

@@ -5,14 +5,18 @@
 
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace tessera {
 
@@ -40,12 +44,27 @@ private:
 
 struct Texture;
 
+/// Where an instance's group of shapes stands.
+struct GroupPlacement {
+    glm::mat4 to_world;
+    glm::mat3 of_normals; ///< normal_matrix of to_world, times some number
+
+    glm::vec3 point(glm::vec3 p) const { return glm::vec3(to_world * glm::vec4(p, 1)); }
+    glm::vec3 vector(glm::vec3 v) const { return glm::mat3(to_world) * v; }
+    /// Which side of the surface something in the group's space is on, by a normal of the scene: > 0, its own.
+    float side(glm::vec3 in_group, glm::vec3 world_normal) const {
+        return glm::dot(vector(in_group), world_normal);
+    }
+};
+
 struct Hit {
-    std::uint32_t shape;
+    std::uint32_t shape; ///< those of the groups count on, group by group, where the scene's own end
     std::uint32_t triangle;
-    glm::vec2 barycentric;      ///< weights of the second and third corner
-    float distance;             ///< along the unit direction of the ray
-    glm::vec3 geometric_normal; ///< unit, on the side from which the corners run counter-clockwise
+    glm::vec2 barycentric; ///< weights of the second and third corner
+    float distance;        ///< along the unit direction of the ray
+    glm::vec3
+        geometric_normal; ///< unit, on the side from which the corners run counter-clockwise before placement
+    const GroupPlacement* placement; ///< of the shape's mesh; null: it is in the space of the scene
 };
 
 /// A stretch of space that light must cross: open at both ends.
@@ -61,12 +80,13 @@ struct Segment {
 class Intersector {
 public:
     Intersector();
-    /// @param opacities  one a shape: the share of light (luminance) that meets it; null: all does. May be
-    ///                   empty: all shapes are opaque.
+    /// @param opacities  one a shape, those of groups after the others: the share of light (luminance) that meets
+    ///                   it; null: all does. May be empty: all shapes are opaque.
     ///
     /// Meshes and textures must stay where they are for as long as this lives. Throws std::runtime_error with
     /// what Embree says where it fails, OutOfMemory where the BVH cannot be had.
-    explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {});
+    explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {},
+                         const std::deque<ShapeGroup>& groups = {}, const std::vector<Instance>& instances = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;
     Intersector& operator=(Intersector&&) noexcept;

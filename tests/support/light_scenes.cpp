@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -142,6 +143,21 @@ std::shared_ptr<const Scene> relief() {
     return r.build();
 }
 
+/// A group of a glossy sphere and a leaf, turned, scaled unevenly and mirrored.
+std::shared_ptr<const Scene> instances() {
+    Room r;
+    r.sphere({0, 0, 0}, 0.4f, r.plastic(red, 0.25f), 12);
+    r.quad({-0.5f, -0.3f, 0.45f}, {1, 0, 0}, {0, 0.5f, 0}, r.material({"leaf", DiffuseMaterial{{white}}, true}));
+    const int group = r.group_of_last(2);
+    const auto placed = [](glm::vec3 to, float angle, glm::vec3 size) {
+        const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1), to), angle, glm::vec3(0.6f, 0.8f, 0));
+        return glm::scale(turned, size);
+    };
+    r.instance(group, placed({-0.4f, -0.5f, 0.1f}, 0.7f, {1, 0.6f, 0.8f}));
+    r.instance(group, placed({0.45f, -0.3f, -0.3f}, -0.5f, {-0.7f, 1.3f, 0.9f}));
+    return r.build();
+}
+
 } // namespace
 
 std::vector<TestScene> light_scenes() {
@@ -161,6 +177,8 @@ std::vector<TestScene> light_scenes() {
         {"masks_outside", masks_outside(), 4},
         {"masks_outside_half_vectors", masks_outside(), 4, 0.15f},
         {"lamp_and_sky_in_gloss", environment_patchwork(), 2, 0.35f, 3},
+        {"instances", instances(), 4},
+        {"instances_half_vectors", instances(), 4, 0.3f},
         {"relief", relief(), 4},
         {"relief_half_vectors", relief(), 4, 0.25f},
     };

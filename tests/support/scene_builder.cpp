@@ -153,6 +153,17 @@ void SceneBuilder::sphere(glm::vec3 center, float radius, int material, int ring
     description_.shapes.push_back(std::move(shape));
 }
 
+int SceneBuilder::group_of_last(int shapes) {
+    ShapeGroup& group = description_.groups.emplace_back();
+    group.shapes.assign(description_.shapes.end() - shapes, description_.shapes.end());
+    description_.shapes.resize(description_.shapes.size() - static_cast<std::size_t>(shapes));
+    return static_cast<int>(description_.groups.size()) - 1;
+}
+
+void SceneBuilder::instance(int group, glm::mat4 to_world) {
+    description_.instances.push_back({group, to_world});
+}
+
 void SceneBuilder::room(const std::vector<int>& m) {
     quad({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, m[0]);
     quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, m[1]);

@@ -42,6 +42,10 @@ public:
     /// ceiling, back, left, right.
     void room(const std::vector<int>& materials);
 
+    /// Makes a group of the shapes that were added last, which are then seen only where instances are.
+    int group_of_last(int shapes);
+    void instance(int group, glm::mat4 to_world);
+
     void camera(glm::vec3 origin, glm::vec3 target, float fov);
     void camera(const Camera& camera);
 
