@@ -1,7 +1,6 @@
 #include "render/scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <variant>
@@ -61,8 +60,9 @@ template <class M>
 Lobes facet_lobes(const M& m) {
     if (!m.alpha_v)
         return microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
-    return microfacet_lobes(std::sqrt(std::max(least_red(m.alpha) * least_red(*m.alpha_v), 0.0f)),
-                            m.alpha.is_constant() && m.alpha_v->is_constant());
+    const float u = least_red(m.alpha), v = least_red(*m.alpha_v);
+    const float least = std::max(u, v) > 0 ? Microfacets::anisotropic(m.distribution, u, v).alpha : 0;
+    return microfacet_lobes(least, m.alpha.is_constant() && m.alpha_v->is_constant());
 }
 Lobes lobes(const ConductorMaterial& m) {
     return facet_lobes(m);

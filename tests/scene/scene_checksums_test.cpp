@@ -79,6 +79,11 @@ TEST(SceneChecksums, SeeWhateverAPictureShows) {
                   std::get<MixtureMaterial>(wall.kind).second_share = Texture(Rgb(0.31f));
               }),
               "materials");
+    EXPECT_EQ(after([](S& s) {
+                  Material& wall = s.materials[static_cast<std::size_t>(s.shapes[4].material)];
+                  std::get<PlasticMaterial>(wall.kind).scatters_once = true;
+              }),
+              "materials");
     EXPECT_EQ(after([](S& s) { s.materials[static_cast<std::size_t>(s.shapes[0].material)].relief.emplace(); }),
               "materials");
     EXPECT_EQ(after([](S& s) { s.area_lights[0].radiance = Texture(Rgb(1.001f)); }), "lights");

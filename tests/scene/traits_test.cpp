@@ -70,6 +70,31 @@ TEST(SceneTraits, LobesOfEveryKindOfMaterial) {
     EXPECT_EQ(traits.textures, 0);
 }
 
+TEST(SceneTraits, LobesOfPrincipledAndTranslucentMaterials) {
+    const auto expect = [](const Material& material, int delta, int glossy, int transmission) {
+        const SceneTraits traits = traits_of_material(material);
+        EXPECT_EQ(traits.delta_lobes, delta);
+        EXPECT_EQ(traits.glossy_lobes, glossy);
+        EXPECT_EQ(traits.transmission, transmission);
+    };
+    PrincipledMaterial principled;
+    expect({"", principled}, 0, 0, 0);
+    principled.roughness = Texture(Rgb(0.2f));
+    principled.spec_trans = Texture(Rgb(0.5f));
+    expect({"", principled}, 0, 1, 1);
+    ThinPrincipledMaterial sheet;
+    expect({"", sheet}, 0, 0, 0);
+    sheet.diff_trans = Texture(Rgb(1));
+    expect({"", sheet}, 0, 0, 1);
+    expect({"", WardMaterial{}}, 0, 0, 0);
+    expect({"", DiffuseTransmitterMaterial{}}, 0, 0, 1);
+    expect({"", MediumLayerMaterial{}}, 1, 0, 1);
+    // Roughness along one direction is enough to be no mirror.
+    ConductorMaterial brushed;
+    brushed.alpha_v = Texture(Rgb(0.5f));
+    expect({"", brushed}, 0, 1, 0);
+}
+
 TEST(SceneTraits, TexturedRoughnessCountsByItsLeast) {
     const auto expect = [](Texture alpha, int delta, int glossy) {
         const SceneTraits traits = traits_of_material(conductor(std::move(alpha)));
