@@ -161,6 +161,9 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     h.frames(3);
     EXPECT_TRUE(h.has("file/room.xml"));
     EXPECT_FALSE(h.has("file/other.xml"));
+    h.type(Key::q, true); // but for the program's end
+    h.frames(2);
+    EXPECT_TRUE(h.state().wishes.quit);
     h.type(Key::escape);
     h.frames(2);
     EXPECT_FALSE(h.state().layout.choosing.has_value());

@@ -250,6 +250,12 @@ TEST_F(RandomInput, BreaksNothing) {
         for (const std::string& line : last_)
             fmt::print("  {}\n", line);
 
+    // Whatever is open, has the focus or is on its way: Ctrl+Q ends the program.
+    harness_->state().wishes.quit = false;
+    viewer().keyboard().press(Key::q, Key::q, true, false);
+    harness_->frame(0.02f);
+    EXPECT_TRUE(harness_->state().wishes.quit);
+
     // What comes after it is a viewer as any other.
     harness_.reset();
     harness_ = std::make_unique<ViewerHarness>();

@@ -122,8 +122,11 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     std::vector<Shortcut> typed = keyboard_.take();
-    if (state_.layout.choosing) // a dialog that nothing behind it may be done from; Esc closes it
-        std::erase_if(typed, [](const Shortcut& s) { return s != Shortcut{Key::escape}; });
+    if (state_.layout
+            .choosing) // a dialog that nothing behind it may be done from; Esc closes it, Ctrl+Q the program
+        std::erase_if(typed, [](const Shortcut& s) {
+            return s != Shortcut{Key::escape} && s != Shortcut{Key::q, true};
+        });
     run_shortcuts(typed, io.WantTextInput, state_);
     const bool held_back = io.WantTextInput || state_.layout.choosing;
     state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
