@@ -14,8 +14,7 @@
 namespace tessera {
 
 /// A line for each text: "file:line:column: text", with the places of further notes of the same text behind it, of
-/// which some are named and the others counted. Errors first, otherwise in order of the first
-/// places.
+/// which some are named and the others counted. Errors first, otherwise in order of the first places.
 SceneNotes group_notes(const std::vector<LoadNote>& notes);
 /// Writes them to stderr, as errors and notes.
 void print_notes(const std::vector<LoadNote>& notes);

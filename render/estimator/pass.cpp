@@ -67,10 +67,13 @@ int block_edge(const RenderSettings& settings) {
                                          : usual_block_edge;
 }
 
-constexpr int long_path = 16; // vertices: memory for paths is for 2^n of them, and of a block's some are as long
-
 glm::ivec2 block_origin(const Pass& pass) {
     return reuses_paths(pass.settings.method) ? pass.grid.origin : glm::ivec2(0);
+}
+
+/// The column and row of the block that a pixel is in.
+glm::dvec2 block_of(const Pass& pass, glm::ivec2 pixel) {
+    return (pixel - block_origin(pass)) / block_edge(pass.settings);
 }
 
 Rgb light_along(const Ray& ray, const Tracer& tracer) {
@@ -81,6 +84,7 @@ Rgb light_along(const Ray& ray, const Tracer& tracer) {
 } // namespace
 
 std::uint64_t Worker::bytes(const RenderSettings& settings) {
+    constexpr int long_path = 16; // vertices: memory is for 2^n of them, and some of a block's paths are as long
     const auto edge = static_cast<std::uint64_t>(block_edge(settings) + 1); // with one more column and row
     const std::uint64_t paths = settings.method == Method::pt ? 1 : edge * edge;
     const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
@@ -97,13 +101,13 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
 
 glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
     // Of the four numbers of the R4 sequence, two for the column and two for the row.
-    const glm::dvec2 block = (pixel - block_origin(*this)) / block_edge(settings);
+    const glm::dvec2 block = block_of(*this, pixel);
     return {fraction(subpixel_.x + block.x * 0.8566748838545029 + block.y * 0.6287067210378087),
             fraction(subpixel_.y + block.x * 0.7338918566271260 + block.y * 0.5385972572236101)};
 }
 
 glm::vec2 Pass::lens_at(glm::ivec2 pixel) const {
-    const glm::dvec2 block = (pixel - block_origin(*this)) / block_edge(settings);
+    const glm::dvec2 block = block_of(*this, pixel);
     return {fraction(lens_.x + block.x * std::sqrt(5.0) + block.y * std::sqrt(11.0)),
             fraction(lens_.y + block.x * std::sqrt(7.0) + block.y * std::sqrt(13.0))};
 }

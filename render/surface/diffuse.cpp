@@ -77,10 +77,6 @@ std::optional<BsdfSample> RoughDiffuse::sample(glm::vec3 to_previous, float, glm
 
 namespace {
 
-float largest(Rgb c) {
-    return std::max({c.r, c.g, c.b});
-}
-
 /// A direction about +z with density (n + 1) / (2 pi) cos^n.
 glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
     // Logarithms serve here, as a float next to 1 has no digits for what a sharp lobe is made of.
@@ -92,14 +88,6 @@ glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
 }
 
 } // namespace
-
-Phong::Phong(float exponent_, Rgb diffuse, Rgb specular) : exponent(exponent_) {
-    const float scale = 1 / std::max(largest(diffuse + specular), 1.0f);
-    diffuse_reflectance = diffuse * scale;
-    specular_reflectance = specular * scale;
-    const float s = specular.r + specular.g + specular.b, d = diffuse.r + diffuse.g + diffuse.b;
-    specular_weight = s + d > 0 ? s / (s + d) : 0;
-}
 
 BsdfValue Phong::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z <= 0 || to_next.z <= 0)

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -49,7 +50,11 @@ struct Mesh {
     std::vector<MeshAttribute> attributes; ///< no two of the same name
     std::vector<glm::uvec3> triangles;     ///< indices of positions, counter-clockwise seen from outside
 
-    const MeshAttribute* attribute(std::string_view name) const; ///< null: there is none of that name
+    /// Null: there is none of that name.
+    const MeshAttribute* attribute(std::string_view name) const {
+        const auto found = std::ranges::find(attributes, name, &MeshAttribute::name);
+        return found == attributes.end() ? nullptr : &*found;
+    }
 };
 
 /// The unit normal of a triangle, on the side to which the corners' normals point where there are any, else the

@@ -12,6 +12,15 @@
 
 namespace tessera {
 
+DiffuseAndLobe::DiffuseAndLobe(Rgb diffuse, Rgb specular) {
+    const Rgb both = diffuse + specular;
+    const float scale = 1 / std::max({both.r, both.g, both.b, 1.0f});
+    diffuse_reflectance = diffuse * scale;
+    specular_reflectance = specular * scale;
+    const float s = specular.r + specular.g + specular.b, d = diffuse.r + diffuse.g + diffuse.b;
+    specular_weight = s + d > 0 ? s / (s + d) : 0;
+}
+
 DielectricFresnel fresnel_dielectric(float cos_previous, float eta) {
     const bool outside = cos_previous >= 0;
     const float far_over_near = outside ? eta : 1 / eta;

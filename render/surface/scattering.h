@@ -39,6 +39,17 @@ struct BsdfSample {
         : to_next(to_next_), f_cos(f_cos_), pdf_w(pdf_w_), is_delta(is_delta_), scatter(scatter_) {}
 };
 
+/// The reflectances of a diffuse part and a lobe beside it. Those that are above 1 together are scaled down to it.
+struct DiffuseAndLobe {
+    Rgb diffuse_reflectance{0};
+    Rgb specular_reflectance{0};
+    float specular_weight = 0; ///< share of samples for the lobe
+
+    DiffuseAndLobe(Rgb diffuse, Rgb specular);
+
+    Rgb albedo(glm::vec3) const { return diffuse_reflectance + specular_reflectance; }
+};
+
 /// Mirrors a direction on the normal of the shading frame.
 inline glm::vec3 reflect(glm::vec3 d) {
     return {-d.x, -d.y, d.z};

@@ -9,6 +9,18 @@
 
 namespace tessera {
 
+Rgb SurfacePoint::attribute(std::string_view name) const {
+    const MeshAttribute* found = mesh ? mesh->attribute(name) : nullptr;
+    if (!found)
+        return Rgb(1);
+    const auto value = [&](std::size_t i) { return found->values[i]; };
+    if (found->is_of_faces())
+        return value(triangle);
+    const glm::uvec3 t = mesh->triangles[triangle];
+    const float first = 1 - barycentric.x - barycentric.y;
+    return first * value(t.x) + barycentric.x * value(t.y) + barycentric.y * value(t.z);
+}
+
 namespace {
 
 const std::array<float, 256> linear_of_srgb = [] {

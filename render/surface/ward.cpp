@@ -9,15 +9,6 @@
 
 namespace tessera {
 
-Ward::Ward(WardVariant variant_, glm::vec2 alpha_, Rgb diffuse, Rgb specular) : variant(variant_), alpha(alpha_) {
-    const Rgb both = diffuse + specular;
-    const float scale = 1 / std::max({both.r, both.g, both.b, 1.0f});
-    diffuse_reflectance = diffuse * scale;
-    specular_reflectance = specular * scale;
-    const float s = specular.r + specular.g + specular.b, d = diffuse.r + diffuse.g + diffuse.b;
-    specular_weight = s + d > 0 ? s / (s + d) : 0;
-}
-
 BsdfValue Ward::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z <= 0 || to_next.z <= 0)
         return {};

@@ -129,7 +129,7 @@ TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
                     continue; // black from below
                 const PairTally t = copy_many(from.bsdf, to.bsdf, side);
                 const std::string name = from.name + " to " + to.name + (side > 0 ? "" : " from below");
-                EXPECT_LT(t.worst, 2e-3) << name; // in floats
+                EXPECT_LT(t.worst, 1.5e-3) << name; // of floats: the worst is 1.24e-3, in principled glass
                 EXPECT_GT(t.reflected + t.transmitted, 10) << name;
                 if (from.transmits && to.transmits) {
                     EXPECT_GT(t.transmitted, 10) << name;

@@ -122,8 +122,8 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     std::vector<Shortcut> typed = keyboard_.take();
-    if (state_.layout
-            .choosing) // a dialog that nothing behind it may be done from; Esc closes it, Ctrl+Q the program
+    // Nothing behind a dialog may be done from it; Esc closes it, and Ctrl+Q the program.
+    if (state_.layout.choosing)
         std::erase_if(typed, [](const Shortcut& s) {
             return s != Shortcut{Key::escape} && s != Shortcut{Key::q, true};
         });
