@@ -89,10 +89,24 @@ inline RgbImage grey(const Image<float>& numbers) {
     return image;
 }
 
+/// What makes pictures of a coefficient e = v / a of the radiance v, where a > 0 is about the albedo of what a
+/// pixel sees, and 0 where it sees nothing: Lossless Basis Expansion [Fang 2024] with one function. All images of
+/// one size, or all empty: then primal and gradients are of v itself.
+struct Demodulation {
+    RgbImage value;               ///< mean of v, without very direct light
+    RgbImage albedo;              ///< mean of a over many points of each pixel, none of them a sample's
+    RgbImage sampled_albedo;      ///< mean of the a that the samples were divided by
+    Image<float> albedo_variance; ///< of a over the points of each pixel, summed over the channels
+    Image<float> sampled_share;   ///< weight of sampled_albedo in the best mean of both, in [0, 1]
+
+    static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb) + 2 * sizeof(float);
+    bool empty() const { return albedo.empty(); }
+};
+
 /// What a gradient-domain method measures, as means over the samples taken; all images of one size.
 /// A method without gradients leaves dx and dy empty.
 struct GradientImages {
-    RgbImage primal;      ///< radiance without what is in very_direct
+    RgbImage primal;      ///< radiance without what is in very_direct, or its coefficient (Demodulation)
     RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and means nothing
     RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
     RgbImage very_direct; ///< emission seen by the camera itself; added after the reconstruction
@@ -100,11 +114,15 @@ struct GradientImages {
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
+    Demodulation demodulation{};
+
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.
     float patch = 1;
 
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
+    /// Radiance as sampled, without very direct light.
+    const RgbImage& radiance() const { return demodulation.empty() ? primal : demodulation.value; }
     /// Whether all three images have them.
     bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };

@@ -1,5 +1,6 @@
 #include "recon/reconstruct.h"
 
+#include "recon/demodulation.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
@@ -43,9 +44,12 @@ void check_sizes(const GradientImages& images) {
         if (!image.empty() && !fits)
             throw std::invalid_argument("the images to reconstruct from differ in size");
     };
-    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct})
+    const Demodulation& d = images.demodulation;
+    for (const RgbImage* image :
+         {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo})
         check(*image);
-    for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance})
+    for (const Image<float>* variance :
+         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share})
         check(*variance);
 }
 
@@ -196,8 +200,11 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
     Reconstruction result = solve(images, settings, parallel_for, watch);
-    if (images.has_gradients() && !is_linear(settings.norm))
-        lift_to_black(images.primal, result.image, parallel_for);
+    const bool is_unbiased = images.has_gradients() && is_linear(settings.norm);
+    if (!images.demodulation.empty() && !result.image.empty())
+        remodulate(images, is_unbiased, result.image, parallel_for);
+    if (images.has_gradients() && !is_unbiased)
+        lift_to_black(images.radiance(), result.image, parallel_for);
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,6 +1,7 @@
 #include "app/cli/picture_layers.h"
 
 #include "app/cli/terminal.h"
+#include "recon/demodulation.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
@@ -24,14 +25,26 @@ void add_layer(ExrFile& file, std::string name, RgbImage image) {
 }
 
 void add_buffers(ExrFile& file, GradientImages&& images) {
-    add_layer(file, "primal", std::move(images.primal));
-    add_layer(file, "dx", std::move(images.dx));
-    add_layer(file, "dy", std::move(images.dy));
+    Demodulation& d = images.demodulation;
+    const bool is_demodulated = !d.empty();
+    const auto add = [&](const char* name, RgbImage image) {
+        add_layer(file, is_demodulated ? coefficient_layer(name) : name, std::move(image));
+    };
+    add_layer(file, "primal", std::move(d.value)); // if there is one
+    add("primal", std::move(images.primal));
+    add("dx", std::move(images.dx));
+    add("dy", std::move(images.dy));
     add_layer(file, "direct", std::move(images.very_direct));
-    add_layer(file, "primal_variance", grey(images.primal_variance));
-    add_layer(file, "dx_variance", grey(images.dx_variance));
-    add_layer(file, "dy_variance", grey(images.dy_variance));
+    add("primal_variance", grey(images.primal_variance));
+    add("dx_variance", grey(images.dx_variance));
+    add("dy_variance", grey(images.dy_variance));
     file.attributes[patch_attribute] = fmt::format("{}", images.patch);
+    if (!is_demodulated)
+        return;
+    add_layer(file, "mean_albedo", std::move(d.albedo));
+    add_layer(file, "sampled_albedo", std::move(d.sampled_albedo));
+    add_layer(file, "albedo_variance", grey(d.albedo_variance));
+    add_layer(file, "sampled_share", grey(d.sampled_share));
 }
 
 } // namespace
@@ -45,15 +58,18 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
             "{}: a PNG file holds one picture; buffers and several reconstructions take EXR", output.string()));
 }
 
-std::uint64_t bytes_for_layers(glm::ivec2 size, bool has_gradients, const ReconstructionLayers& wanted,
+std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, const ReconstructionLayers& wanted,
                                int threads) {
+    const bool gradients = has_gradients(settings.method), demodulated = is_demodulated(settings);
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::uint64_t images = pixels * (sizeof(Rgb) + (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)));
+    const std::uint64_t images = pixels * (sizeof(Rgb) + (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
+                                           (demodulated ? Demodulation::bytes_a_pixel : 0));
+    const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most = std::max(most,
-                        images + done +
-                            Reconstructor().bytes_for(size.x, size.y, has_gradients ? norm : Norm::none, threads));
+        most =
+            std::max(most, images + remodulation + done +
+                               Reconstructor().bytes_for(size.x, size.y, gradients ? norm : Norm::none, threads));
         done += pixels * sizeof(Rgb);
     }
     return most;
@@ -99,9 +115,10 @@ ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr) {
         add_buffers(file, std::move(images));
         return file;
     }
+    RgbImage& radiance = images.demodulation.empty() ? images.primal : images.demodulation.value;
     for (std::size_t i = 0; i < images.very_direct.size(); ++i)
-        images.primal.data()[i] += images.very_direct.data()[i];
-    add_layer(file, "", std::move(images.primal));
+        radiance.data()[i] += images.very_direct.data()[i];
+    add_layer(file, "", std::move(radiance));
     return file;
 }
 

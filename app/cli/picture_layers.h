@@ -4,9 +4,11 @@
 #include "render/estimator/film.h"
 #include "render/io/exr.h"
 #include "render/run/thread_pool.h"
+#include "render/settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -15,6 +17,11 @@ namespace tessera {
 
 /// The EXR attribute with GradientImages::patch.
 inline constexpr const char* patch_attribute = "tessera:patch";
+
+/// The layer with the coefficient's part that radiance has in layer `name`: "primal", "dx", "dx_variance".
+inline std::string coefficient_layer(const std::string& name) {
+    return name.starts_with("primal") ? "coefficient" + name.substr(6) : "coefficient_" + name;
+}
 
 /// The layers of a picture file that are made from gradients.
 struct ReconstructionLayers {
@@ -37,7 +44,7 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
 
 /// The most memory that it takes to make the layers of a picture of that size on so many threads, the images they
 /// are made of included.
-std::uint64_t bytes_for_layers(glm::ivec2 size, bool has_gradients, const ReconstructionLayers& wanted,
+std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, const ReconstructionLayers& wanted,
                                int threads);
 
 /// The layers wanted, named as their norms; of the buffers those that are not empty, which are taken from

@@ -62,7 +62,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
     const std::vector<LabelledPicture> pictures = {
         {label(pt, "picture"), reconstruct(pt.images(), {}).image},
         {label(gpr, "reconstruction"), reconstruct(images, {}).image},
-        {label(gpr, "primal"), images.primal},
+        {label(gpr, "primal"), images.radiance()},
         {label(gpr, "dx about grey"), around_grey(images.dx)},
     };
     write_png(options.output, picture_sheet(pictures, 2), 0);

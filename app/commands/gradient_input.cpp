@@ -57,15 +57,21 @@ float patch_of(const std::map<std::string, std::string>& attributes, const std::
     return patch;
 }
 
-NamedImage named_layer(const ExrFile& file, const char* name, const std::filesystem::path& path) {
+NamedImage named_layer(const ExrFile& file, const std::string& name, const std::filesystem::path& path) {
     return {fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)};
+}
+
+/// Whether the file's gradients are those of a coefficient.
+bool is_demodulated(const ExrFile& file) {
+    return find_layer(file, coefficient_layer("primal"));
 }
 
 Buffers buffers_of(const ExrFile& file, const std::filesystem::path& path) {
     Buffers buffers;
-    for (const char* name : {"primal", "dx", "dy", "direct"})
-        if (find_layer(file, name) || std::string(name) != "direct")
-            buffers.push_back(named_layer(file, name, path));
+    for (const char* name : {"primal", "dx", "dy"})
+        buffers.push_back(named_layer(file, is_demodulated(file) ? coefficient_layer(name) : name, path));
+    if (find_layer(file, "direct"))
+        buffers.push_back(named_layer(file, "direct", path));
     return buffers;
 }
 
@@ -113,7 +119,7 @@ std::size_t make_finite(NamedImage& buffer, bool repair) {
 
 /// A layer of variances, of which the last `columns` and `rows` mean nothing. A bad one is repaired with
 /// `careful`.
-Image<float> read_variance(const ExrFile& file, const char* name, const std::filesystem::path& path,
+Image<float> read_variance(const ExrFile& file, const std::string& name, const std::filesystem::path& path,
                            const RgbImage& primal, int columns, int rows, std::optional<float> careful,
                            std::size_t& repaired) {
     const NamedImage layer = named_layer(file, name, path);
@@ -134,6 +140,27 @@ Image<float> read_variance(const ExrFile& file, const char* name, const std::fil
             repaired += !is_good;
         }
     return variance;
+}
+
+/// What makes a picture of the coefficient's. Bad values are repaired as there: no light, no trust.
+Demodulation read_demodulation(const ExrFile& file, const std::filesystem::path& path, const NamedImage& primal,
+                               bool repair, std::size_t& repaired) {
+    const auto image = [&](const char* name) {
+        NamedImage layer = named_layer(file, name, path);
+        fit(layer, primal, 0, 0);
+        repaired += make_finite(layer, repair);
+        return std::move(layer.image);
+    };
+    const auto numbers = [&](const char* name, float careful) {
+        return read_variance(file, name, path, primal.image, 0, 0, repair ? std::optional(careful) : std::nullopt,
+                             repaired);
+    };
+    constexpr float largest = std::numeric_limits<float>::max();
+    Demodulation d{image("primal"), image("mean_albedo"), image("sampled_albedo"),
+                   numbers("albedo_variance", largest), numbers("sampled_share", 0)};
+    for (float& share : d.sampled_share)
+        share = std::min(share, 1.0f);
+    return d;
 }
 
 } // namespace
@@ -170,15 +197,19 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
         fit(buffers[3], buffers[0], 0, 0);
     for (NamedImage& buffer : buffers)
         input.repaired += make_finite(buffer, repair);
+    const bool has_coefficient = is_demodulated(layers);
+    if (has_coefficient)
+        input.images.demodulation = read_demodulation(layers, files.front(), buffers[0], repair, input.repaired);
     input.images.primal = std::move(buffers[0].image);
     input.images.dx = std::move(buffers[1].image);
     input.images.dy = std::move(buffers[2].image);
     if (buffers.size() == 4)
         input.images.very_direct = std::move(buffers[3].image);
-    if (find_layer(layers, "primal_variance")) {
+    const auto named = [&](const char* name) { return has_coefficient ? coefficient_layer(name) : name; };
+    if (find_layer(layers, named("primal_variance"))) {
         // Gradients are trusted least where they are noisy and the primal is not.
         const auto variance = [&](const char* name, int columns, int rows, float careful) {
-            return read_variance(layers, name, files.front(), input.images.primal, columns, rows,
+            return read_variance(layers, named(name), files.front(), input.images.primal, columns, rows,
                                  repair ? std::optional(careful) : std::nullopt, input.repaired);
         };
         constexpr float largest = std::numeric_limits<float>::max();

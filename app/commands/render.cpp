@@ -77,7 +77,7 @@ void ask_for_picture(const ResolvedRender& wanted, int threads) {
     const RenderSettings& settings = wanted.settings;
     check_image_size(wanted.size.x, wanted.size.y);
     ask_for_memory(std::max(Render::bytes(wanted.size, settings, threads),
-                            bytes_for_layers(wanted.size, has_gradients(settings.method), wanted.layers, threads)),
+                            bytes_for_layers(wanted.size, settings, wanted.layers, threads)),
                    fmt::format("{}x{} pixels of {}", wanted.size.x, wanted.size.y, short_name(settings.method)));
 }
 

@@ -39,7 +39,7 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
 const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
     const Snapshot& s = *picture.snapshot;
     const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
-                            s.reconstructed_with == picture.reconstruction && has_gradients(s.settings.method);
+                            s.reconstructed_with == picture.reconstruction && is_reconstructed(s.settings);
     return is_current && s.reconstruction->image.size() == s.images->primal.size() ? s.reconstruction.get()
                                                                                    : nullptr;
 }

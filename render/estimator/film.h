@@ -42,12 +42,18 @@ struct ReuseMaps {
     Image<float> survival() const;
 };
 
+/// e = v / a of radiance v; 0 where nothing is seen, and so both are black: v = a e holds whatever e is.
+inline Rgb coefficient(Rgb radiance, Rgb albedo) {
+    return is_black(radiance) ? Rgb(0) : radiance / albedo;
+}
+
 /// What one pass found at one pixel.
 struct PixelSample {
-    Rgb primal{0};
-    Rgb dx{0}; ///< to the pixel on the right
-    Rgb dy{0}; ///< to the pixel below
+    Rgb primal{0}; ///< radiance over `albedo`
+    Rgb dx{0};     ///< of the same, to the pixel on the right
+    Rgb dy{0};     ///< to the pixel below
     Rgb very_direct{0};
+    Rgb albedo{1}; ///< above 0, or black where nothing is seen
     ReuseCounts reuse{};
     float base_luminance = -1; ///< PathReuse::arriving_luminance of its own base path
 };
@@ -55,6 +61,7 @@ struct PixelSample {
 /// What a film keeps beside primal and very direct light.
 struct FilmBuffers {
     bool gradients = false;
+    bool albedo = false;         ///< what radiance was divided by, and radiance itself
     bool reuse = false;          ///< how sharing went
     bool base_luminance = false; ///< of the last pass
     bool lamp_edges = false;     ///< of the lamps that the camera sees
@@ -88,6 +95,16 @@ public:
     /// is kept but its base luminance.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
+    bool keeps_albedo() const { return !albedo_.empty(); }
+    /// At how many points of a pixel, none of them a sample's, its albedo is known, and how many more it takes in
+    /// this pass.
+    int albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).count; }
+    int more_albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).more; }
+    /// Adds the albedo at one more.
+    void add_albedo(int x, int y, Rgb albedo) { albedo_(x, y).add(albedo); }
+    /// Between passes: finds out where more points are needed.
+    void ask_for_albedo(int passes);
+
     /// Remembers more edges of lamps, if it keeps them: both sides of every step between pixels side by side of
     /// `lamps`, very direct light as large as the film. Not during a pass.
     void find_lamp_edges(const RgbImage& lamps);
@@ -106,8 +123,27 @@ public:
     Memory memory();
 
 private:
+    /// The albedo at points of a pixel, low-discrepancy ones: the variance of their mean falls about as
+    /// count^-1.5.
+    struct AlbedoPoints {
+        Moments moments{glm::dvec3(0), 0};
+        int count = 0;
+        int more = 4; ///< wanted in the next pass
+
+        void add(Rgb albedo) {
+            moments += albedo;
+            ++count;
+        }
+        void operator+=(const AlbedoPoints& other);
+        double variance() const;    ///< of one point, summed over the channels
+        double mean_square() const; ///< of the mean's length
+    };
+
+    Demodulation demodulation(int passes) const;
+
     Image<Moments> primal_, dx_, dy_;
-    Image<glm::dvec3> very_direct_;
+    Image<AlbedoPoints> albedo_;
+    Image<glm::dvec3> value_, sampled_albedo_, very_direct_;
     Image<ReuseCounts> reuse_;
     Image<float> base_luminance_;
     Image<std::uint8_t> lamp_edges_;

@@ -46,10 +46,11 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
-            PixelSample sample{path.radiance(), Rgb(0), Rgb(0), path.very_direct};
+            const Rgb albedo = pass.albedo_of(path);
+            PixelSample sample{coefficient(path.radiance(), albedo), Rgb(0), Rgb(0), path.very_direct, albedo};
             for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
                 share_light(pass, roulette_of(pass.settings), worker);
-                sample.*gradient = worker.set.radiance[1] - worker.set.radiance[0];
+                sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
                 sample.reuse += worker.set.reuse[0];
             });
             add_sample(pass, x, y, sample, worker, film);
@@ -61,20 +62,21 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
             const int i = (y - all.y0) * all.width() + x - all.x0;
-            const Rgb* here = worker.set.radiance.data() + i;
+            const Rgb here = worker.set.coefficient(i);
             PixelSample sample = worker.set.sample(i, worker.reuse);
             if (x + 1 < all.x1)
-                sample.dx = here[1] - here[0];
+                sample.dx = worker.set.coefficient(i + 1) - here;
             if (y + 1 < all.y1)
-                sample.dy = here[all.width()] - here[0];
+                sample.dy = worker.set.coefficient(i + all.width()) - here;
             if (pass.settings.primal == PrimalSource::base)
-                sample.primal = worker.base.at(x, y).radiance();
+                sample.primal = coefficient(worker.base.at(x, y).radiance(), sample.albedo);
             add_sample(pass, x, y, sample, worker, film);
         }
 }
 
 /// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
-/// gradients are the differences of these shares: sum of (c_n - c_m) / R.
+/// gradients are the differences of these shares: sum of (c_n - c_m) / R; or of them over the albedos, sum of
+/// (c_n / a_n - c_m / a_m) / R, as what a pixel got from all paths is divided by one albedo.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});

@@ -15,10 +15,13 @@ void SamplingSet::assign(PixelRect rect) {
             add(x, y);
 }
 
-void SamplingSet::collect(const BaseBlock& base) {
+void SamplingSet::collect(const Pass& pass, const BaseBlock& base) {
     paths.clear();
-    for (glm::ivec2 p : pixels)
+    albedo.clear();
+    for (glm::ivec2 p : pixels) {
         paths.push_back(&base.at(p.x, p.y));
+        albedo.push_back(pass.albedo_of(*paths.back()));
+    }
     radiance.assign(pixels.size(), Rgb(0));
     reuse.assign(pixels.size(), {});
 }
@@ -38,7 +41,8 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
 PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    return {radiance[m], Rgb(0), Rgb(0), path.very_direct, reuse[m], estimator.arriving_luminance(path)};
+    return {
+        coefficient(i), Rgb(0), Rgb(0), path.very_direct, albedo[m], reuse[m], estimator.arriving_luminance(path)};
 }
 
 namespace {
@@ -131,6 +135,17 @@ Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     return sum / static_cast<float>(n * n);
 }
 
+Rgb Pass::albedo_at(const Tracer& tracer, int x, int y, int point) const {
+    const Random start(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
+    const glm::vec2 subpixel = start.draw_2d(0, Draw::direction), lens = start.draw_2d(1, Draw::direction);
+    const CameraSample sample{
+        {fraction(subpixel.x + point * 0.7548776662466927), fraction(subpixel.y + point * 0.5698402909980532)},
+        sample_disk({fraction(lens.x + point * std::sqrt(2.0)), fraction(lens.y + point * std::sqrt(3.0))})};
+    Vertex seen;
+    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera) ? seen.bsdf.albedo(seen.to_previous)
+                                                                           : Rgb(0);
+}
+
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside) {
     const CameraSample from = pass.camera_sample(inside);
     rect_ = rect;
@@ -187,6 +202,8 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
+    for (int more = film.more_albedo_points(x, y); more > 0; --more)
+        film.add_albedo(x, y, pass.albedo_at(worker.tracer, x, y, film.albedo_points(x, y)));
     film.add(x, y, pass.index, sample, worker.counters);
 }
 

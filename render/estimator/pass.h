@@ -17,6 +17,7 @@
 namespace tessera {
 
 class BaseBlock;
+class Pass;
 
 /// T: the pixels whose base paths take part in one balance heuristic, and what each gets of their light. All lists
 /// have one entry a pixel.
@@ -24,6 +25,7 @@ struct SamplingSet {
     std::vector<glm::ivec2> pixels;
     std::vector<const BasePath*> paths;
     std::vector<Rgb> radiance;
+    std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
     std::vector<ReuseCounts> reuse;
 
     int size() const { return static_cast<int>(pixels.size()); }
@@ -37,12 +39,16 @@ struct SamplingSet {
     }
 
     /// Looks the base paths of `pixels` up, and sets all sums to 0.
-    void collect(const BaseBlock& base);
+    void collect(const Pass& pass, const BaseBlock& base);
+    /// What entry i got, over its albedo: what primal and gradients are measured of.
+    Rgb coefficient(int i) const {
+        return tessera::coefficient(radiance[static_cast<std::size_t>(i)], albedo[static_cast<std::size_t>(i)]);
+    }
     /// Counts how the shifts of base path k ended; none: no shift was tried.
     void count(std::span<const ShiftOutcome> outcomes, int k);
     /// Counts what the roulette on reuse decided on base path k.
     void count(const ReuseDecision& decision, int k);
-    /// What entry i got, without gradients.
+    /// Entry i for the film, without gradients.
     PixelSample sample(int i, const PathReuse& estimator) const;
 };
 
@@ -79,6 +85,17 @@ public:
     /// Very direct light of a pixel by a grid of camera rays, each where the pixel's base path is in its cell,
     /// through points that cover the lens as well.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
+
+    /// What a base path's radiance is divided by: the albedo at x_1, black where it sees nothing; or 1, where
+    /// settings.basis has no albedo.
+    Rgb albedo_of(const BasePath& path) const {
+        if (!is_demodulated(settings))
+            return Rgb(1);
+        return path.empty() ? Rgb(0) : path.albedo;
+    }
+    /// The same at a point of its own of a pixel. The points of a pixel are a low-discrepancy sequence, which has
+    /// nothing to do with where samples lie: means of albedos are independent of the samples.
+    Rgb albedo_at(const Tracer& tracer, int x, int y, int point) const;
 
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     bool has_lens() const { return has_lens_; }
@@ -173,7 +190,7 @@ ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& work
 template <class Watch>
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
     SamplingSet& set = worker.set;
-    set.collect(worker.base);
+    set.collect(pass, worker.base);
     const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
     worker.reuse.begin(set.paths);
     for (int k = 0; k < set.size(); ++k) {

@@ -21,21 +21,30 @@ PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
 
 /// Shares the light of worker.set, and looks on; closely at what `pixel` gets.
 InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
-    InspectedSet result{worker.set.pixels, {}, {}, {}};
+    InspectedSet result{worker.set.pixels, {}, {}, {}, {}};
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
     worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0});
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
     share_light(pass, roulette_of(pass.settings), worker, onlooker);
+    result.albedo = worker.set.albedo;
     return result;
 }
 
-/// Whether the film refuses what the pixel got: its light, or a difference to that of a neighbour.
+/// Whether a pixel's primal is the light of its own base path.
+bool has_own_primal(const RenderSettings& s) {
+    return !reuses_paths(s.method) || (s.method == Method::gpr && s.primal == PrimalSource::base);
+}
+
+/// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
 bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
     // The image's last pixel has no neighbours: with base paths as the primal, nothing is made of what it got.
-    if (settings.method == Method::gpr && settings.primal == PrimalSource::base && pixel == set.pixels.back())
+    if (settings.method == Method::gpr && has_own_primal(settings) && pixel == set.pixels.back())
         return false;
-    const auto is_bad = [&](glm::ivec2 p) { return set.index_of(p) >= 0 && !is_finite(set.radiance(p)); };
+    const auto is_bad = [&](glm::ivec2 p) {
+        const int m = set.index_of(p);
+        return m >= 0 && !is_finite(coefficient(set.radiance(p), set.albedo[static_cast<std::size_t>(m)]));
+    };
     return is_bad(pixel) || (has_gradients(settings.method) &&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
 }
@@ -89,7 +98,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     result.path = inspect_path(worker.path);
     result.radiance = worker.path.radiance();
     result.very_direct = worker.path.very_direct;
-    result.is_refused = !is_finite(result.radiance + result.very_direct);
+    const Rgb albedo = has_own_primal(settings) ? pass.albedo_of(worker.path) : Rgb(1);
+    result.is_refused = !is_finite(coefficient(result.radiance, albedo) + result.very_direct);
     for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
         if (inner.contains(pixel) && worker.set.contains(pixel))
             result.sets.push_back(inspect_set(pass, inner, pixel, worker));

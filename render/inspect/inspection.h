@@ -75,6 +75,7 @@ struct InspectedBase {
 struct InspectedSet {
     std::vector<glm::ivec2> pixels;
     std::vector<char> is_border; ///< 1: the pixel only lends its path, and gets its light in another set
+    std::vector<Rgb> albedo;     ///< what the pixel's light is divided by (Pass::albedo_of)
     std::vector<InspectedBase> bases;
     std::vector<InspectedShift> shifts; ///< of base k to pixel m: [k * pixels.size() + m]; k = m: its own
 

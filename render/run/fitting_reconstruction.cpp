@@ -1,5 +1,6 @@
 #include "render/run/fitting_reconstruction.h"
 
+#include "recon/demodulation.h"
 #include "render/io/available_memory.h"
 
 #include <string>
@@ -14,7 +15,8 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const int width = images.primal.width(), height = images.primal.height();
     const Norm norm = images.has_gradients() ? settings.norm : Norm::none;
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
-    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads), what);
+    const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
+    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads) + remodulation, what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
 }
 

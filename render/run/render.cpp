@@ -18,8 +18,8 @@ namespace tessera {
 namespace {
 
 FilmBuffers buffers_of(const RenderSettings& s) {
-    return {has_gradients(s.method), s.method != Method::pt, reuses_paths(s.method) && s.adapt_tile,
-            s.very_direct_grid > 1};
+    return {has_gradients(s.method), is_demodulated(s), s.method != Method::pt,
+            reuses_paths(s.method) && s.adapt_tile, s.very_direct_grid > 1};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -114,6 +114,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     plan_.learn(film_.base_luminance());
     ++spp_;
+    film_.ask_for_albedo(spp_);
     return true;
 }
 

@@ -67,6 +67,12 @@ enum class PrimalSource : std::uint8_t {
     base   ///< each pixel's own base path
 };
 
+/// What of a pixel's radiance primal and gradients are made of.
+enum class Basis : std::uint8_t {
+    none,  ///< the radiance itself
+    albedo ///< the radiance over the albedo of what the pixel sees [Fang 2024, 3.1]
+};
+
 /// Everything beside the scene, the camera and the size that decides the picture's bits. What each setting is
 /// called, and its limits: settings_table.h.
 struct RenderSettings : PathSettings, ShiftSettings {
@@ -82,6 +88,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
     int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge
     PrimalSource primal = PrimalSource::reuse;
+    Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
 
     bool operator==(const RenderSettings&) const = default;
@@ -95,6 +102,16 @@ inline bool has_gradients(Method method) {
 /// Whether its pixels share the light of base paths by tiles or patterns.
 inline bool reuses_paths(Method method) {
     return method == Method::pr || method == Method::gpr;
+}
+
+/// Whether what it measures is divided by albedos. (PT has nothing that could gain by it.)
+inline bool is_demodulated(const RenderSettings& s) {
+    return s.method != Method::pt && s.basis == Basis::albedo;
+}
+
+/// Whether its picture is more than the mean of what the pixels got.
+inline bool is_reconstructed(const RenderSettings& s) {
+    return has_gradients(s.method) || is_demodulated(s);
 }
 
 /// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.

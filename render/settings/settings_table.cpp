@@ -48,6 +48,12 @@ constexpr SettingChoice roulette_kinds[] = {
     {"absolute", "absolute", "Against RR delta, a radiance [Bauszat 2017, 3.3]."},
     {"none", "none", "Every path is reused."},
 };
+constexpr SettingChoice bases[] = {
+    {"none", "none", "The radiance itself."},
+    {"albedo", "albedo",
+     "The radiance over the albedo: the light that arrives is alike where textures differ. The picture is "
+     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 132 bytes a pixel more."},
+};
 constexpr SettingChoice primals[] = {
     {"reuse", "shared paths", "What the pixels of a tile share out: less noise, the same for neighbours."},
     {"base", "base paths", "Each pixel's own path: as noisy as path tracing, but independent."},
@@ -150,6 +156,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          Setting::Real{&s.weight_threshold, 0, 1, 0, 1}, joins, true},
         {"primal", "Primal", "Where G-PR has its primal image from.", one_of(primals, s.primal),
          s.method == Method::gpr, true},
+        {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
+         one_of(bases, s.basis), s.method != Method::pt},
         {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},
         {"shift_threshold", "Roughness",
          "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",

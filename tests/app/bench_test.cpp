@@ -144,7 +144,9 @@ TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
 
 TEST_F(BenchCommand, AnErrorBelowItsUncertaintyIsNoNumber) {
     // Halves that lie on both sides of the very picture that is rendered.
-    ASSERT_EQ(run(folder(), "render box.xml -m gpr --size 32x18 --max-depth 8 --spp 4 -o box.exr").exit_code, 0);
+    ASSERT_EQ(
+        run(folder(), "render box.xml -m gpr --size 32x18 --max-depth 8 --spp 4 --recon l2 -o box.exr").exit_code,
+        0);
     const RgbImage picture = read_exr(folder() / "box.exr").layers[0].image;
     RgbImage low = picture, high = picture;
     for (std::size_t i = 0; i < picture.size(); ++i) {

@@ -46,10 +46,18 @@ TEST(PictureLayers, WithoutMemoryToReconstructWhatIsRenderedIsKept) {
 TEST(PictureLayers, TellWhatTheyTakeTogether) {
     const glm::ivec2 size(width, height);
     const ReconstructionLayers one{{Norm::l2}}, two{{Norm::l2, Norm::none}};
-    EXPECT_GT(bytes_for_layers(size, true, one, 1), bytes_for_layers(size, false, one, 1));
-    EXPECT_GE(bytes_for_layers(size, true, {{Norm::none, Norm::l2}}, 1),
-              bytes_for_layers(size, true, one, 1) + sizeof(Rgb) * width * height);
-    EXPECT_EQ(bytes_for_layers(size, true, two, 1), bytes_for_layers(size, true, one, 1));
+    RenderSettings gpr, pt;
+    gpr.method = Method::gpr;
+    gpr.basis = Basis::none;
+    pt.method = Method::pt;
+    EXPECT_GT(bytes_for_layers(size, gpr, one, 1), bytes_for_layers(size, pt, one, 1));
+    EXPECT_GE(bytes_for_layers(size, gpr, {{Norm::none, Norm::l2}}, 1),
+              bytes_for_layers(size, gpr, one, 1) + sizeof(Rgb) * width * height);
+    EXPECT_EQ(bytes_for_layers(size, gpr, two, 1), bytes_for_layers(size, gpr, one, 1));
+    RenderSettings albedo = gpr;
+    albedo.basis = Basis::albedo;
+    EXPECT_GE(bytes_for_layers(size, albedo, one, 1),
+              bytes_for_layers(size, gpr, one, 1) + 44 * width * height); // three images and two of numbers
 }
 
 } // namespace

@@ -159,7 +159,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
         const PixelRect pixels = stage.traced(tile);
         tiles[i].trace(stage.pass, worker.tracer, pixels, {pixels.x0, pixels.y0});
         sets[i].assign(pixels);
-        sets[i].collect(tiles[i]);
+        sets[i].collect(stage.pass, tiles[i]);
     }
     worker.counters = {};
     for (auto _ : state)

@@ -48,6 +48,7 @@ RenderSettings rooks(int pixels) {
     settings.adapt_tile = false;
     settings.shift = ShiftKind::reconnection;
     settings.roulette = RouletteKind::none;
+    settings.basis = Basis::none; // variances are to be of radiance
     return settings;
 }
 

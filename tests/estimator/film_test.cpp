@@ -23,25 +23,33 @@ bool is_black_everywhere(const RgbImage& image) {
 
 TEST(Film, RefusesWhatIsNotFinite) {
     for (const float bad : {infinity, -infinity, nan})
-        for (Rgb PixelSample::*part :
-             {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy, &PixelSample::very_direct})
+        for (Rgb PixelSample::*part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
+                                       &PixelSample::very_direct, &PixelSample::albedo})
             for (int channel = 0; channel < 3; ++channel) {
-                Film film(3, 2, {.gradients = true, .reuse = true, .base_luminance = true});
+                Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .base_luminance = true});
                 Counters counters;
-                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
+                PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
                 (sample.*part)[channel] = bad;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
                 ASSERT_EQ(counters.first_refused.list().size(), 1u);
                 EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{4, 0, 1}));
                 const GradientImages images = film.means(1);
-                for (const RgbImage* image : {&images.primal, &images.dx, &images.dy, &images.very_direct})
+                const Demodulation& d = images.demodulation;
+                for (const RgbImage* image :
+                     {&images.primal, &images.dx, &images.dy, &images.very_direct, &d.value, &d.sampled_albedo})
                     EXPECT_TRUE(is_black_everywhere(*image));
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
                 EXPECT_EQ(film.base_luminance()(1, 0), 1); // so that a plan depends on base paths alone
             }
+}
+
+/// The settings table tells people what it takes.
+TEST(Film, AlbedosTake132BytesAPixel) {
+    EXPECT_EQ(Film::bytes(10, 1, {.albedo = true}) - Film::bytes(10, 1, {}) + 10 * Demodulation::bytes_a_pixel,
+              1320u);
 }
 
 TEST(Film, AddsTheLargestFloat) {

@@ -59,13 +59,15 @@ std::vector<Variant> all_variants() {
         variant("pr, reconnection, 2 light samples, RR depth 2", Method::pr, 4,
                 [](S& s) { s.shift = ShiftKind::reconnection, s.light_samples = 2, s.roulette_depth = 2; }),
         variant("gpt, RR weight", Method::gpt, 1, [](S& s) { s.weight_threshold = 1; }),
-        variant("gpt, replay", Method::gpt, 1, [](S& s) { s.shift = ShiftKind::replay; }),
+        variant("gpt, replay, no basis", Method::gpt, 1,
+                [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none; }),
         variant("gpt, replay-reconnection", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay_reconnection, s.light_samples = 2; }),
         variant("gpr", Method::gpr, 1),
         variant("gpr, absolute roulette", Method::gpr, 2, [](S& s) { s.roulette = RouletteKind::absolute; }),
         variant("gpr, replay", Method::gpr, 3, [](S& s) { s.shift = ShiftKind::replay; }),
-        variant("gpr, tiles whole", Method::gpr, 6, [](S& s) { s.adapt_tile = false; }),
+        variant("gpr, tiles whole, no basis", Method::gpr, 6,
+                [](S& s) { s.adapt_tile = false, s.basis = Basis::none; }),
         variant("gpr", Method::gpr, 6),
         variant("gpr, replay-reconnection, RR depth 2", Method::gpr, 6,
                 [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2; }),
@@ -96,10 +98,15 @@ protected:
         const MethodMeasured m = measure(t.scene, size, v.settings, runs * t.effort, passes);
         report("primal", v, z_test(m.primal, truth.light));
         report("very direct", v, z_test(m.very_direct, truth.very_direct));
-        if (has_gradients(v.settings.method)) {
-            report("dx", v, z_test(m.dx, difference_x(truth.light)));
-            report("dy", v, z_test(m.dy, difference_y(truth.light)));
-        }
+        if (!has_gradients(v.settings.method))
+            return;
+        const bool is_demodulated = v.settings.basis == Basis::albedo;
+        if (is_demodulated)
+            report("coefficient", v, z_test(m.coefficient, truth.coefficient));
+        const Measured& of = is_demodulated ? truth.coefficient : truth.light;
+        report("dx", v, z_test(m.dx, difference_x(of)));
+        report("dy", v, z_test(m.dy, difference_y(of)));
+        report("l2", v, z_test(m.picture, sum(truth.light, truth.very_direct)));
     }
 
     void report(const char* what, const Variant& v, const ZResult& z) {

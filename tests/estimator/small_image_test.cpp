@@ -37,7 +37,7 @@ class SmallImage : public testing::TestWithParam<Case> {};
 TEST_P(SmallImage, AllMethods) {
     const TestScene t = scene_named(GetParam().scene);
     const glm::ivec2 size = GetParam().size;
-    const Measured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3).light;
+    const NaiveMeasured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3);
     const int passes = 512 / (size.x * size.y) + 16; // about as many paths for all sizes
     for (const Method method : all_methods)
         for (const int tile : {1, 6, 16})
@@ -59,10 +59,10 @@ TEST_P(SmallImage, AllMethods) {
                     const ZResult z = z_test(measured, expected);
                     EXPECT_TRUE(z.passes()) << name << what << ": " << z.to_string();
                 };
-                judge("primal", m.primal, truth);
+                judge("primal", m.primal, truth.light);
                 if (has_gradients(method)) {
-                    judge("dx", m.dx, difference_x(truth));
-                    judge("dy", m.dy, difference_y(truth));
+                    judge("dx", m.dx, difference_x(truth.coefficient));
+                    judge("dy", m.dy, difference_y(truth.coefficient));
                 }
             }
 }

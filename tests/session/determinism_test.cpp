@@ -77,10 +77,17 @@ bool same_bits(const Image<Pixel>& a, const Image<Pixel>& b) {
            std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
 }
 
+bool same_bits(const Demodulation& a, const Demodulation& b) {
+    return same_bits(a.value, b.value) && same_bits(a.albedo, b.albedo) &&
+           same_bits(a.sampled_albedo, b.sampled_albedo) && same_bits(a.albedo_variance, b.albedo_variance) &&
+           same_bits(a.sampled_share, b.sampled_share);
+}
+
 bool same_bits(const GradientImages& a, const GradientImages& b) {
     return same_bits(a.primal, b.primal) && same_bits(a.dx, b.dx) && same_bits(a.dy, b.dy) &&
            same_bits(a.very_direct, b.very_direct) && same_bits(a.primal_variance, b.primal_variance) &&
-           same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance);
+           same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance) &&
+           same_bits(a.demodulation, b.demodulation);
 }
 
 GradientImages render(const RenderSettings& settings, int threads) {

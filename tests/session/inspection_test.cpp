@@ -67,7 +67,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
             const Inspection seen =
                 inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), pass, p);
             sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance(p);
-            const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.primal(p.x, p.y);
+            const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.radiance()(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
                 << p.x << ',' << p.y << " pass " << pass;
         }
@@ -136,7 +136,7 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
 TEST_P(Inspected, TheTileIsThatOfThePass) {
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
-    const RgbImage primal = render.images().primal;
+    const RgbImage primal = render.images().radiance();
     const TileInspection tile =
         inspect_tile(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {12, 7});
     EXPECT_TRUE(tile.tile.contains({12, 7}));

@@ -32,10 +32,10 @@ public:
         }
     }
 
-    /// Very direct light first, then all other.
-    std::array<Rgb, 2> radiance(Ray ray, int max_depth) {
-        std::array<Rgb, 2> sums{Rgb(0), Rgb(0)};
-        Rgb throughput(1);
+    /// Very direct light first, then all other, then that over the albedo of what is seen first.
+    std::array<Rgb, 3> radiance(Ray ray, int max_depth) {
+        std::array<Rgb, 3> sums{Rgb(0), Rgb(0), Rgb(0)};
+        Rgb throughput(1), albedo(1);
         for (int edges = 1; edges <= max_depth; ++edges) {
             Hit hit;
             if (!scene_.intersector().closest(ray, hit)) {
@@ -45,6 +45,8 @@ public:
             }
             Vertex v;
             make_vertex(scene_, hit, ray, v);
+            if (edges == 1)
+                albedo = v.bsdf.albedo(v.to_previous);
             sums[edges == 1 ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
             if (edges < max_depth)
                 sums[1] += throughput * from_lights_without_extent(v);
@@ -56,6 +58,7 @@ public:
             const glm::vec3 direction = v.to_world(s->to_next);
             ray = {scene_.intersector().off_surface(v.position, v.geometric_normal, direction), direction};
         }
+        sums[2] = sums[1] / albedo;
         return sums;
     }
 
@@ -105,20 +108,21 @@ struct Moments {
 NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed) {
     Walk walk(scene, seed);
     const Measured black{RgbImage(size.x, size.y), RgbImage(size.x, size.y)};
-    NaiveMeasured result{black, black};
+    NaiveMeasured result{black, black, black};
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
-            std::array<Moments, 2> moments;
+            std::array<Moments, 3> moments;
             for (int i = 0; i < samples; ++i) {
                 const glm::vec2 inside = walk.uniform_2d();
                 const glm::vec2 lens = scene.camera().aperture_radius > 0 ? walk.point_in_disk() : glm::vec2(0);
                 const Ray ray = scene.camera().ray(glm::vec2(x, y) + inside, size, lens);
                 const auto values = walk.radiance(ray, max_depth);
-                for (std::size_t part = 0; part < 2; ++part)
+                for (std::size_t part = 0; part < moments.size(); ++part)
                     moments[part].add(values[part]);
             }
             moments[0].measure(samples, x, y, result.very_direct);
             moments[1].measure(samples, x, y, result.light);
+            moments[2].measure(samples, x, y, result.coefficient);
         }
     return result;
 }

@@ -77,6 +77,18 @@ std::shared_ptr<const Scene> texture_edges() {
     return r.build();
 }
 
+/// Texels that are black and others that are not, smaller than a pixel, on walls and a ball in front of them.
+std::shared_ptr<const Scene> black_texels() {
+    Room r;
+    DiffuseMaterial checker;
+    checker.reflectance.kind = CheckerboardTexture{Rgb(0), Rgb(0.9f, 0.6f, 0.05f)};
+    checker.reflectance.to_uv = glm::mat3(13.0f);
+    const int m = r.material({"checker", checker, true});
+    r.quad({-0.98f, -0.9f, -0.9f}, {1.96f, 0, 0}, {0, 1.8f, 0}, m);
+    r.sphere({0.3f, -0.3f, 0}, 0.4f, m);
+    return r.build();
+}
+
 std::shared_ptr<const Scene> grazing() {
     Room r;
     r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
@@ -259,6 +271,7 @@ std::vector<TestScene> all_test_scenes() {
         {"thin_panes", thin_panes(), 6},
         {"blinds", blinds(), 4},
         {"texture_edges", texture_edges(), 4},
+        {"black_texels", black_texels(), 4},
         {"grazing", grazing(), 4},
         {"patchwork", patchwork(), 5, 0.001f, 5},
         {"patchwork_half_vectors", patchwork(), 5, 0.1f, 5},

@@ -1,5 +1,6 @@
 #include "tests/support/z_scores.h"
 
+#include "recon/reconstruct.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 
@@ -58,7 +59,8 @@ double normal_limit(double probability) {
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
                        int runs, int passes) {
     ThreadPool pool(2);
-    Moments primal, very_direct, dx, dy;
+    Moments primal, very_direct, dx, dy, coefficient, picture;
+    Reconstructor reconstructor;
     for (int run = 0; run < runs; ++run) {
         RenderSettings s = settings;
         s.seed = settings.seed + static_cast<std::uint64_t>(run);
@@ -66,16 +68,18 @@ MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, cons
         for (int pass = 0; pass < passes; ++pass)
             render.pass(pool);
         const GradientImages images = render.images();
-        primal.add(images.primal);
+        primal.add(images.radiance());
         very_direct.add(images.very_direct);
         if (images.has_gradients()) {
+            if (!images.demodulation.empty())
+                coefficient.add(images.primal);
             dx.add(images.dx);
             dy.add(images.dy);
+            picture.add(reconstructor.reconstruct(images, {Norm::l2}).image);
         }
     }
-    if (dx.sum.empty())
-        return {primal.result(runs), very_direct.result(runs), {}, {}};
-    return {primal.result(runs), very_direct.result(runs), dx.result(runs), dy.result(runs)};
+    return {primal.result(runs), very_direct.result(runs), dx.result(runs),
+            dy.result(runs),     coefficient.result(runs), picture.result(runs)};
 }
 
 ZResult z_test(const Measured& a, const Measured& b) {
@@ -126,6 +130,15 @@ Measured difference(const Measured& m, int sx, int sy) {
 
 } // namespace
 
+Measured sum(const Measured& a, const Measured& b) {
+    Measured s = a;
+    for (std::size_t i = 0; i < s.mean.size(); ++i) {
+        s.mean.data()[i] += b.mean.data()[i];
+        const Rgb e0 = a.standard_error.data()[i], e1 = b.standard_error.data()[i];
+        s.standard_error.data()[i] = glm::sqrt(e0 * e0 + e1 * e1);
+    }
+    return s;
+}
 Measured difference_x(const Measured& image) {
     return difference(image, 1, 0);
 }

@@ -12,6 +12,8 @@ namespace tessera::test {
 /// What a method measured, from independent runs with seeds of their own.
 struct MethodMeasured {
     Measured primal, very_direct, dx, dy;
+    Measured coefficient; ///< what dx and dy are the gradients of; empty: `primal`
+    Measured picture;     ///< by l2, very direct light included; empty without gradients
 };
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
                        int runs, int passes);
@@ -28,6 +30,8 @@ struct ZResult {
 };
 ZResult z_test(const Measured& a, const Measured& b);
 
+/// Of what was measured independently, or the less of the two hardly varies.
+Measured sum(const Measured& a, const Measured& b);
 /// The measurement of dx from neighbours that were measured independently.
 Measured difference_x(const Measured& image);
 Measured difference_y(const Measured& image);

@@ -69,6 +69,26 @@ TEST(Buffer, MethodsWithoutGradientsHaveNone) {
     EXPECT_FLOAT_EQ(first(Snapshot{}, Buffer::primal), -1);
 }
 
+TEST(Buffer, OfTheBasisWhereThereIsOne) {
+    Snapshot snapshot = snapshot_of(Method::gpr);
+    auto images = std::make_shared<GradientImages>(*snapshot.images);
+    images->demodulation = {RgbImage(4, 3, Rgb(0.4f)), RgbImage(4, 3, Rgb(0.6f)), RgbImage(4, 3, Rgb(0.7f)),
+                            Image<float>(4, 3), Image<float>(4, 3)};
+    snapshot.images = images;
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::coefficient), 0.5f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::mean_albedo), 0.6f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::sampled_albedo), 0.7f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::covariance), 0.4f - 0.7f * 0.5f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.4f + 0.25f); // radiance, with the very direct light
+    snapshot = snapshot_of(Method::gpr);
+    snapshot.settings.basis = Basis::none;
+    for (Buffer buffer : {Buffer::coefficient, Buffer::mean_albedo, Buffer::sampled_albedo, Buffer::covariance}) {
+        EXPECT_FLOAT_EQ(first(snapshot, buffer), -1);
+        EXPECT_NE(missing_text(&snapshot, Method::gpr, buffer, {}).find("Basis is none"), std::string::npos);
+        EXPECT_EQ(missing_text(nullptr, Method::pt, buffer, {}), "PT divides by no albedo");
+    }
+}
+
 TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     const Snapshot snapshot = snapshot_of(Method::pr);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 7.5f);

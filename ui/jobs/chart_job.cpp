@@ -14,7 +14,7 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
     if (!s || s->coarse() || s->generation != pane.generation)
         return nullptr;
     std::shared_ptr<const void> source = picture_source(*s, Buffer::reconstruction);
-    return has_gradients(s->settings.method) && source != s->reconstruction ? nullptr : source;
+    return is_reconstructed(s->settings) && source != s->reconstruction ? nullptr : source;
 }
 
 } // namespace

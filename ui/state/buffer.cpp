@@ -1,5 +1,6 @@
 #include "ui/state/buffer.h"
 
+#include "recon/demodulation.h"
 #include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
@@ -18,9 +19,9 @@ ErrorKind error_kind(Buffer buffer) {
 }
 
 const RgbImage& primal_with_very_direct(const GradientImages& images, RgbImage& scratch) {
-    if (images.very_direct.size() != images.primal.size())
-        return images.primal;
-    scratch = images.primal;
+    if (images.very_direct.size() != images.radiance().size())
+        return images.radiance();
+    scratch = images.radiance();
     for (std::size_t i = 0; i < scratch.size(); ++i)
         scratch.data()[i] += images.very_direct.data()[i];
     return scratch;
@@ -38,7 +39,7 @@ float rounded_up(float value) {
 
 /// Whether there is a reconstruction of this size: a first look's may still be there when the first whole pass is.
 bool has_reconstruction(const Snapshot& snapshot) {
-    if (!snapshot.images || !snapshot.reconstruction || !has_gradients(snapshot.settings.method))
+    if (!snapshot.images || !snapshot.reconstruction || !is_reconstructed(snapshot.settings))
         return false;
     const RgbImage& image = snapshot.reconstruction->image;
     const RgbImage& primal = snapshot.images->primal;
@@ -57,6 +58,8 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
     case BufferFamily::gradient:
     case BufferFamily::variance:
         return snapshot.images;
+    case BufferFamily::basis:
+        return snapshot.images && !snapshot.images->demodulation.empty() ? snapshot.images : nullptr;
     case BufferFamily::picture:
     case BufferFamily::error:
         break;
@@ -130,6 +133,14 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return scratch = grey(snapshot.images->dx_variance);
     case Buffer::dy_variance:
         return scratch = grey(snapshot.images->dy_variance);
+    case Buffer::coefficient:
+        return snapshot.images->primal;
+    case Buffer::mean_albedo:
+        return snapshot.images->demodulation.albedo;
+    case Buffer::sampled_albedo:
+        return snapshot.images->demodulation.sampled_albedo;
+    case Buffer::covariance:
+        return scratch = sample_covariance(*snapshot.images);
     case Buffer::reconstruction:
         return final_picture(snapshot, scratch);
     default:
@@ -151,6 +162,10 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return "A variance takes two passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt)
         return name + " shares no paths between pixels";
+    if (family(buffer) == BufferFamily::basis && method == Method::pt)
+        return name + " divides by no albedo";
+    if (family(buffer) == BufferFamily::basis && snapshot && snapshot->settings.basis == Basis::none)
+        return "Basis is none: nothing is divided by the albedo";
     if (family(buffer) != BufferFamily::error && family(buffer) != BufferFamily::reference)
         return "";
     if (!companions.reference)
@@ -226,10 +241,14 @@ constexpr BufferInfo table[] = {
     {Buffer::primal, "primal", "Primal", "The picture as measured, before any reconstruction; radiance.",
      Family::picture, ColourMap::radiance, "", 1},
     {Buffer::dx, "dx", "Gradient dx",
-     "Right neighbour minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     "Right neighbour minus pixel, luminance: orange above zero, blue below; of the coefficient where the basis "
+     "is "
+     "the albedo. Measured by G-PT and G-PR.",
      Family::gradient, ColourMap::signed_difference, "", 1},
     {Buffer::dy, "dy", "Gradient dy",
-     "Pixel below minus pixel, luminance: orange above zero, blue below. Measured by G-PT and G-PR.",
+     "Pixel below minus pixel, luminance: orange above zero, blue below; of the coefficient where the basis is "
+     "the "
+     "albedo. Measured by G-PT and G-PR.",
      Family::gradient, ColourMap::signed_difference, "", 1},
     {Buffer::reused, "reused", "Reuse count",
      "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
@@ -274,8 +293,8 @@ constexpr BufferInfo table[] = {
      Family::first_hit, ColourMap::false_colour, "units", 1},
     {Buffer::primal_variance, "primal_variance", "Variance of primal",
      "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
-     "with "
-     "the samples. Pixels that share light err alike: their variances do not tell that.",
+     "with the samples; of the coefficient where the basis is the albedo. Pixels that share light err alike: "
+     "their variances do not tell that.",
      Family::variance, ColourMap::false_colour, "radiance^2", 1},
     {Buffer::dx_variance, "dx_variance", "Variance of dx",
      "Variance of the mean of gradient dx over the passes, the sum of red, green and blue; radiance squared.",
@@ -283,6 +302,23 @@ constexpr BufferInfo table[] = {
     {Buffer::dy_variance, "dy_variance", "Variance of dy",
      "Variance of the mean of gradient dy over the passes, the sum of red, green and blue; radiance squared.",
      Family::variance, ColourMap::false_colour, "radiance^2", 1},
+    {Buffer::coefficient, "coefficient", "Coefficient",
+     "Radiance over the albedo, as sampled: what gradients and variances are of, and the picture is made of, "
+     "where "
+     "the basis is the albedo; radiance.",
+     Family::basis, ColourMap::radiance, "", 1},
+    {Buffer::mean_albedo, "mean_albedo", "Mean albedo",
+     "The mean of the albedos at many points of a pixel, which the reconstructed coefficient is multiplied by; no "
+     "unit. Black where nothing is seen.",
+     Family::basis, ColourMap::radiance, "", 1},
+    {Buffer::sampled_albedo, "sampled_albedo", "Sampled albedo",
+     "The mean of the albedos that the samples were divided by; no unit. It differs from the mean albedo by noise "
+     "alone.",
+     Family::basis, ColourMap::radiance, "", 1},
+    {Buffer::covariance, "covariance", "Covariance term",
+     "Mean radiance minus mean albedo times mean coefficient, of the samples, luminance: orange above zero, blue "
+     "below. At edges, where albedo and light change together within a pixel, the picture needs it.",
+     Family::basis, ColourMap::signed_difference, "", 1},
 };
 
 } // namespace

@@ -18,7 +18,8 @@ enum class Buffer {
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
     reference,
     albedo, normal, depth,
-    primal_variance, dx_variance, dy_variance
+    primal_variance, dx_variance, dy_variance,
+    coefficient, mean_albedo, sampled_albedo, covariance
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -39,7 +40,11 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::depth,
                                          Buffer::primal_variance,
                                          Buffer::dx_variance,
-                                         Buffer::dy_variance};
+                                         Buffer::dy_variance,
+                                         Buffer::coefficient,
+                                         Buffer::mean_albedo,
+                                         Buffer::sampled_albedo,
+                                         Buffer::covariance};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.
@@ -51,6 +56,7 @@ enum class BufferFamily {
     error,     ///< a picture and a reference
     reference, ///< the reference itself
     first_hit, ///< the scene and the camera
+    basis,     ///< a snapshot of a method whose basis is the albedo
 };
 
 /// What there is to know of a buffer before any image of it.

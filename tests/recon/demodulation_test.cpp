@@ -1,0 +1,140 @@
+// Pictures of a coefficient: what remodulation leaves as it is, what it corrects, and what it trusts.
+#include "recon/demodulation.h"
+#include "recon/reconstruct.h"
+#include "tests/recon/test_images.h"
+
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr int width = 21, height = 17;
+
+RgbImage random_image(unsigned seed, float low, float high) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> uniform(low, high);
+    RgbImage image(width, height);
+    for (Rgb& c : image)
+        c = {uniform(engine), uniform(engine), uniform(engine)};
+    return image;
+}
+
+/// Noisy gradients and primal, with variances.
+GradientImages random_gradients() {
+    GradientImages images{random_image(1, 0, 2), random_image(2, -1, 1), random_image(3, -1, 1),
+                          random_image(4, 0, 1)};
+    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(width, height, 0.1f);
+    return images;
+}
+
+Demodulation demodulation_by(const RgbImage& primal, const RgbImage& albedo) {
+    Demodulation d{RgbImage(width, height), albedo, albedo, Image<float>(width, height),
+                   Image<float>(width, height)};
+    for (std::size_t i = 0; i < d.value.size(); ++i)
+        d.value.data()[i] = albedo.data()[i] * primal.data()[i];
+    return d;
+}
+
+TEST(Remodulation, ByAnAlbedoOfOneChangesNoBit) {
+    const GradientImages plain = random_gradients();
+    GradientImages demodulated = plain;
+    demodulated.demodulation = demodulation_by(plain.primal, RgbImage(width, height, Rgb(1)));
+    for (const Norm norm : all_norms) {
+        if (is_linear(norm))
+            continue; // exact, but for the rounding of value - primal + image
+        const RgbImage a = reconstruct(plain, {norm}).image, b = reconstruct(demodulated, {norm}).image;
+        EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)), 0) << to_string(norm);
+    }
+}
+
+TEST(Remodulation, OfThePrimalIsTheValue) {
+    GradientImages images = random_gradients();
+    images.demodulation = demodulation_by(images.primal, random_image(5, 0.1f, 1));
+    images.demodulation.value = random_image(6, 0, 1); // whatever it is: albedo and light changed together
+    images.demodulation.albedo = random_image(7, 0.1f, 1);
+    const RgbImage image = reconstruct(images, {Norm::none}).image;
+    for (std::size_t i = 0; i < image.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.data()[i][c],
+                        images.demodulation.value.data()[i][c] + images.very_direct.data()[i][c], 1e-6f);
+}
+
+/// l2's picture of light that is alike everywhere, under any albedo, is the light times the albedo.
+TEST(Remodulation, OfEvenLightIsTheAlbedo) {
+    GradientImages images;
+    images.primal = RgbImage(width, height, Rgb(3, 2, 1));
+    images.dx = images.dy = RgbImage(width, height, Rgb(0));
+    const RgbImage albedo = random_image(8, 0.1f, 1);
+    images.demodulation = demodulation_by(images.primal, albedo);
+    for (const Norm norm : all_norms) {
+        const RgbImage image = reconstruct(images, {norm}).image;
+        for (std::size_t i = 0; i < image.size(); ++i)
+            EXPECT_LT(glm::distance(image.data()[i], albedo.data()[i] * Rgb(3, 2, 1)), 1e-4f) << to_string(norm);
+    }
+}
+
+/// Images of n samples of albedo and light at every pixel, which change together or not.
+GradientImages sampled(int n, float together, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<float> normal;
+    GradientImages images;
+    images.primal = RgbImage(width, height);
+    images.primal_variance = Image<float>(width, height, 3 * 0.04f / static_cast<float>(n));
+    Demodulation d{RgbImage(width, height), RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height),
+                   Image<float>(width, height, 3 * 0.01f), Image<float>(width, height)};
+    for (std::size_t i = 0; i < images.primal.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            for (int k = 0; k < n; ++k) {
+                const float x = normal(engine), y = normal(engine);
+                const float a = 0.5f + 0.1f * x;
+                const float e = 1 + 0.2f * (together * x + std::sqrt(1 - together * together) * y);
+                images.primal.data()[i][c] += e / static_cast<float>(n);
+                d.sampled_albedo.data()[i][c] += a / static_cast<float>(n);
+                d.value.data()[i][c] += a * e / static_cast<float>(n);
+            }
+    images.demodulation = d;
+    return images;
+}
+
+double mean_of(const RgbImage& image) {
+    double sum = 0;
+    for (const Rgb& c : image)
+        sum += static_cast<double>(c.r + c.g + c.b);
+    return sum / (3 * static_cast<double>(image.size()));
+}
+
+/// Of albedo and light that are independent, rho is noise, and hardly any of it is left; what of it is a
+/// covariance comes into the picture as samples grow.
+TEST(Remodulation, TrustsTheCovarianceThatStandsOutFromNoise) {
+    RgbImage independent(width, height, Rgb(1)), few = independent, many = independent;
+    remodulate(sampled(16, 0, 1), false, independent, serial_for);
+    double squares = 0;
+    for (const Rgb& c : independent)
+        squares += static_cast<double>(glm::dot(c - Rgb(0.5f), c - Rgb(0.5f))) / 3;
+    EXPECT_LT(squares / static_cast<double>(independent.size()), 0.1 * 0.01 * 0.04 / 16); // a tenth of rho's noise
+    remodulate(sampled(2, 0.9f, 2), false, few, serial_for);
+    remodulate(sampled(400, 0.9f, 3), false, many, serial_for);
+    EXPECT_LT(mean_of(few), 0.5 + 0.9 * 0.9 * 0.02);      // held back
+    EXPECT_NEAR(mean_of(many), 0.5 + 0.9 * 0.02, 0.0005); // E[a e]
+}
+
+/// Unbiased at any number of samples, even two, and even if the albedo that it is given is wrong.
+TEST(Remodulation, IsUnbiasedWhereItIsToBe) {
+    double sum = 0;
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        GradientImages images = sampled(2, 0.9f, seed);
+        images.demodulation.albedo = RgbImage(width, height, Rgb(0.7f));
+        RgbImage image(width, height, Rgb(1)); // the coefficient without noise
+        remodulate(images, true, image, serial_for);
+        sum += mean_of(image) / 200;
+    }
+    EXPECT_NEAR(sum, 0.5 + 0.9 * 0.02, 0.0006);
+}
+
+} // namespace
+
+} // namespace tessera::test
