@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tessera {
@@ -20,29 +21,50 @@ Rgb albedo_of(const Demodulation& d, int x, int y) {
     return d.albedo(x, y) + d.sampled_share(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
 }
 
-/// rho = m((a - A) (e - E)) = m(v) - A m(e) - E (m(a) - A).
-Rgb covariance(const GradientImages& images, const RgbImage& image, int x, int y) {
-    const Demodulation& d = images.demodulation;
-    const Rgb albedo = albedo_of(d, x, y);
-    return d.value(x, y) - albedo * images.primal(x, y) - image(x, y) * (d.sampled_albedo(x, y) - albedo);
+/// The sum over the pixels of the 3x3 about (x, y).
+template <class Sum, class ValueOf>
+Sum around(int x, int y, int width, int height, ValueOf value_of) {
+    Sum sum(0);
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
+            sum += value_of(i, j);
+    return sum;
 }
 
-/// Of rho, summed over the channels, as if each had a third of both variances: that of a, and that of the mean of
-/// e.
-double variance_of_covariance(const GradientImages& images, int x, int y) {
-    const double a = images.demodulation.albedo_variance(x, y), e = images.primal_variance(x, y);
-    return a * e / 3;
+/// b: how v changes with a, in the samples of the pixels around; as little as they know of it, it is E.
+Rgb slope(const GradientImages& images, Rgb light, int x, int y) {
+    constexpr float prior = 0.1f;  // of a pixel's variance
+    constexpr float least = 1e-4f; // of the squared albedo: below, differences say nothing, and may be rounding
+    const Demodulation& d = images.demodulation;
+    const auto sum = [&](const RgbImage& image) {
+        return around<Rgb>(x, y, image.width(), image.height(), [&](int i, int j) { return image(i, j); });
+    };
+    const Rgb albedo = albedo_of(d, x, y);
+    const Rgb weight = prior * d.albedo_variance(x, y) / 3 + least * albedo * albedo;
+    return (sum(d.value_covariance) + weight * light) / glm::max(sum(d.sampled_variance) + weight, 1e-20f);
+}
+
+/// rho = m(v) - A m(e) - b (m(a) - A).
+Rgb covariance(const GradientImages& images, Rgb light, int x, int y) {
+    const Demodulation& d = images.demodulation;
+    const Rgb albedo = albedo_of(d, x, y);
+    return d.value(x, y) - albedo * images.primal(x, y) -
+           slope(images, light, x, y) * (d.sampled_albedo(x, y) - albedo);
 }
 
 /// k of pixel (x, y).
 float trust(const GradientImages& images, const RgbImage& rho, int x, int y) {
-    double noise = 0, squares = 0;
-    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, rho.height() - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, rho.width() - 1); ++i) {
-            noise += variance_of_covariance(images, i, j);
-            squares += static_cast<double>(glm::dot(rho(i, j), rho(i, j)));
-        }
-    return squares > 0 ? static_cast<float>(std::max(0.0, 1 - 2 * noise / squares)) : 0;
+    const Demodulation& d = images.demodulation;
+    // As if each channel had a third of both variances.
+    const double noise = around<double>(x, y, rho.width(), rho.height(), [&](int i, int j) {
+        return static_cast<double>(d.albedo_variance(i, j)) * static_cast<double>(d.unexplained_variance(i, j)) /
+               3;
+    });
+    const double squares = around<double>(x, y, rho.width(), rho.height(), [&](int i, int j) {
+        const glm::dvec3 r(rho(i, j));
+        return glm::dot(r, r);
+    });
+    return squares > 0 ? static_cast<float>(std::max(0.0, 1 - noise / squares)) : 0;
 }
 
 } // namespace
@@ -58,11 +80,11 @@ void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image,
         return;
     }
     RgbImage rho;
-    if (!images.primal_variance.empty() && !d.albedo_variance.empty()) {
+    if (!images.primal_variance.empty()) {
         rho = RgbImage(width, height);
         parallel_for(height, [&](int y) {
             for (int x = 0; x < width; ++x)
-                rho(x, y) = covariance(images, image, x, y);
+                rho(x, y) = covariance(images, image(x, y), x, y);
         });
     }
     parallel_for(height, [&](int y) {

@@ -17,9 +17,13 @@ namespace tessera {
 /// Unbiased, as E is a linear function of the samples: A is the mean over points that have nothing to do with
 /// these, k = 1, rho = m(v) - A m(e). The samples' own albedos count in full, with their noise.
 ///
-/// Else consistent: A is the mean over all points that are known, rho = m((a - A) (e - E)), of which the noise of
-/// the pixel's few albedos is gone, and k in [0, 1] goes to 1 where rho stands out from its noise in the 3x3
-/// pixels around, k = max(0, 1 - 2 sum(variance of rho) / sum(rho^2)). Without variances, k = 0.
+/// Else consistent: A is the mean over all points that are known, and
+///     rho = m(v) - A m(e) - b (m(a) - A) ,
+/// where b says how v changes with a within the pixel, by regression over the samples of 3x3 pixels: a control
+/// variate that takes away the noise of how the few samples happened to fall on a texture, where v follows a with
+/// b = E, or on two surfaces. k in [0, 1] goes to 1 where rho stands out from the noise that light alone makes of
+/// it, in the 3x3 pixels around [James and Stein 1961], k = max(0, 1 - sum(noise) / sum(rho^2)). Without
+/// variances, k = 0.
 void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image, const ParallelFor& parallel_for);
 
 /// The memory that remodulate() takes.

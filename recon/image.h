@@ -99,7 +99,13 @@ struct Demodulation {
     Image<float> albedo_variance; ///< of a over the points of each pixel, summed over the channels
     Image<float> sampled_share;   ///< weight of sampled_albedo in the best mean of both, in [0, 1]
 
-    static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb) + 2 * sizeof(float);
+    // From sample to sample, per channel; of a single one 0.
+    RgbImage sampled_variance; ///< of a
+    RgbImage value_covariance; ///< of v with a
+    Image<float>
+        unexplained_variance; ///< of the mean of e, what is left of it when it follows a; summed over the channels
+
+    static constexpr std::size_t bytes_a_pixel = 5 * sizeof(Rgb) + 3 * sizeof(float);
     bool empty() const { return albedo.empty(); }
 };
 

@@ -45,11 +45,11 @@ void check_sizes(const GradientImages& images) {
             throw std::invalid_argument("the images to reconstruct from differ in size");
     };
     const Demodulation& d = images.demodulation;
-    for (const RgbImage* image :
-         {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo})
+    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo,
+                                  &d.sampled_albedo, &d.sampled_variance, &d.value_covariance})
         check(*image);
-    for (const Image<float>* variance :
-         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share})
+    for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance,
+                                         &d.albedo_variance, &d.sampled_share, &d.unexplained_variance})
         check(*variance);
 }
 

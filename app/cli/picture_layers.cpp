@@ -45,6 +45,9 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_layer(file, "sampled_albedo", std::move(d.sampled_albedo));
     add_layer(file, "albedo_variance", grey(d.albedo_variance));
     add_layer(file, "sampled_share", grey(d.sampled_share));
+    add_layer(file, "sampled_variance", std::move(d.sampled_variance));
+    add_layer(file, "value_covariance", std::move(d.value_covariance));
+    add_layer(file, "unexplained_variance", grey(d.unexplained_variance));
 }
 
 } // namespace

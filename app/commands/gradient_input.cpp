@@ -156,8 +156,14 @@ Demodulation read_demodulation(const ExrFile& file, const std::filesystem::path&
                              repaired);
     };
     constexpr float largest = std::numeric_limits<float>::max();
-    Demodulation d{image("primal"), image("mean_albedo"), image("sampled_albedo"),
-                   numbers("albedo_variance", largest), numbers("sampled_share", 0)};
+    Demodulation d{image("primal"),
+                   image("mean_albedo"),
+                   image("sampled_albedo"),
+                   numbers("albedo_variance", largest),
+                   numbers("sampled_share", 0),
+                   image("sampled_variance"),
+                   image("value_covariance"),
+                   numbers("unexplained_variance", largest)};
     for (float& share : d.sampled_share)
         share = std::min(share, 1.0f);
     return d;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include <glm/common.hpp>
+
 namespace tessera {
 
 namespace {
@@ -85,7 +87,7 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
     const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(glm::dvec3) +
-                                (buffers.albedo ? sizeof(AlbedoPoints) + 2 * sizeof(glm::dvec3) : 0) +
+                                (buffers.albedo ? sizeof(AlbedoPoints) + 4 * sizeof(glm::dvec3) : 0) +
                                 (buffers.reuse ? sizeof(ReuseCounts) : 0) +
                                 (buffers.base_luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
@@ -99,7 +101,7 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
     }
     if (buffers.albedo) {
         albedo_ = Image<AlbedoPoints>(width, height);
-        value_ = sampled_albedo_ = Image<glm::dvec3>(width, height);
+        value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = Image<glm::dvec3>(width, height);
     }
     if (buffers.reuse)
         reuse_ = Image<ReuseCounts>(width, height);
@@ -122,8 +124,11 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     primal_(x, y) += sample.primal;
     very_direct_(x, y) += sample.very_direct;
     if (keeps_albedo()) {
-        value_(x, y) += glm::dvec3(sample.primal) * glm::dvec3(sample.albedo);
-        sampled_albedo_(x, y) += sample.albedo;
+        const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a;
+        value_(x, y) += v;
+        sampled_albedo_(x, y) += a;
+        albedo_squares_(x, y) += a * a;
+        albedo_values_(x, y) += a * v;
     }
     if (dx_.empty())
         return;
@@ -188,20 +193,45 @@ void Film::ask_for_albedo(int passes) {
         }
 }
 
+/// How albedo, value and coefficient of entry i changed from sample to sample. With S for sums over products of
+/// differences to the means, the coefficient that follows the albedo explains S_ea^2 / S_aa of S_ee; a v / a is v.
+void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
+    const double n = passes;
+    const glm::dvec3 a = sampled_albedo_.data()[i] / n, v = value_.data()[i] / n, e = primal_.data()[i].sum / n;
+    const glm::dvec3 variance = glm::max(albedo_squares_.data()[i] / n - a * a, 0.0); // below 0 by rounding alone
+    const glm::dvec3 with_value = albedo_values_.data()[i] / n - a * v, with_light = v - a * e;
+    const double all = primal_.data()[i].squares - n * glm::dot(e, e);
+    double explained = 0;
+    for (int c = 0; c < 3; ++c)
+        explained += variance[c] > 0 ? n * with_light[c] * with_light[c] / variance[c] : 0;
+    result.sampled_variance.data()[i] = Rgb(variance);
+    result.value_covariance.data()[i] = Rgb(with_value);
+    result.unexplained_variance.data()[i] =
+        static_cast<float>(std::clamp((all - explained) / (n * std::max(n - 2, 1.0)), 0.0, largest_variance));
+}
+
 Demodulation Film::demodulation(int passes) const {
     if (!keeps_albedo())
         return {};
     const auto sum = [](const glm::dvec3& s) { return s; };
-    const int width = albedo_.width(), height = albedo_.height();
-    Demodulation result{means_of(value_, passes, sum), RgbImage(width, height),
-                        means_of(sampled_albedo_, passes, sum), Image<float>(width, height),
-                        Image<float>(width, height)};
+    const RgbImage black(albedo_.width(), albedo_.height());
+    const Image<float> none(albedo_.width(), albedo_.height());
+    Demodulation result{means_of(value_, passes, sum),
+                        black,
+                        means_of(sampled_albedo_, passes, sum),
+                        none,
+                        none,
+                        black,
+                        black,
+                        none};
     const double samples = std::pow(passes, 1.5);
     for (std::size_t i = 0; i < albedo_.size(); ++i) {
         const AlbedoPoints& points = albedo_.data()[i];
         result.albedo.data()[i] = Rgb(points.moments.sum / static_cast<double>(std::max(points.count, 1)));
         result.albedo_variance.data()[i] = static_cast<float>(points.variance());
         result.sampled_share.data()[i] = static_cast<float>(samples / (samples + std::pow(points.count, 1.5)));
+        if (passes > 1)
+            measure_samples(i, passes, result);
     }
     return result;
 }
@@ -224,12 +254,12 @@ GradientImages Film::take_means(int passes) {
         measure(moments, passes, mean, variance);
         moments = {};
     };
-    take(primal_, images.primal, images.primal_variance);
     take(dx_, images.dx, images.dx_variance);
     take(dy_, images.dy, images.dy_variance);
     images.demodulation = demodulation(passes);
     albedo_ = {};
-    value_ = sampled_albedo_ = {};
+    value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = {};
+    take(primal_, images.primal, images.primal_variance);
     images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
     return images;
 }
@@ -242,6 +272,8 @@ Memory Film::memory() {
             memory_of(albedo_),
             memory_of(value_),
             memory_of(sampled_albedo_),
+            memory_of(albedo_squares_),
+            memory_of(albedo_values_),
             memory_of(reuse_),
             memory_of(base_luminance_),
             memory_of(lamp_edges_)};

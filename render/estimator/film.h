@@ -140,10 +140,12 @@ private:
     };
 
     Demodulation demodulation(int passes) const;
+    void measure_samples(std::size_t i, int passes, Demodulation& result) const;
 
     Image<Moments> primal_, dx_, dy_;
     Image<AlbedoPoints> albedo_;
-    Image<glm::dvec3> value_, sampled_albedo_, very_direct_;
+    Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
+    Image<glm::dvec3> very_direct_;
     Image<ReuseCounts> reuse_;
     Image<float> base_luminance_;
     Image<std::uint8_t> lamp_edges_;

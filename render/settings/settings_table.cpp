@@ -52,7 +52,7 @@ constexpr SettingChoice bases[] = {
     {"none", "none", "The radiance itself."},
     {"albedo", "albedo",
      "The radiance over the albedo: the light that arrives is alike where textures differ. The picture is "
-     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 132 bytes a pixel more."},
+     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 208 bytes a pixel more."},
 };
 constexpr SettingChoice primals[] = {
     {"reuse", "shared paths", "What the pixels of a tile share out: less noise, the same for neighbours."},

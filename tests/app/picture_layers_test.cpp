@@ -57,7 +57,7 @@ TEST(PictureLayers, TellWhatTheyTakeTogether) {
     RenderSettings albedo = gpr;
     albedo.basis = Basis::albedo;
     EXPECT_GE(bytes_for_layers(size, albedo, one, 1),
-              bytes_for_layers(size, gpr, one, 1) + 44 * width * height); // three images and two of numbers
+              bytes_for_layers(size, gpr, one, 1) + Demodulation::bytes_a_pixel * width * height);
 }
 
 } // namespace

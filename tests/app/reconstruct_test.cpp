@@ -77,9 +77,10 @@ TEST_F(Reconstruct, OfSavedBuffersEqualsTheRendersOwn) {
     EXPECT_LT(difference("l2", ""), 1e-6);
     EXPECT_LT(difference("", "l1"), 1e-6);
     EXPECT_GT(difference("l2", "l1"), 1e-3);
-    for (const char* name : {"primal", "direct", "coefficient", "coefficient_dx", "coefficient_dy",
-                             "coefficient_variance", "coefficient_dx_variance", "coefficient_dy_variance",
-                             "mean_albedo", "sampled_albedo", "albedo_variance", "sampled_share"})
+    for (const char* name :
+         {"primal", "direct", "coefficient", "coefficient_dx", "coefficient_dy", "coefficient_variance",
+          "coefficient_dx_variance", "coefficient_dy_variance", "mean_albedo", "sampled_albedo", "albedo_variance",
+          "sampled_share", "sampled_variance", "value_covariance", "unexplained_variance"})
         EXPECT_TRUE(same_pixels(*find_layer(found, name), *find_layer(expected, name))) << name;
     EXPECT_EQ(found.attributes.at("tessera:settings"), expected.attributes.at("tessera:settings"));
     const auto settings = nlohmann::json::parse(found.attributes.at("tessera:reconstruction"));

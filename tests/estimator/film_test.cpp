@@ -47,9 +47,9 @@ TEST(Film, RefusesWhatIsNotFinite) {
 }
 
 /// The settings table tells people what it takes.
-TEST(Film, AlbedosTake132BytesAPixel) {
+TEST(Film, AlbedosTake208BytesAPixel) {
     EXPECT_EQ(Film::bytes(10, 1, {.albedo = true}) - Film::bytes(10, 1, {}) + 10 * Demodulation::bytes_a_pixel,
-              1320u);
+              2080u);
 }
 
 TEST(Film, AddsTheLargestFloat) {

@@ -80,7 +80,9 @@ bool same_bits(const Image<Pixel>& a, const Image<Pixel>& b) {
 bool same_bits(const Demodulation& a, const Demodulation& b) {
     return same_bits(a.value, b.value) && same_bits(a.albedo, b.albedo) &&
            same_bits(a.sampled_albedo, b.sampled_albedo) && same_bits(a.albedo_variance, b.albedo_variance) &&
-           same_bits(a.sampled_share, b.sampled_share);
+           same_bits(a.sampled_share, b.sampled_share) && same_bits(a.sampled_variance, b.sampled_variance) &&
+           same_bits(a.value_covariance, b.value_covariance) &&
+           same_bits(a.unexplained_variance, b.unexplained_variance);
 }
 
 bool same_bits(const GradientImages& a, const GradientImages& b) {

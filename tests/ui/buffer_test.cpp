@@ -72,8 +72,14 @@ TEST(Buffer, MethodsWithoutGradientsHaveNone) {
 TEST(Buffer, OfTheBasisWhereThereIsOne) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     auto images = std::make_shared<GradientImages>(*snapshot.images);
-    images->demodulation = {RgbImage(4, 3, Rgb(0.4f)), RgbImage(4, 3, Rgb(0.6f)), RgbImage(4, 3, Rgb(0.7f)),
-                            Image<float>(4, 3), Image<float>(4, 3)};
+    images->demodulation = {RgbImage(4, 3, Rgb(0.4f)),
+                            RgbImage(4, 3, Rgb(0.6f)),
+                            RgbImage(4, 3, Rgb(0.7f)),
+                            Image<float>(4, 3),
+                            Image<float>(4, 3),
+                            RgbImage(4, 3),
+                            RgbImage(4, 3),
+                            Image<float>(4, 3)};
     snapshot.images = images;
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::coefficient), 0.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::mean_albedo), 0.6f);
