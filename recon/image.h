@@ -102,8 +102,8 @@ struct Demodulation {
     // From sample to sample, per channel; of a single one 0.
     RgbImage sampled_variance; ///< of a
     RgbImage value_covariance; ///< of v with a
-    Image<float>
-        unexplained_variance; ///< of the mean of e, what is left of it when it follows a; summed over the channels
+    /// Of the mean of e, what is left of it where e follows a; summed over the channels.
+    Image<float> unexplained_variance;
 
     static constexpr std::size_t bytes_a_pixel = 5 * sizeof(Rgb) + 3 * sizeof(float);
     bool empty() const { return albedo.empty(); }
