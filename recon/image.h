@@ -109,6 +109,18 @@ struct Demodulation {
     bool empty() const { return albedo.empty(); }
 };
 
+/// Part l of a coefficient, by a function of the directions that light comes from [Fang 2024]: e is the sum of
+/// projection times part, and each part is smoother than e where normals or roughness change. All images of one
+/// size.
+struct CoefficientPart {
+    Image<float> projection; ///< s^l of each pixel
+    RgbImage primal, dx, dy; ///< e^l, and its forward differences
+    /// Variances of these means, summed over the channels; empty if they are unknown.
+    Image<float> primal_variance{}, dx_variance{}, dy_variance{};
+
+    static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb) + 4 * sizeof(float);
+};
+
 /// What a gradient-domain method measures, as means over the samples taken; all images of one size.
 /// A method without gradients leaves dx and dy empty.
 struct GradientImages {
@@ -121,6 +133,7 @@ struct GradientImages {
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
     Demodulation demodulation{};
+    std::vector<CoefficientPart> parts{}; ///< none: the coefficient is reconstructed as a whole
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.

@@ -1,5 +1,7 @@
 #include "recon/poisson_weighted.h"
 
+#include "recon/weighted_rows.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -79,9 +81,10 @@ float weight(float alpha, float gradient_variance, float one_primal_variance, fl
     return noise > 0 ? least / (least + noise) : 1;
 }
 
-} // namespace
-
-EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
+/// What `gradients` (the whole's, or a part's) are to be trusted beside the whole's primal.
+template <class Gradients>
+EdgeWeights weights_of(const GradientImages& images, const Gradients& gradients, float alpha,
+                       const ParallelFor& parallel_for) {
     const int width = images.primal.width(), height = images.primal.height();
     const bool is_measured = images.has_variances();
     const auto noise = [&](const RgbImage& values, const Image<float>& measured, float own_share, int radius,
@@ -91,8 +94,8 @@ EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, cons
         return blended(is_measured ? measured : around, own_share, radius, columns, rows, parallel_for);
     };
     const Image<float> primal = noise(images.primal, images.primal_variance, primal_share, primal_radius, 0, 0);
-    const Image<float> dx = noise(images.dx, images.dx_variance, gradient_share, gradient_radius, 1, 0);
-    const Image<float> dy = noise(images.dy, images.dy_variance, gradient_share, gradient_radius, 0, 1);
+    const Image<float> dx = noise(gradients.dx, gradients.dx_variance, gradient_share, gradient_radius, 1, 0);
+    const Image<float> dy = noise(gradients.dy, gradients.dy_variance, gradient_share, gradient_radius, 0, 1);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
     parallel_for(height, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)
@@ -104,99 +107,24 @@ EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, cons
     return weights;
 }
 
-namespace {
+} // namespace
 
-constexpr int chunk_pixels = 64; // worked on at a time: their arrays stay in the L1 cache
-constexpr int chunk_values = 3 * chunk_pixels;
+EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
+    return weights_of(images, images, alpha, parallel_for);
+}
+
+EdgeWeights weights_of_part(const GradientImages& images, const CoefficientPart& part, float alpha,
+                            const ParallelFor& parallel_for) {
+    return weights_of(images, part, alpha, parallel_for);
+}
+
+namespace {
 
 // Start and preconditioner need not have the weight of the problem: where gradients are trusted less, a larger one
 // is nearer to it, and does not need to refine its answers.
 constexpr float least_alpha = 0.1f;
 
 constexpr double rounding = 1e-13; // of the squared error: the square of a float's
-
-/// A number for each channel.
-using Channels = std::array<double, 3>;
-
-const float* values(const RgbImage& image, int x, int y) {
-    return &image(x, y).x;
-}
-
-float* values(RgbImage& image, int x, int y) {
-    return &image(x, y).x;
-}
-
-/// Writes `count` weights three times each, once for each channel.
-void spread(const float* weights, int count, float* out) {
-    for (int i = 0; i < count; ++i)
-        out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = weights[i];
-}
-
-/// Writes row y of V + Dx^T w_x G_x + Dy^T w_y G_y to out. V, G_x and G_y are given by calls (x, y, count, to)
-/// that write 3 values for each of `count` pixels from (x, y) on.
-template <class V, class Gx, class Gy>
-void write_row(const EdgeWeights& weights, int y, const V& v, const Gx& g_x, const Gy& g_y, float* out) {
-    const int width = weights.x.width(), height = weights.x.height();
-    float weight[chunk_values], flux[chunk_values];
-    float to_right[3 + chunk_values] = {}; // flux from one pixel to the next, that into the chunk's first in front
-    for (int x = 0; x < width; x += chunk_pixels) {
-        const int count = std::min(chunk_pixels, width - x), right = std::min(count, width - 1 - x);
-        float* sum = out + 3 * x;
-        v(x, y, count, sum);
-        g_x(x, y, right, to_right + 3);
-        spread(weights.x.row(y) + x, right, weight);
-        for (int i = 0; i < 3 * right; ++i)
-            to_right[3 + i] *= weight[i];
-        std::fill(to_right + 3 + 3 * right, to_right + 3 + 3 * count, 0.0f);
-        for (int i = 0; i < 3 * count; ++i)
-            sum[i] += to_right[i] - to_right[3 + i];
-        std::copy_n(to_right + 3 * count, 3, to_right);
-        if (y > 0) {
-            g_y(x, y - 1, count, flux);
-            spread(weights.y.row(y - 1) + x, count, weight);
-            for (int i = 0; i < 3 * count; ++i)
-                sum[i] += weight[i] * flux[i];
-        }
-        if (y + 1 < height) {
-            g_y(x, y, count, flux);
-            spread(weights.y.row(y) + x, count, weight);
-            for (int i = 0; i < 3 * count; ++i)
-                sum[i] -= weight[i] * flux[i];
-        }
-    }
-}
-
-constexpr int period = 24; // values of all channels that fill whole vectors
-
-/// The sums of the products of `count` pixels, channel by channel.
-Channels products(const float* a, const float* b, int count) {
-    Channels sums{};
-    for (int first = 0; first < 3 * count; first += chunk_values) {
-        const int end = std::min(first + chunk_values, 3 * count);
-        float partial[period] = {};
-        int i = first;
-        for (; i + period <= end; i += period)
-            for (int j = 0; j < period; ++j)
-                partial[j] += a[i + j] * b[i + j];
-        for (int j = 0; i < end; ++i, ++j)
-            partial[j] += a[i] * b[i];
-        for (int j = 0; j < period; ++j)
-            sums[j % 3] += partial[j];
-    }
-    return sums;
-}
-
-double total(const Channels& channels) {
-    return channels[0] + channels[1] + channels[2];
-}
-
-Channels total(const std::vector<Channels>& rows) {
-    Channels sum{};
-    for (const Channels& row : rows)
-        for (int c = 0; c < 3; ++c)
-            sum[c] += row[c];
-    return sum;
-}
 
 /// r = b - A I.
 void residual(const PoissonProblem& problem, const EdgeWeights& weights, const RgbImage& image, RgbImage& r,
@@ -209,14 +137,8 @@ void residual(const PoissonProblem& problem, const EdgeWeights& weights, const R
             for (int i = 0; i < 3 * count; ++i)
                 out[i] = weight * (given[i] - own[i]);
         };
-        const auto misfit_of = [&](const RgbImage& gradient, int next) {
-            return [&gradient, &image, next](int x, int row, int count, float* out) {
-                const float *given = values(gradient, x, row), *own = values(image, x, row);
-                for (int i = 0; i < 3 * count; ++i)
-                    out[i] = given[i] - (own[i + next] - own[i]);
-            };
-        };
-        write_row(weights, y, misfit, misfit_of(problem.dx, 3), misfit_of(problem.dy, 3 * width), values(r, 0, y));
+        write_row(weights, y, misfit, misfits(problem.dx, image, 3), misfits(problem.dy, image, 3 * width),
+                  values(r, 0, y));
     });
 }
 
@@ -231,46 +153,11 @@ std::array<Channels, 2> apply(const EdgeWeights& weights, float alpha, const Rgb
             for (int i = 0; i < 3 * count; ++i)
                 out[i] = weight * own[i];
         };
-        const auto difference = [&](int next) {
-            return [&z, next](int x, int row, int count, float* out) {
-                const float* own = values(z, x, row);
-                for (int i = 0; i < 3 * count; ++i)
-                    out[i] = own[i + next] - own[i];
-            };
-        };
-        write_row(weights, y, scaled, difference(3), difference(3 * width), values(w, 0, y));
+        write_row(weights, y, scaled, differences(z, 3), differences(z, 3 * width), values(w, 0, y));
         rz[y] = products(values(r, 0, y), values(z, 0, y), width);
         wz[y] = products(values(w, 0, y), values(z, 0, y), width);
     });
     return {total(rz), total(wz)};
-}
-
-/// A number for each channel, over and over: the factors of `period` values.
-struct Factors {
-    explicit Factors(const Channels& channels) {
-        for (int i = 0; i < period; ++i)
-            value[i] = static_cast<float>(channels[i % 3]);
-    }
-
-    float value[period];
-};
-
-/// The step of one row: p = z + turn p, s = w + turn s, c += step p, r -= step s, where w = A z and s = A p.
-void take_step(const Factors& turn, const Factors& step, int count, const float* __restrict z,
-               const float* __restrict w, float* __restrict p, float* __restrict s, float* __restrict correction,
-               float* __restrict r) {
-    const auto update = [&](int i, int j) {
-        p[i] = z[i] + turn.value[j] * p[i];
-        s[i] = w[i] + turn.value[j] * s[i];
-        correction[i] += step.value[j] * p[i];
-        r[i] -= step.value[j] * s[i];
-    };
-    int i = 0;
-    for (; i + period <= 3 * count; i += period)
-        for (int j = 0; j < period; ++j)
-            update(i + j, j);
-    for (int j = 0; i < 3 * count; ++i, ++j)
-        update(i, j);
 }
 
 } // namespace

@@ -37,6 +37,10 @@ struct EdgeWeights {
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha,
                                  const ParallelFor& parallel_for = serial_for);
 
+/// The same of the gradients of a part, against the primal of the whole.
+EdgeWeights weights_of_part(const GradientImages& images, const CoefficientPart& part, float alpha,
+                            const ParallelFor& parallel_for = serial_for);
+
 /// How long a weighted solve takes.
 struct WeightedSettings {
     int cold_iterations = 16; ///< steps of a first solve

@@ -3,6 +3,7 @@
 #include "recon/demodulation.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
+#include "recon/poisson_parts.h"
 #include "recon/poisson_weighted.h"
 
 #include <chrono>
@@ -51,6 +52,13 @@ void check_sizes(const GradientImages& images) {
     for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance,
                                          &d.albedo_variance, &d.sampled_share, &d.unexplained_variance})
         check(*variance);
+    for (const CoefficientPart& part : images.parts) {
+        for (const RgbImage* image : {&part.primal, &part.dx, &part.dy})
+            check(*image);
+        for (const Image<float>* numbers :
+             {&part.projection, &part.primal_variance, &part.dx_variance, &part.dy_variance})
+            check(*numbers);
+    }
 }
 
 void add(RgbImage& sum, const RgbImage& image) {
@@ -87,6 +95,7 @@ struct Reconstructor::Solvers {
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
+    std::optional<PartsSolver> parts;
     bool has_variances = false; ///< the last images that were weighted
 };
 
@@ -102,10 +111,14 @@ void Reconstructor::forget() {
         solvers_->weighted->forget();
 }
 
-std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads) const {
+std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts) const {
     const std::uint64_t image = sizeof(Rgb) * static_cast<std::uint64_t>(width) * height;
     const Solvers* kept =
         solvers_ && solvers_->width == width && solvers_->height == height ? &*solvers_ : nullptr;
+    if (parts > 0 && expands(norm))
+        return image + (kept && kept->parts && kept->parts->parts() >= parts
+                            ? 0
+                            : PartsSolver::bytes(width, height, parts, threads));
     switch (norm) {
     case Norm::none:
         return image;
@@ -148,6 +161,10 @@ std::optional<Norm> norm_from_name(std::string_view name) {
     return {};
 }
 
+bool expands(Norm norm) {
+    return norm == Norm::l2 || norm == Norm::l1 || norm == Norm::mixed || norm == Norm::weighted;
+}
+
 bool is_linear(Norm norm) {
     return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
 }
@@ -160,6 +177,17 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         solvers_ = std::make_unique<Solvers>(width, height);
     PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
     Reconstruction result;
+    if (images.parts.empty())
+        solvers_->parts.reset();
+    if (!images.parts.empty() && expands(settings.norm)) {
+        const float alpha =
+            settings.norm == Norm::weighted ? alpha_of_patches(settings.alpha, images.patch) : settings.alpha;
+        result.iterations =
+            solvers_->made(solvers_->parts).solve(images, settings.norm, alpha, result.image, parallel_for, watch);
+        if (watch.is_stopped())
+            result.image = {};
+        return result;
+    }
     switch (images.has_gradients() ? settings.norm : Norm::none) {
     case Norm::none:
         result.image = images.primal;
@@ -203,7 +231,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     const bool is_unbiased = images.has_gradients() && is_linear(settings.norm);
     if (!images.demodulation.empty() && !result.image.empty())
         remodulate(images, is_unbiased, result.image, parallel_for);
-    if (images.has_gradients() && !is_unbiased)
+    if (!is_unbiased && (images.has_gradients() || !images.demodulation.empty()))
         lift_to_black(images.radiance(), result.image, parallel_for);
     if (!result.image.empty())
         add(result.image, images.very_direct);

@@ -27,8 +27,8 @@ int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& 
 
 /// mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours (average_neighbours; alpha does
 /// not matter). weighted: L2, where gradients count the less the noisier they are (weights_of_gradients). All but
-/// l1 keep the primal's mean, until what l1, mixed and weighted leave below black is lifted to it, unless the
-/// primal is below, too.
+/// l1 keep the primal's mean (with parts: nearly), until what l1, mixed and weighted leave below black is lifted
+/// to it, unless the primal is below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted };
 
 /// All of them, in the order above.
@@ -43,6 +43,9 @@ std::optional<Norm> norm_from_name(std::string_view name);
 
 /// Whether the image is a linear function of primal and gradients, and so as unbiased as they are.
 bool is_linear(Norm norm);
+
+/// Whether a coefficient's parts are reconstructed with it, where there are any; else it is, as a whole.
+bool expands(Norm norm);
 
 struct ReconstructionSettings {
     Norm norm = Norm::weighted;
@@ -68,7 +71,7 @@ public:
 
     /// Does what the function below does, but if the last image was of this size, L1, mixed and weighted go on
     /// from where they last ended (a warm start), which is right if it had the same scene and view and a few
-    /// samples less.
+    /// samples less. Parts begin anew.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
@@ -77,7 +80,8 @@ public:
 
     /// The most memory that reconstruct() takes beside its images, on so many threads: for the picture, and for
     /// what its solver does not have already from images before.
-    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1) const;
+    /// @param parts  GradientImages::parts
+    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1, int parts = 0) const;
 
 private:
     struct Solvers;

@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "recon/demodulation.h"
+#include "render/estimator/basis.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
@@ -48,6 +49,17 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_layer(file, "sampled_variance", std::move(d.sampled_variance));
     add_layer(file, "value_covariance", std::move(d.value_covariance));
     add_layer(file, "unexplained_variance", grey(d.unexplained_variance));
+    for (std::size_t l = 0; l < images.parts.size(); ++l) {
+        CoefficientPart& part = images.parts[l];
+        const auto named = [l](const char* name) { return part_layer(l, name); };
+        add_layer(file, named("projection"), grey(part.projection));
+        add_layer(file, named("primal"), std::move(part.primal));
+        add_layer(file, named("dx"), std::move(part.dx));
+        add_layer(file, named("dy"), std::move(part.dy));
+        add_layer(file, named("primal_variance"), grey(part.primal_variance));
+        add_layer(file, named("dx_variance"), grey(part.dx_variance));
+        add_layer(file, named("dy_variance"), grey(part.dy_variance));
+    }
 }
 
 } // namespace
@@ -64,15 +76,17 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
 std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, const ReconstructionLayers& wanted,
                                int threads) {
     const bool gradients = has_gradients(settings.method), demodulated = is_demodulated(settings);
+    const int parts = is_expanded(settings) ? part_count(settings.basis) : 0;
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t images = pixels * (sizeof(Rgb) + (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
-                                           (demodulated ? Demodulation::bytes_a_pixel : 0));
+                                           (demodulated ? Demodulation::bytes_a_pixel : 0) +
+                                           static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
     const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most =
-            std::max(most, images + remodulation + done +
-                               Reconstructor().bytes_for(size.x, size.y, gradients ? norm : Norm::none, threads));
+        most = std::max(
+            most, images + remodulation + done +
+                      Reconstructor().bytes_for(size.x, size.y, gradients ? norm : Norm::none, threads, parts));
         done += pixels * sizeof(Rgb);
     }
     return most;

@@ -6,6 +6,7 @@
 #include "render/run/thread_pool.h"
 #include "render/settings/settings.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -21,6 +22,11 @@ inline constexpr const char* patch_attribute = "tessera:patch";
 /// The layer with the coefficient's part that radiance has in layer `name`: "primal", "dx", "dx_variance".
 inline std::string coefficient_layer(const std::string& name) {
     return name.starts_with("primal") ? "coefficient" + name.substr(6) : "coefficient_" + name;
+}
+
+/// The layer with what the coefficient's part l has as `name`: "projection", "primal", "dx", "dx_variance".
+inline std::string part_layer(std::size_t l, const std::string& name) {
+    return "part" + std::to_string(l) + "_" + name;
 }
 
 /// The layers of a picture file that are made from gradients.

@@ -142,31 +142,62 @@ Image<float> read_variance(const ExrFile& file, const std::string& name, const s
     return variance;
 }
 
-/// What makes a picture of the coefficient's. Bad values are repaired as there: no light, no trust.
-Demodulation read_demodulation(const ExrFile& file, const std::filesystem::path& path, const NamedImage& primal,
-                               bool repair, std::size_t& repaired) {
-    const auto image = [&](const char* name) {
+/// Reads what is of the primal's size, repairing bad values where that is wanted.
+struct LayerReader {
+    const ExrFile& file;
+    const std::filesystem::path& path;
+    const NamedImage& primal;
+    bool repair;
+    std::size_t& repaired;
+
+    /// The last `columns` and `rows` mean nothing.
+    RgbImage image(const std::string& name, int columns = 0, int rows = 0) const {
         NamedImage layer = named_layer(file, name, path);
-        fit(layer, primal, 0, 0);
+        fit(layer, primal, columns, rows);
         repaired += make_finite(layer, repair);
         return std::move(layer.image);
-    };
-    const auto numbers = [&](const char* name, float careful) {
-        return read_variance(file, name, path, primal.image, 0, 0, repair ? std::optional(careful) : std::nullopt,
-                             repaired);
-    };
-    constexpr float largest = std::numeric_limits<float>::max();
-    Demodulation d{image("primal"),
-                   image("mean_albedo"),
-                   image("sampled_albedo"),
-                   numbers("albedo_variance", largest),
-                   numbers("sampled_share", 0),
-                   image("sampled_variance"),
-                   image("value_covariance"),
-                   numbers("unexplained_variance", largest)};
+    }
+    /// Variances. A bad one is repaired with `careful`.
+    Image<float> variances(const std::string& name, float careful, int columns = 0, int rows = 0) const {
+        return read_variance(file, name, path, primal.image, columns, rows,
+                             repair ? std::optional(careful) : std::nullopt, repaired);
+    }
+};
+
+constexpr float largest = std::numeric_limits<float>::max();
+
+/// What makes a picture of the coefficient's. Bad values are repaired as there: no light, no trust.
+Demodulation read_demodulation(const LayerReader& reader) {
+    Demodulation d{reader.image("primal"),
+                   reader.image("mean_albedo"),
+                   reader.image("sampled_albedo"),
+                   reader.variances("albedo_variance", largest),
+                   reader.variances("sampled_share", 0),
+                   reader.image("sampled_variance"),
+                   reader.image("value_covariance"),
+                   reader.variances("unexplained_variance", largest)};
     for (float& share : d.sampled_share)
         share = std::min(share, 1.0f);
     return d;
+}
+
+/// The parts of the coefficient that the file has. Their projections may be below 0.
+std::vector<CoefficientPart> read_parts(const LayerReader& reader, bool has_variances) {
+    std::vector<CoefficientPart> parts;
+    for (std::size_t l = 0; find_layer(reader.file, part_layer(l, "primal")); ++l) {
+        const auto named = [l](const char* name) { return part_layer(l, name); };
+        const RgbImage projection = reader.image(named("projection"));
+        CoefficientPart& part = parts.emplace_back(Image<float>(projection.width(), projection.height()),
+                                                   reader.image(named("primal")), reader.image(named("dx"), 1, 0),
+                                                   reader.image(named("dy"), 0, 1));
+        std::transform(projection.begin(), projection.end(), part.projection.begin(), [](Rgb s) { return s.r; });
+        if (!has_variances)
+            continue;
+        part.primal_variance = reader.variances(named("primal_variance"), 0);
+        part.dx_variance = reader.variances(named("dx_variance"), largest, 1, 0);
+        part.dy_variance = reader.variances(named("dy_variance"), largest, 0, 1);
+    }
+    return parts;
 }
 
 } // namespace
@@ -204,25 +235,24 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     for (NamedImage& buffer : buffers)
         input.repaired += make_finite(buffer, repair);
     const bool has_coefficient = is_demodulated(layers);
-    if (has_coefficient)
-        input.images.demodulation = read_demodulation(layers, files.front(), buffers[0], repair, input.repaired);
+    const auto named = [&](const char* name) { return has_coefficient ? coefficient_layer(name) : name; };
+    const bool has_variances = find_layer(layers, named("primal_variance"));
+    const LayerReader reader{layers, files.front(), buffers[0], repair, input.repaired};
+    if (has_coefficient) {
+        input.images.demodulation = read_demodulation(reader);
+        input.images.parts = read_parts(reader, has_variances);
+    }
+    if (has_variances) {
+        // Gradients are trusted least where they are noisy and the primal is not.
+        input.images.primal_variance = reader.variances(named("primal_variance"), 0);
+        input.images.dx_variance = reader.variances(named("dx_variance"), largest, 1, 0);
+        input.images.dy_variance = reader.variances(named("dy_variance"), largest, 0, 1);
+    }
     input.images.primal = std::move(buffers[0].image);
     input.images.dx = std::move(buffers[1].image);
     input.images.dy = std::move(buffers[2].image);
     if (buffers.size() == 4)
         input.images.very_direct = std::move(buffers[3].image);
-    const auto named = [&](const char* name) { return has_coefficient ? coefficient_layer(name) : name; };
-    if (find_layer(layers, named("primal_variance"))) {
-        // Gradients are trusted least where they are noisy and the primal is not.
-        const auto variance = [&](const char* name, int columns, int rows, float careful) {
-            return read_variance(layers, named(name), files.front(), input.images.primal, columns, rows,
-                                 repair ? std::optional(careful) : std::nullopt, input.repaired);
-        };
-        constexpr float largest = std::numeric_limits<float>::max();
-        input.images.primal_variance = variance("primal_variance", 0, 0, 0);
-        input.images.dx_variance = variance("dx_variance", 1, 0, largest);
-        input.images.dy_variance = variance("dy_variance", 0, 1, largest);
-    }
     return input;
 }
 

@@ -45,6 +45,7 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
     if (is_black(b.f_cos))
         return false;
     // The balance heuristic against BSDF sampling [Veach 1997, 9.2.2].
+    drawn.f_cos = b.f_cos;
     drawn.pdf_w = seen->pdf_w;
     drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
     drawn.brings = b.f_cos * seen->radiance / drawn.pdf_sum;

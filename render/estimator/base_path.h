@@ -15,8 +15,9 @@ namespace tessera {
 struct LightSample {
     LightPoint light;
     glm::vec3 to_light; ///< unit, in the vertex's frame
-    float pdf_w = 0;    ///< of emitter sampling
-    float pdf_sum = 0;  ///< of all strategies that could have found this light together
+    Rgb f_cos{0};
+    float pdf_w = 0;   ///< of emitter sampling
+    float pdf_sum = 0; ///< of all strategies that could have found this light together
     /// Radiance toward x_{i-1}, with its MIS weight: f cos Le / pdf_sum; black: nothing was sampled, or the way is
     /// blocked.
     Rgb brings{0};

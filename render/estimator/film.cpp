@@ -68,7 +68,14 @@ RgbImage means_of(const Image<Entry>& entries, int passes, SumOf sum_of) {
     return image;
 }
 
-/// The means and their variances, these from the sample variance (squares - |sum|^2 / n) / (n - 1).
+/// Of a mean over n, from the sample variance (squares - |sum|^2 / n) / (n - 1).
+template <class Moments>
+float variance_of(const Moments& m, double n) {
+    const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // below 0 by rounding alone
+    return static_cast<float>(std::clamp(spread / (n * (n - 1)), 0.0, largest_variance));
+}
+
+/// The means and their variances.
 template <class Moments>
 void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<float>& variance) {
     mean = means_of(moments, passes, [](const Moments& m) { return m.sum; });
@@ -76,11 +83,8 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
     if (passes < 2)
         return;
     variance = Image<float>(moments.width(), moments.height());
-    const double n = passes;
-    std::transform(moments.begin(), moments.end(), variance.begin(), [n](const Moments& m) {
-        const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // below 0 by rounding alone
-        return static_cast<float>(std::clamp(spread / (n * (n - 1)), 0.0, largest_variance));
-    });
+    std::transform(moments.begin(), moments.end(), variance.begin(),
+                   [passes](const Moments& m) { return variance_of(m, passes); });
 }
 
 } // namespace
@@ -88,13 +92,15 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
     const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(glm::dvec3) +
                                 (buffers.albedo ? sizeof(AlbedoPoints) + 4 * sizeof(glm::dvec3) : 0) +
+                                static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
                                 (buffers.reuse ? sizeof(ReuseCounts) : 0) +
                                 (buffers.base_luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
 }
 
 Film::Film(int width, int height, const FilmBuffers& buffers)
-    : primal_(width, height), very_direct_(width, height) {
+    : primal_(width, height), parts_a_pixel_(buffers.parts), parts_(width * buffers.parts, height),
+      projections_(width * buffers.parts, height), very_direct_(width, height) {
     if (buffers.gradients) {
         dx_ = Image<Moments>(width, height);
         dy_ = Image<Moments>(width, height);
@@ -111,11 +117,27 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
         lamp_edges_ = Image<std::uint8_t>(width, height);
 }
 
+bool Film::is_good(const PixelSample& sample) const {
+    const auto all_finite = [](std::span<const Rgb> values) { return std::ranges::all_of(values, is_finite); };
+    return is_finite(sample.primal) && is_finite(sample.dx) && is_finite(sample.dy) &&
+           is_finite(sample.very_direct) && is_finite(sample.albedo) && all_finite(sample.parts) &&
+           all_finite(sample.parts_dx) && all_finite(sample.parts_dy);
+}
+
+void Film::add_parts(int x, int y, const PixelSample& sample) {
+    Part* parts = parts_.row(y) + x * parts_a_pixel_;
+    for (std::size_t l = 0; l < sample.parts.size(); ++l)
+        parts[l].primal += sample.parts[l];
+    for (std::size_t l = 0; l < sample.parts_dx.size(); ++l)
+        parts[l].dx += sample.parts_dx[l];
+    for (std::size_t l = 0; l < sample.parts_dy.size(); ++l)
+        parts[l].dy += sample.parts_dy[l];
+}
+
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
     if (!base_luminance_.empty()) // its base path's alone, and finite, whatever the others brought
         base_luminance_(x, y) = sample.base_luminance;
-    if (!is_finite(sample.primal) || !is_finite(sample.dx) || !is_finite(sample.dy) ||
-        !is_finite(sample.very_direct) || !is_finite(sample.albedo)) {
+    if (!is_good(sample)) {
         counters.refuse({pass, y, x});
         return;
     }
@@ -132,11 +154,19 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     }
     if (dx_.empty())
         return;
+    add_parts(x, y, sample);
     // The last column and row have no neighbour: their gradients stay 0.
     if (x + 1 < width())
         dx_(x, y) += sample.dx;
     if (y + 1 < height())
         dy_(x, y) += sample.dy;
+}
+
+void Film::add_albedo(int x, int y, int pass, Rgb albedo, Counters& counters) {
+    const bool is_good = is_finite(albedo);
+    if (!is_good)
+        counters.refuse({pass, y, x});
+    albedo_(x, y).add(is_good ? albedo : Rgb(0));
 }
 
 void Film::find_lamp_edges(const RgbImage& lamps) {
@@ -236,11 +266,37 @@ Demodulation Film::demodulation(int passes) const {
     return result;
 }
 
+std::vector<CoefficientPart> Film::part_means(int passes) const {
+    const RgbImage black(width(), height());
+    const Image<float> none = passes > 1 ? Image<float>(width(), height()) : Image<float>();
+    std::vector<CoefficientPart> result;
+    const double scale = passes > 0 ? 1.0 / passes : 0.0;
+    for (int l = 0; l < parts_a_pixel_; ++l) {
+        CoefficientPart& part =
+            result.emplace_back(Image<float>(width(), height()), black, black, black, none, none, none);
+        for (int y = 0; y < height(); ++y)
+            for (int x = 0; x < width(); ++x) {
+                const Part& sums = parts_(x * parts_a_pixel_ + l, y);
+                part.projection(x, y) = projection(x, y)[l];
+                part.primal(x, y) = Rgb(sums.primal.sum * scale);
+                part.dx(x, y) = Rgb(sums.dx.sum * scale);
+                part.dy(x, y) = Rgb(sums.dy.sum * scale);
+                if (passes < 2)
+                    continue;
+                part.primal_variance(x, y) = variance_of(sums.primal, passes);
+                part.dx_variance(x, y) = variance_of(sums.dx, passes);
+                part.dy_variance(x, y) = variance_of(sums.dy, passes);
+            }
+    }
+    return result;
+}
+
 GradientImages Film::means(int passes) const {
     GradientImages images;
     measure(primal_, passes, images.primal, images.primal_variance);
     measure(dx_, passes, images.dx, images.dx_variance);
     measure(dy_, passes, images.dy, images.dy_variance);
+    images.parts = part_means(passes);
     images.demodulation = demodulation(passes);
     images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
     return images;
@@ -250,6 +306,8 @@ GradientImages Film::take_means(int passes) {
     reuse_ = {};
     base_luminance_ = {};
     GradientImages images;
+    images.parts = part_means(passes);
+    parts_ = {};
     const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
         measure(moments, passes, mean, variance);
         moments = {};
@@ -274,6 +332,8 @@ Memory Film::memory() {
             memory_of(sampled_albedo_),
             memory_of(albedo_squares_),
             memory_of(albedo_values_),
+            memory_of(parts_),
+            memory_of(projections_),
             memory_of(reuse_),
             memory_of(base_luminance_),
             memory_of(lamp_edges_)};

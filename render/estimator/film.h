@@ -4,8 +4,11 @@
 #include "render/estimator/counters.h"
 #include "render/io/memory.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -56,6 +59,10 @@ struct PixelSample {
     Rgb albedo{1}; ///< above 0, or black where nothing is seen
     ReuseCounts reuse{};
     float base_luminance = -1; ///< PathReuse::arriving_luminance of its own base path
+
+    /// Of primal, dx and dy the parts by direction (basis.h), in memory that outlives the sample; none: without
+    /// such a basis, or no neighbour.
+    std::span<const Rgb> parts{}, parts_dx{}, parts_dy{};
 };
 
 /// What a film keeps beside primal and very direct light.
@@ -65,6 +72,7 @@ struct FilmBuffers {
     bool reuse = false;          ///< how sharing went
     bool base_luminance = false; ///< of the last pass
     bool lamp_edges = false;     ///< of the lamps that the camera sees
+    int parts = 0;               ///< of primal and gradients
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -100,10 +108,17 @@ public:
     /// this pass.
     int albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).count; }
     int more_albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).more; }
-    /// Adds the albedo at one more.
-    void add_albedo(int x, int y, Rgb albedo) { albedo_(x, y).add(albedo); }
+    /// Adds the albedo at one more, in pass `pass`. One that is not finite is refused and counted, and black takes
+    /// its place, so that the next point is another.
+    void add_albedo(int x, int y, int pass, Rgb albedo, Counters& counters);
     /// Between passes: finds out where more points are needed.
     void ask_for_albedo(int passes);
+
+    /// s^l of a pixel, FilmBuffers::parts numbers (basis.h): to be set before its first sample, and never again.
+    const float* projection(int x, int y) const { return projections_.row(y) + x * parts_a_pixel_; }
+    void set_projection(int x, int y, const float* numbers) {
+        std::copy_n(numbers, parts_a_pixel_, projections_.row(y) + x * parts_a_pixel_);
+    }
 
     /// Remembers more edges of lamps, if it keeps them: both sides of every step between pixels side by side of
     /// `lamps`, very direct light as large as the film. Not during a pass.
@@ -139,12 +154,22 @@ private:
         double mean_square() const; ///< of the mean's length
     };
 
+    struct Part {
+        Moments primal, dx, dy;
+    };
+
+    bool is_good(const PixelSample& sample) const;
+    void add_parts(int x, int y, const PixelSample& sample);
+    std::vector<CoefficientPart> part_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;
 
     Image<Moments> primal_, dx_, dy_;
     Image<AlbedoPoints> albedo_;
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
+    int parts_a_pixel_;
+    Image<Part> parts_;        // those of a pixel side by side
+    Image<float> projections_; // likewise
     Image<glm::dvec3> very_direct_;
     Image<ReuseCounts> reuse_;
     Image<float> base_luminance_;

@@ -1,6 +1,9 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 
+#include <algorithm>
+#include <functional>
+
 #include <glm/vec2.hpp>
 
 // The four methods side by side. Each traces the base paths of a block, lets every sampling set share its light
@@ -9,6 +12,26 @@
 namespace tessera {
 
 namespace {
+
+/// Puts differences of parts into `differences`.
+std::span<const Rgb> difference(std::span<const Rgb> to, std::span<const Rgb> from,
+                                std::vector<Rgb>& differences) {
+    differences.resize(to.size());
+    std::transform(to.begin(), to.end(), from.begin(), differences.begin(), std::minus<>());
+    return differences;
+}
+
+/// The parts of what pixel (x, y) gets from its own base path alone; none without such a basis.
+std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
+                               const Film& film) {
+    if (!is_expanded(pass.settings))
+        return {};
+    worker.own.reset(pass.settings.basis, {&albedo, 1});
+    worker.reuse.keep(worker.base.at(x, y), 0, worker.own);
+    worker.part_primal.resize(static_cast<std::size_t>(worker.own.parts()));
+    worker.own.expand(0, coefficient, film.projection(x, y), worker.part_primal.data());
+    return worker.part_primal;
+}
 
 /// Path tracing: T = {k}, so R = 1, and c_k has the weights of emitter against BSDF sampling that every base path
 /// takes [Veach 1997].
@@ -48,9 +71,14 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
             const BasePath& path = worker.base.at(x, y);
             const Rgb albedo = pass.albedo_of(path);
             PixelSample sample{coefficient(path.radiance(), albedo), Rgb(0), Rgb(0), path.very_direct, albedo};
+            sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
             for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
                 share_light(pass, roulette_of(pass.settings), worker);
+                worker.set.expand(film);
                 sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
+                const bool is_dx = gradient == &PixelSample::dx;
+                (is_dx ? sample.parts_dx : sample.parts_dy) = difference(
+                    worker.set.parts_of(1), worker.set.parts_of(0), is_dx ? worker.part_dx : worker.part_dy);
                 sample.reuse += worker.set.reuse[0];
             });
             add_sample(pass, x, y, sample, worker, film);
@@ -63,13 +91,21 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
         for (int x = inner.x0; x < inner.x1; ++x) {
             const int i = (y - all.y0) * all.width() + x - all.x0;
             const Rgb here = worker.set.coefficient(i);
+            const std::span<const Rgb> parts = worker.set.parts_of(i);
             PixelSample sample = worker.set.sample(i, worker.reuse);
-            if (x + 1 < all.x1)
+            sample.parts = parts;
+            if (x + 1 < all.x1) {
                 sample.dx = worker.set.coefficient(i + 1) - here;
-            if (y + 1 < all.y1)
+                sample.parts_dx = difference(worker.set.parts_of(i + 1), parts, worker.part_dx);
+            }
+            if (y + 1 < all.y1) {
                 sample.dy = worker.set.coefficient(i + all.width()) - here;
-            if (pass.settings.primal == PrimalSource::base)
+                sample.parts_dy = difference(worker.set.parts_of(i + all.width()), parts, worker.part_dy);
+            }
+            if (pass.settings.primal == PrimalSource::base) {
                 sample.primal = coefficient(worker.base.at(x, y).radiance(), sample.albedo);
+                sample.parts = own_parts(pass, x, y, sample.primal, sample.albedo, worker, film);
+            }
             add_sample(pass, x, y, sample, worker, film);
         }
 }
@@ -82,6 +118,7 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all) {
         share_light(pass, roulette_of(pass.settings), worker);
+        worker.set.expand(film);
         add_tile(pass, inner, all, worker, film);
     });
 }

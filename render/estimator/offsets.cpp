@@ -78,6 +78,14 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
     }
 }
 
+FirstScatter& OffsetPaths::add_first_scatter(int first_slot, int end_slot) {
+    if (scatters_.size() == static_cast<std::size_t>(used_scatters_))
+        scatters_.push_back(std::make_unique<FirstScatter>());
+    const auto first = scatter_of_slot_.begin() + first_slot, end = scatter_of_slot_.begin() + end_slot;
+    std::replace(first, end, -1, used_scatters_);
+    return *scatters_[static_cast<std::size_t>(used_scatters_++)];
+}
+
 void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 point, glm::vec3 normal,
                       bool one_sided, SightLanes& sight) {
     for (int m = 0; m < padded(y.count()); ++m) {

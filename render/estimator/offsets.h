@@ -4,6 +4,7 @@
 #include "render/estimator/tracer.h"
 #include "render/trace/rays.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -78,12 +79,23 @@ struct OffsetRow {
     }
 };
 
+/// How offset paths leave y_1, a lane a pixel; anything where the path fails.
+struct FirstScatter {
+    static constexpr float infinite = std::numeric_limits<float>::infinity();
+
+    Vec3Lanes direction; ///< unit, world
+    Vec3Lanes f_cos;     ///< infinite: a delta scatter
+};
+
 /// The rows of all light paths, as slots (LightPaths).
 class OffsetPaths {
 public:
     /// All have failed as yet.
-    void reset(int slots, int offsets) {
+    /// @param keeps_scatters  whether anybody wants to know of first_scatter()
+    void reset(int slots, int offsets, bool keeps_scatters = false) {
         offsets_ = offsets;
+        used_scatters_ = 0;
+        scatter_of_slot_.assign(keeps_scatters ? static_cast<std::size_t>(slots) : 0, -1);
         while (rows_.size() < static_cast<std::size_t>(slots))
             rows_.push_back(std::make_unique<OffsetRow>());
         for (int slot = 0; slot < slots; ++slot)
@@ -97,9 +109,20 @@ public:
     float ratio(int slot, int m) const { return row(slot).ratio[m]; }
     Rgb value(int slot, int m) const { return row(slot).value[m]; }
 
+    bool keeps_scatters() const { return !scatter_of_slot_.empty(); }
+    /// The scatter at y_1 that those of the slots [first, end) have which have none yet; to be filled in. Only
+    /// where scatters are kept.
+    FirstScatter& add_first_scatter(int first_slot, int end_slot);
+    /// Which first scatter the slot goes through; -1: none is known.
+    int scatter_index(int slot) const { return scatter_of_slot_[static_cast<std::size_t>(slot)]; }
+    const FirstScatter& first_scatter(int index) const { return *scatters_[static_cast<std::size_t>(index)]; }
+
 private:
     int offsets_ = 0;
     std::vector<std::unique_ptr<OffsetRow>> rows_; // never shrinks
+    std::vector<int> scatter_of_slot_;
+    std::vector<std::unique_ptr<FirstScatter>> scatters_; // never shrinks
+    int used_scatters_ = 0;
 };
 
 /// How the vertices of offset paths see one point that they are joined to, a lane a pixel.

@@ -24,6 +24,15 @@ void SamplingSet::collect(const Pass& pass, const BaseBlock& base) {
     }
     radiance.assign(pixels.size(), Rgb(0));
     reuse.assign(pixels.size(), {});
+    arriving.reset(is_expanded(pass.settings) ? pass.settings.basis : Basis::none, albedo);
+}
+
+void SamplingSet::expand(const Film& film) {
+    parts.resize(static_cast<std::size_t>(size() * arriving.parts()));
+    for (int i = 0; arriving.is_kept() && i < size(); ++i) {
+        const glm::ivec2 p = pixels[static_cast<std::size_t>(i)];
+        arriving.expand(i, coefficient(i), film.projection(p.x, p.y), parts.data() + i * arriving.parts());
+    }
 }
 
 void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
@@ -135,15 +144,28 @@ Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     return sum / static_cast<float>(n * n);
 }
 
+namespace {
+
+/// A point of a low-discrepancy sequence, in a pixel and on the lens.
+CameraSample point_from(glm::vec2 subpixel, glm::vec2 lens, int point) {
+    return {{fraction(subpixel.x + point * 0.7548776662466927), fraction(subpixel.y + point * 0.5698402909980532)},
+            sample_disk({fraction(lens.x + point * std::sqrt(2.0)), fraction(lens.y + point * std::sqrt(3.0))})};
+}
+
+} // namespace
+
 Rgb Pass::albedo_at(const Tracer& tracer, int x, int y, int point) const {
     const Random start(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
-    const glm::vec2 subpixel = start.draw_2d(0, Draw::direction), lens = start.draw_2d(1, Draw::direction);
-    const CameraSample sample{
-        {fraction(subpixel.x + point * 0.7548776662466927), fraction(subpixel.y + point * 0.5698402909980532)},
-        sample_disk({fraction(lens.x + point * std::sqrt(2.0)), fraction(lens.y + point * std::sqrt(3.0))})};
+    const CameraSample sample =
+        point_from(start.draw_2d(0, Draw::direction), start.draw_2d(1, Draw::direction), point);
     Vertex seen;
     return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera) ? seen.bsdf.albedo(seen.to_previous)
                                                                            : Rgb(0);
+}
+
+bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const {
+    return tracer.closest(camera_ray(x, y, point_from(glm::vec2(0.5f), glm::vec2(0.5f), point)), seen,
+                          RayKind::camera);
 }
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside) {
@@ -199,11 +221,36 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
         }
 }
 
+void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film) {
+    // [Fang 2024, 4] takes 150 directions and more, drawn anew for every pixel; here all have the same.
+    constexpr int directions = 40;
+    const PixelRect area = block.clipped(pass.size);
+    const Basis basis = pass.settings.basis;
+    Vertex seen;
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+            float s[most_parts] = {};
+            for (int point = 0; point < projection_points; ++point)
+                if (pass.look_at(tracer, x, y, point, seen))
+                    project(seen, basis, directions, s);
+            float squares = 0;
+            for (float& number : s) {
+                number /= projection_points; // those where nothing is seen scatter nothing
+                squares += number * number;
+            }
+            // Where a pixel sees nothing, and where no light can be scattered, any numbers do but none at all.
+            if (!std::isfinite(squares) || squares < 1e-6f)
+                project_evenly(basis, s);
+            film.set_projection(x, y, s);
+        }
+}
+
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
     for (int more = film.more_albedo_points(x, y); more > 0; --more)
-        film.add_albedo(x, y, pass.albedo_at(worker.tracer, x, y, film.albedo_points(x, y)));
+        film.add_albedo(x, y, pass.index, pass.albedo_at(worker.tracer, x, y, film.albedo_points(x, y)),
+                        worker.counters);
     film.add(x, y, pass.index, sample, worker.counters);
 }
 

@@ -27,6 +27,8 @@ struct SamplingSet {
     std::vector<Rgb> radiance;
     std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
     std::vector<ReuseCounts> reuse;
+    ArrivingLight arriving; ///< if the basis has parts
+    std::vector<Rgb> parts; ///< of the coefficients, part_count() a pixel, once they are expanded
 
     int size() const { return static_cast<int>(pixels.size()); }
 
@@ -43,6 +45,12 @@ struct SamplingSet {
     /// What entry i got, over its albedo: what primal and gradients are measured of.
     Rgb coefficient(int i) const {
         return tessera::coefficient(radiance[static_cast<std::size_t>(i)], albedo[static_cast<std::size_t>(i)]);
+    }
+    /// Works all parts out, if the film has projections.
+    void expand(const Film& film);
+    std::span<const Rgb> parts_of(int i) const {
+        const auto count = static_cast<std::size_t>(arriving.parts());
+        return {parts.data() + static_cast<std::size_t>(i) * count, count};
     }
     /// Counts how the shifts of base path k ended; none: no shift was tried.
     void count(std::span<const ShiftOutcome> outcomes, int k);
@@ -96,6 +104,8 @@ public:
     /// The same at a point of its own of a pixel. The points of a pixel are a low-discrepancy sequence, which has
     /// nothing to do with where samples lie: means of albedos are independent of the samples.
     Rgb albedo_at(const Tracer& tracer, int x, int y, int point) const;
+    /// What is seen at a point of a pixel, the same for all seeds; false: nothing.
+    bool look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const;
 
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     bool has_lens() const { return has_lens_; }
@@ -147,6 +157,8 @@ struct Worker {
     BaseBlock base;
     BasePath path;
     SamplingSet set;
+    ArrivingLight own;                              ///< of one base path
+    std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
 };
 
 /// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
@@ -173,6 +185,12 @@ int very_direct_looks(const Pass& pass);
 /// every part.
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 
+/// How many points of a pixel tell its projections.
+inline constexpr int projection_points = 4;
+
+/// Works out the projections of the block's pixels, before the first pass.
+void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film);
+
 /// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
 /// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the
 /// passes, it would depend on where samples lie, and pixels with light from a mere speck would become too bright.)
@@ -195,7 +213,7 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     worker.reuse.begin(set.paths);
     for (int k = 0; k < set.size(); ++k) {
         const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
-        worker.reuse.share(k, decision.scale, set.radiance);
+        worker.reuse.share(k, decision.scale, set.radiance, set.arriving.is_kept() ? &set.arriving : nullptr);
         set.count(worker.reuse.outcomes(), k);
         watch(k, decision);
     }

@@ -19,25 +19,35 @@ void PathReuse::begin(std::span<const BasePath* const> set) {
     primary_.reset(0);
 }
 
-void PathReuse::share(int base, float scale, std::span<Rgb> radiance) {
+void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving) {
     const BasePath& path = *set_[static_cast<std::size_t>(base)];
     tried_ = false;
     if (path.empty())
         return;
     radiance[static_cast<std::size_t>(base)] += kept_light(path);
-    if (scale == 0)
+    if (scale == 0 && !arriving)
         return;
     light_.reset(path, settings_);
-    if (light_.last_alive() < light_.first_shared())
+    for (int slot = 0; arriving && slot < std::min(light_.first_shared(), light_.slot_count()); ++slot)
+        add_own(path, slot, 1, base, *arriving);
+    if (scale == 0 || light_.last_alive() < light_.first_shared())
         return; // where the base carries nothing, no offset can
     tried_ = true;
-    paths_.reset(light_.slot_count(), static_cast<int>(set_.size()));
+    paths_.reset(light_.slot_count(), static_cast<int>(set_.size()), arriving != nullptr);
     slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
     if (onlooker_)
         onlooker_->begins(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
     judge(base);
     balance(base, scale, radiance);
+    if (arriving)
+        balance_parts(base, scale, *arriving);
+}
+
+void PathReuse::keep(const BasePath& path, int lane, ArrivingLight& arriving) {
+    light_.reset(path, settings_);
+    for (int slot = 0; slot <= light_.last_alive(); ++slot)
+        add_own(path, slot, 1, lane, arriving);
 }
 
 void PathReuse::shift_to_all(int base) {
@@ -62,6 +72,12 @@ void PathReuse::shift_to_all(int base) {
 /// alike.
 void PathReuse::replay_to_all(int base) {
     const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    replayed_scatters_.clear();
+    if (paths_.keeps_scatters()) {
+        for (int slot = 0; slot < light_.hit_slot(0); ++slot)
+            replayed_scatters_.push_back(&paths_.add_first_scatter(slot, slot + 1));
+        replayed_scatters_.push_back(&paths_.add_first_scatter(light_.hit_slot(0), light_.slot_count()));
+    }
     for (int m = 0; m < paths_.offsets(); ++m) {
         const BasePath& offset = *set_[static_cast<std::size_t>(m)];
         outcomes_[m] = offset.empty() ? ShiftOutcome::outside : ShiftOutcome::ok;
@@ -74,9 +90,25 @@ void PathReuse::replay_to_all(int base) {
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))
                 paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
+        if (paths_.keeps_scatters())
+            keep_scatters_of_replay(m);
         if (onlooker_)
             tell_of_replay(m);
     }
+}
+
+/// How the path that was replayed for pixel m leaves y_1.
+void PathReuse::keep_scatters_of_replay(int m) {
+    const BaseVertex& y = replayed_[0];
+    const int samples = light_.hit_slot(0);
+    for (int sample = 0; sample < samples; ++sample) {
+        const LightSample& l = replayed_.lights(0)[static_cast<std::size_t>(sample)];
+        replayed_scatters_[static_cast<std::size_t>(sample)]->direction.set(m, y.vertex.to_world(l.to_light));
+        replayed_scatters_[static_cast<std::size_t>(sample)]->f_cos.set(m, l.f_cos);
+    }
+    FirstScatter& onward = *replayed_scatters_[static_cast<std::size_t>(samples)];
+    onward.direction.set(m, y.vertex.to_world(y.to_next));
+    onward.f_cos.set(m, y.is_delta ? Rgb(FirstScatter::infinite) : y.f_cos);
 }
 
 /// Tells the onlooker of the path that was replayed for pixel m. In the space of random numbers all Jacobians
@@ -164,6 +196,51 @@ void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
         for (int m = 0; m < paths_.offsets(); ++m)
             radiance[static_cast<std::size_t>(m)] += row.value[m] * factor;
     }
+}
+
+/// What a slot of a base path brings to its own pixel, in parts.
+void PathReuse::add_own(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const {
+    const Rgb carried = light_.carried(slot) * factor;
+    if (is_black(carried))
+        return;
+    const BaseVertex& x = path[0];
+    if (slot < light_.hit_slot(0)) {
+        const LightSample& l = path.lights(0)[static_cast<std::size_t>(slot)];
+        arriving.add(lane, x.vertex.to_world(l.to_light), l.f_cos, carried);
+    } else if (!x.is_delta) {
+        arriving.add(lane, x.vertex.to_world(x.to_next), x.f_cos, carried);
+    }
+}
+
+/// Light paths through the same first scatter are summed before they are looked at by direction.
+void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
+    const int count = padded(paths_.offsets());
+    int index = -1; // of the scatter whose light is summed
+    const auto flush = [&](int next) {
+        if (index >= 0)
+            arriving.add(paths_.first_scatter(index), carried_);
+        index = next;
+        for (int m = 0; m < count; ++m)
+            carried_.x[m] = carried_.y[m] = carried_.z[m] = 0;
+    };
+    flush(-1);
+    for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
+        if (!is_shared(slot))
+            continue;
+        const float factor = weight(slot, scale);
+        add_own(*set_[static_cast<std::size_t>(base)], slot, factor, base, arriving);
+        if (paths_.scatter_index(slot) != index)
+            flush(paths_.scatter_index(slot));
+        if (index < 0)
+            continue; // no offset has such a path
+        const OffsetRow& row = paths_.row(slot);
+        for (int m = 0; m < count; ++m) {
+            carried_.x[m] += row.value.x[m] * factor;
+            carried_.y[m] += row.value.y[m] * factor;
+            carried_.z[m] += row.value.z[m] * factor;
+        }
+    }
+    flush(-1);
 }
 
 } // namespace tessera

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/estimator/basis.h"
 #include "render/estimator/shift.h"
 
 #include <algorithm>
@@ -33,7 +34,11 @@ public:
     ///                  not, and only the light that is never shifted is added, to the base's own
     ///                  pixel
     /// @param radiance  one a pixel of T; what the path brings is added
-    void share(int base, float scale, std::span<Rgb> radiance);
+    /// @param arriving  a lane a pixel of T; likewise. Null: nobody wants to know
+    void share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving = nullptr);
+
+    /// What arrives in parts by a path that is shared with nobody.
+    void keep(const BasePath& path, int lane, ArrivingLight& arriving);
 
     /// What of a path's radiance is shifted to the others of its set.
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
@@ -70,9 +75,12 @@ private:
     void shift_to_all(int base);
     void replay_to_all(int base);
     void tell_of_replay(int m);
+    void keep_scatters_of_replay(int m);
     void judge(int base);
     void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
+    void add_own(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
+    void balance_parts(int base, float scale, ArrivingLight& arriving);
     /// R of a light path.
     float ratio_sum(int slot) const;
     bool is_shared(int slot) const {
@@ -90,6 +98,8 @@ private:
     PendingEdges edges_;
     BasePath replayed_;
     LightPaths replayed_light_;
+    std::vector<FirstScatter*> replayed_scatters_; ///< by emitter slot at y_1, the last of all others
+    Vec3Lanes carried_; ///< by all light paths through one first scatter, times their weights
     /// One over the probability that the roulette on small weights kept a slot; 0: it did not.
     std::vector<float> slot_scale_;
     OutcomeLanes outcomes_;

@@ -82,6 +82,7 @@ void Shift::shift_lights(int i) {
             connect_light(i, sample);
             continue;
         }
+        ask_for_scatter(i, first + sample, first + sample + 1);
         EdgeGroup* edges = replays() ? &edges_->add(first + sample, first + sample + 1) : nullptr;
         for (int m = 0; m < y_->count(); ++m)
             if (asked[m])
@@ -95,6 +96,7 @@ void Shift::escape(int i) {
         return;
     if (light_->step_is_connectable(i))
         return connect_infinity(i);
+    ask_for_scatter(i, light_->hit_slot(i), light_->hit_slot(i) + 1);
     for (int m = 0; m < y_->count(); ++m)
         if (active_[m])
             bounce_out(i, m);

@@ -97,6 +97,7 @@ private:
     void fail(int m, ShiftOutcome outcome);
 
     // Connections.
+    void keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf);
     void connect_light(int i, int sample);
     void connect_infinity(int i);
     void connect_next(int i);
@@ -110,6 +111,8 @@ private:
     bool bounce(int i, int m);
     void bounce_to_light(int i, int sample, int m);
     void bounce_out(int i, int m);
+    void ask_for_scatter(int i, int first_slot, int end_slot);
+    void keep_bounce(int m, const CopiedScatter& s, bool is_delta);
     void replay_light(int i, int sample, int m, EdgeGroup& edges);
     void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
@@ -146,7 +149,8 @@ private:
     const OffsetVertices* y_ = nullptr;        ///< y_i
     LaneMask active_;                          ///< those that go on
     PrefixLanes prefix_;
-    OffsetVertices moved_; ///< y_i beyond the first bounce
+    FirstScatter* bounced_ = nullptr; ///< the scatter at y_1 that is done again, lane by lane; null: nobody asks
+    OffsetVertices moved_;            ///< y_i beyond the first bounce
     std::vector<Vertex> moved_vertices_;
 
     // Memory that is too large for the stack, written before it is read by whoever makes a connection.

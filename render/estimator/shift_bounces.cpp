@@ -3,9 +3,22 @@
 
 namespace tessera {
 
+/// What is done again now, lane by lane, is how the light paths of some slots leave y_1.
+void Shift::ask_for_scatter(int i, int first_slot, int end_slot) {
+    bounced_ = i == 0 && paths_->keeps_scatters() ? &paths_->add_first_scatter(first_slot, end_slot) : nullptr;
+}
+
+void Shift::keep_bounce(int m, const CopiedScatter& s, bool is_delta) {
+    if (!bounced_)
+        return;
+    bounced_->direction.set(m, (*y_)[m].to_world(s.to_next));
+    bounced_->f_cos.set(m, is_delta ? Rgb(FirstScatter::infinite) : s.f_cos);
+}
+
 /// Does the scatter at x_i again in all lanes that go on, and makes y_{i+1} what lies there. False: none is left.
 bool Shift::bounce(int i) {
     const int count = y_->count();
+    ask_for_scatter(i, light_->hit_slot(i), light_->slot_count());
     moved_vertices_.resize(static_cast<std::size_t>(count));
     bool any = false;
     for (int m = 0; m < count; ++m) {
@@ -26,6 +39,7 @@ bool Shift::bounce(int i, int m) {
     const std::optional<CopiedScatter> s = copy_scatter(i, m);
     if (!s)
         return false;
+    keep_bounce(m, *s, x.is_delta);
     const Vertex& y = (*y_)[m];
     Vertex& next = moved_vertices_[static_cast<std::size_t>(m)]; // perhaps y itself
     const glm::vec3 direction = y.to_world(s->to_next);
@@ -60,6 +74,7 @@ void Shift::bounce_out(int i, int m) {
     const std::optional<CopiedScatter> s = copy_scatter(i, m);
     if (!s)
         return;
+    keep_bounce(m, *s, x.is_delta);
     Vertex scratch;
     const LightPoint light =
         tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce);
@@ -73,6 +88,7 @@ void Shift::bounce_to_light(int i, int sample, int m) {
     const std::optional<CopiedScatter> s = copy_half_vector(base(i).vertex, x.to_light, y);
     if (!s)
         return fail(m, ShiftOutcome::no_light);
+    keep_bounce(m, *s, false);
     Vertex scratch;
     const LightPoint light =
         tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce);
@@ -88,6 +104,7 @@ void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
         return fail(m, ShiftOutcome::no_light);
     const int slot = light_->emitter_slot(i, sample);
     paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
+    keep_bounce(m, {drawn.to_light, drawn.f_cos, drawn.pdf_w, 1}, false);
     if (onlooker_)
         onlooker_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_light(i, sample).pdf_sum / drawn.pdf_sum));
     edges.exists[m] = -1;

@@ -7,6 +7,17 @@
 
 namespace tessera {
 
+/// The light paths of some slots leave y_1 that way.
+void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf) {
+    if (i > 0 || !paths_->keeps_scatters())
+        return;
+    FirstScatter& scatter = paths_->add_first_scatter(first_slot, end_slot);
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        scatter.direction.set(m, direction[m]);
+        scatter.f_cos.set(m, bsdf.f_cos[m]);
+    }
+}
+
 /// Joins the offsets to the same point of the light, at infinity to the same direction.
 void Shift::connect_light(int i, int sample) {
     const LightSample& x = base_light(i, sample);
@@ -14,6 +25,7 @@ void Shift::connect_light(int i, int sample) {
     LightConnection& c = light_connection_;
     connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
+    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
     const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.pdf_w / x.pdf_sum;
@@ -49,6 +61,7 @@ void Shift::connect_infinity(int i) {
     for (int m = 0; m < padded(y_->count()); ++m)
         c.sight.direction.set(m, infinity.position);
     y_->evaluate(c.sight.direction, c.asked, c.bsdf);
+    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
     for (int m = 0; m < padded(y_->count()); ++m) {
@@ -77,6 +90,7 @@ void Shift::connect_next(int i) {
         return;
     EdgeGroup& edges = edges_->add(first, end);
     const VertexConnection& connection = connect_vertex(i, edges);
+    keep_scatter(i, first, end, connection.sight.direction, connection.bsdf);
     if (first == hit && light_->is_alive(first))
         shift_hit(connection);
     if (joins_lights(i))

@@ -16,7 +16,9 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const Norm norm = images.has_gradients() ? settings.norm : Norm::none;
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
     const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
-    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads) + remodulation, what);
+    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads, static_cast<int>(images.parts.size())) +
+                       remodulation,
+                   what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
 }
 

@@ -1,5 +1,6 @@
 #include "render/run/render.h"
 
+#include "render/estimator/basis.h"
 #include "render/estimator/pass.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
@@ -18,8 +19,9 @@ namespace tessera {
 namespace {
 
 FilmBuffers buffers_of(const RenderSettings& s) {
-    return {has_gradients(s.method), is_demodulated(s), s.method != Method::pt,
-            reuses_paths(s.method) && s.adapt_tile, s.very_direct_grid > 1};
+    return {has_gradients(s.method), is_demodulated(s),
+            s.method != Method::pt,  reuses_paths(s.method) && s.adapt_tile,
+            s.very_direct_grid > 1,  is_expanded(s) ? part_count(s.basis) : 0};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -47,8 +49,10 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
 
 std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int threads) {
     // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
-    const std::uint64_t means =
-        (sizeof(Rgb) + sizeof(float)) * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    const std::size_t a_pixel =
+        sizeof(Rgb) + sizeof(float) +
+        static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
+    const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     return Film::bytes(size.x, size.y, buffers_of(settings)) +
            std::max(means, bytes_of_threads(threads, settings));
 }
@@ -83,7 +87,8 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
             stop);
     };
     const auto done_before = std::ranges::count(done_blocks_, 1);
-    const int looks = spp_ == 0 && done_before == 0 ? very_direct_looks(pass) : 0;
+    const bool looks_first = spp_ == 0 && done_before == 0;
+    const int looks = looks_first ? very_direct_looks(pass) : 0;
     for (int look = 0; look < looks; ++look) {
         RgbImage lamps(size_.x, size_.y);
         for_each(blocks.size(), [&](int i, Worker& worker) {
@@ -92,6 +97,13 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         if (stop.stop_requested())
             return false; // a part of the lamps tells nothing
         film_.find_lamp_edges(lamps);
+    }
+    if (looks_first && is_expanded(settings_)) {
+        for_each(blocks.size(), [&](int i, Worker& worker) {
+            find_projections(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, film_);
+        });
+        if (stop.stop_requested())
+            return false;
     }
     for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];

@@ -67,10 +67,14 @@ enum class PrimalSource : std::uint8_t {
     base   ///< each pixel's own base path
 };
 
-/// What of a pixel's radiance primal and gradients are made of.
+/// What of a pixel's radiance primal and gradients are made of [Fang 2024].
 enum class Basis : std::uint8_t {
-    none,  ///< the radiance itself
-    albedo ///< the radiance over the albedo of what the pixel sees [Fang 2024, 3.1]
+    none,   ///< the radiance itself
+    albedo, ///< the radiance over the albedo of what the pixel sees
+    sh1,    ///< that in parts, by what arrives in spherical harmonics of degree 0 and 1
+    sh2,    ///< up to degree 2
+    sh3,    ///< up to degree 3
+    box     ///< in nine parts of the sphere
 };
 
 /// Everything beside the scene, the camera and the size that decides the picture's bits. What each setting is
@@ -106,7 +110,12 @@ inline bool reuses_paths(Method method) {
 
 /// Whether what it measures is divided by albedos. (PT has nothing that could gain by it.)
 inline bool is_demodulated(const RenderSettings& s) {
-    return s.method != Method::pt && s.basis == Basis::albedo;
+    return s.method != Method::pt && s.basis != Basis::none;
+}
+
+/// Whether it is measured in parts. (PR's picture needs no gradients, and so no parts.)
+inline bool is_expanded(const RenderSettings& s) {
+    return has_gradients(s.method) && s.basis > Basis::albedo;
 }
 
 /// Whether its picture is more than the mean of what the pixels got.

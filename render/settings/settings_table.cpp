@@ -53,6 +53,12 @@ constexpr SettingChoice bases[] = {
     {"albedo", "albedo",
      "The radiance over the albedo: the light that arrives is alike where textures differ. The picture is "
      "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 208 bytes a pixel more."},
+    {"sh1", "harmonics, 4",
+     "The light over the albedo in parts, by where it comes from: these are alike where normals differ, too "
+     "[Fang 2024]. Four spherical harmonics, up to degree 1. Takes 608 bytes a pixel more."},
+    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes 1108 bytes a pixel more."},
+    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes 1808 bytes a pixel more."},
+    {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1108 bytes a pixel more."},
 };
 constexpr SettingChoice primals[] = {
     {"reuse", "shared paths", "What the pixels of a tile share out: less noise, the same for neighbours."},

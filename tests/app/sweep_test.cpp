@@ -132,7 +132,8 @@ TEST_F(SweepCommand, MakesReferencesOnce) {
 TEST_F(SweepCommand, MeasuresWhatRenderAndCompareDo) {
     ASSERT_EQ(run(folder(), "sweep box/scene.xml -m gpr,pr --vary tile=3 --seed 5 --recon l1" + small_).exit_code,
               0);
-    for (const json& row : results()["results"]) {
+    const json all = results();
+    for (const json& row : all["results"]) {
         const std::string recon = row["method"] == "gpr" ? " --recon l1" : "";
         ASSERT_EQ(run(folder(), "render box/scene.xml -m " + row["method"].get<std::string>() + recon +
                                     " --tile 3 --seed 5 --size 32x18 --spp 2 --max-depth 8 -o image.exr")

@@ -46,6 +46,19 @@ TEST(Film, RefusesWhatIsNotFinite) {
             }
 }
 
+TEST(Film, RefusesAlbedosThatAreNotFinite) {
+    for (const float bad : {infinity, -infinity, nan}) {
+        Film film(2, 1, {.albedo = true});
+        Counters counters;
+        film.add_albedo(0, 0, 3, Rgb(0.5f), counters);
+        film.add_albedo(0, 0, 3, Rgb(0.5f, bad, 0.5f), counters);
+        EXPECT_EQ(film.albedo_points(0, 0), 2);
+        EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
+        ASSERT_EQ(counters.refused_samples, 1u);
+        EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{3, 0, 0}));
+    }
+}
+
 /// The settings table tells people what it takes.
 TEST(Film, AlbedosTake208BytesAPixel) {
     EXPECT_EQ(Film::bytes(10, 1, {.albedo = true}) - Film::bytes(10, 1, {}) + 10 * Demodulation::bytes_a_pixel,

@@ -4,6 +4,7 @@
 #include "tests/recon/test_images.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -22,12 +23,15 @@ TEST(ReconstructionMemory, IsWhatWasTold) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers count for themselves";
 #endif
-    for (const int width : {480, 499}) { // the latter is solved on 500 columns
+    for (const auto& [width, parts] : {std::pair{480, 0}, {499, 0}, {480, 4}}) { // 499 is solved on 500 columns
         GradientImages images = noisy_images(width, 400);
         images.patch = 3;
+        for (int l = 0; l < parts; ++l)
+            images.parts.push_back({Image<float>(width, 400, 0.5f), images.primal, images.dx, images.dy,
+                                    images.primal_variance, images.dx_variance, images.dy_variance});
         for (const Norm norm : all_norms) {
             Reconstructor reconstructor;
-            const double told = static_cast<double>(reconstructor.bytes_for(width, 400, norm));
+            const double told = static_cast<double>(reconstructor.bytes_for(width, 400, norm, 1, parts));
             const std::size_t before = bytes_in_use();
             std::size_t most = before;
             const ParallelFor watched = [&](int count, const std::function<void(int)>& body) {
@@ -37,10 +41,10 @@ TEST(ReconstructionMemory, IsWhatWasTold) {
             };
             const Reconstruction result = reconstructor.reconstruct(images, {norm, 0.2f}, watched);
             const double taken = static_cast<double>(std::max(most, bytes_in_use()) - before);
-            EXPECT_GT(told, 0.95 * taken) << to_string(norm) << " " << width;
-            EXPECT_LT(told, 1.05 * taken) << to_string(norm) << " " << width;
+            EXPECT_GT(told, 0.95 * taken) << to_string(norm) << " " << width << " " << parts;
+            EXPECT_LT(told, 1.05 * taken) << to_string(norm) << " " << width << " " << parts;
             // What it has is not asked for twice.
-            const double again = static_cast<double>(reconstructor.bytes_for(width, 400, norm));
+            const double again = static_cast<double>(reconstructor.bytes_for(width, 400, norm, 1, parts));
             const bool has_solver = norm != Norm::none && norm != Norm::uniform;
             EXPECT_EQ(again < told, has_solver) << to_string(norm);
         }

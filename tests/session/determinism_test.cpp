@@ -3,6 +3,7 @@
 #include "render/session/session.h"
 #include "tests/support/scene_builder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <functional>
@@ -67,6 +68,8 @@ std::vector<Variant> variants() {
     add("base_primal", Method::gpr, [](S& s) { s.primal = PrimalSource::base; });
     add("absolute_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::absolute; });
     add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
+    add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
+    add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
     add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
     return list;
 }
@@ -74,7 +77,7 @@ std::vector<Variant> variants() {
 template <class Pixel>
 bool same_bits(const Image<Pixel>& a, const Image<Pixel>& b) {
     return a.width() == b.width() && a.height() == b.height() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0;
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)) == 0);
 }
 
 bool same_bits(const Demodulation& a, const Demodulation& b) {
@@ -85,11 +88,18 @@ bool same_bits(const Demodulation& a, const Demodulation& b) {
            same_bits(a.unexplained_variance, b.unexplained_variance);
 }
 
+bool same_bits(const CoefficientPart& a, const CoefficientPart& b) {
+    return same_bits(a.projection, b.projection) && same_bits(a.primal, b.primal) && same_bits(a.dx, b.dx) &&
+           same_bits(a.dy, b.dy) && same_bits(a.primal_variance, b.primal_variance) &&
+           same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance);
+}
+
 bool same_bits(const GradientImages& a, const GradientImages& b) {
     return same_bits(a.primal, b.primal) && same_bits(a.dx, b.dx) && same_bits(a.dy, b.dy) &&
            same_bits(a.very_direct, b.very_direct) && same_bits(a.primal_variance, b.primal_variance) &&
            same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance) &&
-           same_bits(a.demodulation, b.demodulation);
+           same_bits(a.demodulation, b.demodulation) &&
+           std::ranges::equal(a.parts, b.parts, [](const auto& p, const auto& q) { return same_bits(p, q); });
 }
 
 GradientImages render(const RenderSettings& settings, int threads) {

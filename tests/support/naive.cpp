@@ -3,7 +3,9 @@
 #include "render/estimator/tracer.h"
 
 #include <array>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -35,7 +37,11 @@ public:
     /// Very direct light first, then all other, then that over the albedo of what is seen first.
     std::array<Rgb, 3> radiance(Ray ray, int max_depth) {
         std::array<Rgb, 3> sums{Rgb(0), Rgb(0), Rgb(0)};
-        Rgb throughput(1), albedo(1);
+        Rgb throughput(1);
+        albedo = Rgb(1);
+        by_direction.clear();
+        ByDirection onward;
+        bool goes_on = false;
         for (int edges = 1; edges <= max_depth; ++edges) {
             Hit hit;
             if (!scene_.intersector().closest(ray, hit)) {
@@ -49,32 +55,51 @@ public:
                 albedo = v.bsdf.albedo(v.to_previous);
             sums[edges == 1 ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
             if (edges < max_depth)
-                sums[1] += throughput * from_lights_without_extent(v);
+                sums[1] += throughput * from_lights_without_extent(v, edges == 1);
             const float lobe = uniform();
             const auto s = v.bsdf.sample(v.to_previous, lobe, uniform_2d());
             if (!s)
                 break;
             throughput *= s->f_cos / s->pdf_w;
             const glm::vec3 direction = v.to_world(s->to_next);
+            if (edges == 1) {
+                onward = {direction, s->is_delta ? Rgb(std::numeric_limits<float>::infinity()) : s->f_cos,
+                          -sums[1]};
+                goes_on = true;
+            }
             ray = {scene_.intersector().off_surface(v.position, v.geometric_normal, direction), direction};
         }
         sums[2] = sums[1] / albedo;
+        if (goes_on) {
+            onward.carried += sums[1]; // all that has been found since
+            by_direction.push_back(onward);
+        }
         return sums;
     }
 
+    // Of the last radiance(): the albedo of what is seen first, and all light by how it has left there.
+    Rgb albedo;
+    std::vector<ByDirection> by_direction;
+
 private:
     /// Inverse square law and Lambert's, for every point and every directional light.
-    Rgb from_lights_without_extent(const Vertex& v) const {
+    Rgb from_lights_without_extent(const Vertex& v, bool is_first) {
         Rgb sum(0);
+        const auto add = [&](glm::vec3 direction, Rgb arriving) {
+            const Rgb value = f_cos(v, direction);
+            sum += value * arriving;
+            if (is_first)
+                by_direction.push_back({direction, value, value * arriving});
+        };
         for (const PointLight& light : scene_.lights().points()) {
             const glm::vec3 d = light.position - v.position;
             const glm::vec3 direction = glm::normalize(d);
             if (visible(v, direction, light.position))
-                sum += f_cos(v, direction) * light.toward(-direction) / glm::dot(d, d);
+                add(direction, light.toward(-direction) / glm::dot(d, d));
         }
         for (const DirectionalLight& light : scene_.lights().directionals())
             if (visible(v, light.to_light, v.position + 100 * scene_.radius() * light.to_light))
-                sum += f_cos(v, light.to_light) * light.irradiance;
+                add(light.to_light, light.irradiance);
         return sum;
     }
     static Rgb f_cos(const Vertex& v, glm::vec3 direction) {
@@ -123,6 +148,27 @@ NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, i
             moments[0].measure(samples, x, y, result.very_direct);
             moments[1].measure(samples, x, y, result.light);
             moments[2].measure(samples, x, y, result.coefficient);
+        }
+    return result;
+}
+
+std::vector<Measured> render_naive_parts(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
+                                         std::uint32_t seed, int parts, const PartsOf& parts_of) {
+    Walk walk(scene, seed);
+    std::vector<Measured> result(static_cast<std::size_t>(parts),
+                                 {RgbImage(size.x, size.y), RgbImage(size.x, size.y)});
+    std::vector<Rgb> values(static_cast<std::size_t>(parts));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            std::vector<Moments> moments(static_cast<std::size_t>(parts));
+            for (int i = 0; i < samples; ++i) {
+                walk.radiance(scene.camera().ray(glm::vec2(x, y) + walk.uniform_2d(), size), max_depth);
+                parts_of({x, y}, walk.albedo, walk.by_direction, values);
+                for (std::size_t l = 0; l < values.size(); ++l)
+                    moments[l].add(values[l]);
+            }
+            for (std::size_t l = 0; l < values.size(); ++l)
+                moments[l].measure(samples, x, y, result[l]);
         }
     return result;
 }

@@ -4,6 +4,12 @@
 #include "render/scene/scene.h"
 
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera::test {
 
@@ -25,5 +31,19 @@ struct NaiveMeasured {
 /// vertex. Nothing of the estimators under test is in it but vertices and BSDFs. Very direct
 /// is what the camera sees itself.
 NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
+
+/// Light by how it left what the camera sees first.
+struct ByDirection {
+    glm::vec3 direction{0, 0, 1}; ///< unit, world
+    Rgb f_cos{0};                 ///< infinite: a delta scatter
+    Rgb carried{0};               ///< toward the camera
+};
+/// What the light of one sample of a pixel is in parts.
+using PartsOf =
+    std::function<void(glm::ivec2 pixel, Rgb albedo, std::span<const ByDirection> light, std::span<Rgb> parts)>;
+
+/// The means of such parts, by the same judge, of a camera without a lens.
+std::vector<Measured> render_naive_parts(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
+                                         std::uint32_t seed, int parts, const PartsOf& parts_of);
 
 } // namespace tessera::test

@@ -28,6 +28,11 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Reconstruction",
      [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
     {"Reset exposure", [](ViewerState& s) { s.tone.exposure = 2; }},
+    {"Next part",
+     [](ViewerState& s) {
+         s.active().settings.render.basis = Basis::sh1;
+         s.active().settings.buffer = Buffer::dx;
+     }},
     {"Fit picture",
      [](ViewerState& s) {
          s.set_view(ImageView(2, {0.4f, 0.5f}));
@@ -114,6 +119,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         for (const std::string& kind : files)
             text += " " + kind;
         text += fmt::format("\nclipboard: {}\n", ImGui::GetClipboardText());
+        text += fmt::format("part {}\n", s.companions.part ? *s.companions.part : -1);
         text += fmt::format("pane {}, text {}, {} spp, reloaded {}, anew {}, quit {}\n", s.active_pane,
                             s.layout.text_factor, s.active().snapshot->spp, s.scenes_shown - scenes,
                             s.active().generation != generation, s.wishes.quit);

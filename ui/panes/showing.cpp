@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace tessera {
 
 namespace {
@@ -152,7 +154,10 @@ std::string label_of(const Showing& showing, const ViewerState& state) {
         return name(state, showing.pane) + "  minus  " + name(state, showing.subtrahend);
     if (showing.pane == the_reference)
         return name(state, showing.pane);
-    return name(state, showing.pane) + "  " + std::string(long_name(settings(state, showing.pane).buffer));
+    const Buffer buffer = settings(state, showing.pane).buffer;
+    const std::shared_ptr<const int>& part = state.companions.part;
+    return name(state, showing.pane) + "  " + std::string(long_name(buffer)) +
+           (is_of_parts(buffer) && part ? fmt::format(", part {}", *part) : "");
 }
 
 ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages& images,

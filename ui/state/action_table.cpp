@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <memory>
 
 namespace tessera {
 
@@ -22,6 +23,16 @@ void step_tile(ViewerState& state, int step) {
     int& tile = state.active().settings.render.tile;
     tile = std::clamp(tile + step, 1, 16);
     state.share_settings();
+}
+
+void next_part(ViewerState& state) {
+    int parts = 0;
+    for (const PaneState& pane : state.panes)
+        if (pane.snapshot && pane.snapshot->images)
+            parts = std::max(parts, static_cast<int>(pane.snapshot->images->parts.size()));
+    const std::shared_ptr<const int>& shown = state.companions.part;
+    const int next = shown ? *shown + 1 : 0;
+    state.companions.part = next < parts ? std::make_shared<const int>(next) : nullptr;
 }
 
 void step_exposure(ViewerState& state, float stops) {
@@ -208,6 +219,10 @@ constexpr Action table[] = {
      no_shortcut, show_buffer<Buffer::sampled_albedo>, shows_buffer<Buffer::sampled_albedo>},
     {"Buffer", "Covariance term", "Shows where albedo and light change together within pixels, in all panes.",
      ctrl(Key::digit8), no_shortcut, show_buffer<Buffer::covariance>, shows_buffer<Buffer::covariance>},
+    {"Buffer", "Projection", "Shows how much of a part of the light the surfaces scatter, in all panes.",
+     ctrl(Key::digit9), no_shortcut, show_buffer<Buffer::projection>, shows_buffer<Buffer::projection>},
+    {"Buffer", "Next part", "Shows the next part of coefficients and gradients, or the whole after the last.",
+     ctrl(Key::digit3), no_shortcut, next_part, nullptr},
 
     {"View", "Brighter", "Exposure up by half a stop.", character('+'), character('='),
      [](State& s) { step_exposure(s, 0.5f); }, nullptr},

@@ -106,6 +106,8 @@ bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state);
 void set_buffer(ViewerState& state, Buffer buffer); ///< in all panes
 void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
+/// From the whole of coefficients to their first part, and so on through all that some pane has.
+void next_part(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);
 void step_ui_scale(ViewerState& state, float by);

@@ -70,7 +70,14 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
     return snapshot.images;
 }
 
+bool is_of_parts(Buffer buffer) {
+    return family(buffer) == BufferFamily::gradient || buffer == Buffer::coefficient ||
+           buffer == Buffer::projection || buffer == Buffer::dx_variance || buffer == Buffer::dy_variance;
+}
+
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
+    if (is_of_parts(buffer))
+        return companions.part;
     if (family(buffer) == BufferFamily::error || family(buffer) == BufferFamily::reference)
         return companions.reference;
     if (family(buffer) == BufferFamily::first_hit)
@@ -86,6 +93,37 @@ const RgbImage no_picture;
 const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
     return has_reconstruction(snapshot) ? snapshot.reconstruction->image
                                         : primal_with_very_direct(*snapshot.images, scratch);
+}
+
+/// The part that is wanted, if the snapshot has it.
+const CoefficientPart* part_of(const Snapshot& snapshot, const Companions& companions) {
+    const std::vector<CoefficientPart>& parts = snapshot.images->parts;
+    const int l = companions.part ? *companions.part : -1;
+    return l >= 0 && l < static_cast<int>(parts.size()) ? &parts[static_cast<std::size_t>(l)] : nullptr;
+}
+
+/// A picture of coefficients, gradients or their variances: of `measured`, the whole or a part.
+template <class Measured>
+const RgbImage& measured_picture(const Measured& measured, Buffer buffer, RgbImage& scratch) {
+    switch (buffer) {
+    case Buffer::dx:
+        return measured.dx;
+    case Buffer::dy:
+        return measured.dy;
+    case Buffer::dx_variance:
+        return scratch = grey(measured.dx_variance);
+    case Buffer::dy_variance:
+        return scratch = grey(measured.dy_variance);
+    default:
+        return measured.primal;
+    }
+}
+
+const RgbImage& projection_picture(const Snapshot& snapshot, RgbImage& scratch, const Companions& companions) {
+    if (snapshot.images->parts.empty())
+        return no_picture;
+    const CoefficientPart* part = part_of(snapshot, companions);
+    return scratch = grey((part ? *part : snapshot.images->parts.front()).projection);
 }
 
 const RgbImage& error_picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
@@ -122,19 +160,19 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
     case Buffer::survival:
         return scratch = grey(snapshot.reuse->survival());
     case Buffer::dx:
-        return snapshot.images->dx;
     case Buffer::dy:
-        return snapshot.images->dy;
+    case Buffer::dx_variance:
+    case Buffer::dy_variance:
+    case Buffer::coefficient:
+        if (const CoefficientPart* part = part_of(snapshot, companions))
+            return measured_picture(*part, buffer, scratch);
+        return measured_picture(*snapshot.images, buffer, scratch);
+    case Buffer::projection:
+        return projection_picture(snapshot, scratch, companions);
     case Buffer::very_direct:
         return snapshot.images->very_direct;
     case Buffer::primal_variance:
         return scratch = grey(snapshot.images->primal_variance);
-    case Buffer::dx_variance:
-        return scratch = grey(snapshot.images->dx_variance);
-    case Buffer::dy_variance:
-        return scratch = grey(snapshot.images->dy_variance);
-    case Buffer::coefficient:
-        return snapshot.images->primal;
     case Buffer::mean_albedo:
         return snapshot.images->demodulation.albedo;
     case Buffer::sampled_albedo:
@@ -166,6 +204,10 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return name + " divides by no albedo";
     if (family(buffer) == BufferFamily::basis && snapshot && snapshot->settings.basis == Basis::none)
         return "Basis is none: nothing is divided by the albedo";
+    if (buffer == Buffer::projection && !has_gradients(method))
+        return name + " measures no gradients, and so no parts";
+    if (buffer == Buffer::projection && snapshot && !is_expanded(snapshot->settings))
+        return "The basis has no parts: choose harmonics or boxes";
     if (family(buffer) != BufferFamily::error && family(buffer) != BufferFamily::reference)
         return "";
     if (!companions.reference)
@@ -318,6 +360,10 @@ constexpr BufferInfo table[] = {
     {Buffer::covariance, "covariance", "Covariance term",
      "Mean radiance minus mean albedo times mean coefficient, of the samples, luminance: orange above zero, blue "
      "below. At edges, where albedo and light change together within a pixel, the picture needs it.",
+     Family::basis, ColourMap::signed_difference, "", 1},
+    {Buffer::projection, "projection", "Projection",
+     "How much a pixel's surface scatters of one part of the light, times which the parts are the coefficient; no "
+     "unit: orange above zero, blue below. Of a basis with parts; Ctrl+3 goes to the next part.",
      Family::basis, ColourMap::signed_difference, "", 1},
 };
 

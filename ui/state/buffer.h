@@ -19,7 +19,7 @@ enum class Buffer {
     reference,
     albedo, normal, depth,
     primal_variance, dx_variance, dy_variance,
-    coefficient, mean_albedo, sampled_albedo, covariance
+    coefficient, mean_albedo, sampled_albedo, covariance, projection
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -44,7 +44,8 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::coefficient,
                                          Buffer::mean_albedo,
                                          Buffer::sampled_albedo,
-                                         Buffer::covariance};
+                                         Buffer::covariance,
+                                         Buffer::projection};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.
@@ -56,7 +57,7 @@ enum class BufferFamily {
     error,     ///< a picture and a reference
     reference, ///< the reference itself
     first_hit, ///< the scene and the camera
-    basis,     ///< a snapshot of a method whose basis is the albedo
+    basis,     ///< a snapshot of a method whose basis is not none
 };
 
 /// What there is to know of a buffer before any image of it.
@@ -88,6 +89,9 @@ inline BufferFamily family(Buffer buffer) {
 
 /// A method's name as papers write it: "PT", "PR", "G-PT", "G-PR".
 std::string_view paper_name(Method method);
+
+/// Whether the buffer shows one part where one is wanted (Companions::part).
+bool is_of_parts(Buffer buffer);
 
 /// What of the snapshot the buffer's image is made from: changes exactly when another picture is to be shown.
 /// Null: there is none.

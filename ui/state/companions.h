@@ -35,6 +35,9 @@ struct Companions {
     std::shared_ptr<const Reference> reference;
     std::shared_ptr<const FirstHits> first_hits; ///< of the camera and size that the panes show or showed before
     bool first_hits_are_earlier = false; ///< they are of what was shown before: newer ones are on their way
+    /// Which part of coefficients and their gradients is shown in place of these (GradientImages::parts); null:
+    /// none.
+    std::shared_ptr<const int> part{};
 };
 
 /// How far each pixel of an image I is from a reference r; the mean of the three channels' figures.

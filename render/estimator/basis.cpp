@@ -1,0 +1,201 @@
+#include "render/estimator/basis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+namespace {
+
+// With orthonormal functions a diffuse surface's s^l are A_k / pi times the harmonics of its normal, A = pi,
+// 2 pi / 3, pi / 4, 0 by degree k [Ramamoorthi 2001], so that the sum of their squares is (1 + 4/3 + 5/16) / (4
+// pi). With functions as short as the root of that, theirs is 1.
+constexpr float length = 0.458907f;
+
+/// The least g that light is divided by, in g of a diffuse surface at its zenith.
+constexpr float least_of_albedo = 0.3f * inv_pi;
+
+/// Numbers of lanes side by side.
+using Eight = float __attribute__((vector_size(lanes_a_vector * sizeof(float))));
+
+Eight load(const FloatLanes& lanes, int first) {
+    Eight numbers;
+    std::memcpy(&numbers, &lanes[first], sizeof numbers);
+    return numbers;
+}
+
+/// Real spherical harmonics up to degree 3, degree by degree; the first `parts` of them. Of one direction, or of
+/// eight.
+template <class Number>
+void harmonics(int parts, Number x, Number y, Number z, Number* values) {
+    values[0] = 0 * x + length * 0.282095f;
+    values[1] = length * 0.488603f * y;
+    values[2] = length * 0.488603f * z;
+    values[3] = length * 0.488603f * x;
+    if (parts == 4)
+        return;
+    values[4] = length * 1.092548f * x * y;
+    values[5] = length * 1.092548f * y * z;
+    values[6] = length * 0.315392f * (3 * z * z - 1);
+    values[7] = length * 1.092548f * x * z;
+    values[8] = length * 0.546274f * (x * x - y * y);
+    if (parts == 9)
+        return;
+    values[9] = length * 0.590044f * y * (3 * x * x - y * y);
+    values[10] = length * 2.890611f * x * y * z;
+    values[11] = length * 0.457046f * y * (5 * z * z - 1);
+    values[12] = length * 0.373176f * z * (5 * z * z - 3);
+    values[13] = length * 0.457046f * x * (5 * z * z - 1);
+    values[14] = length * 1.445306f * z * (x * x - y * y);
+    values[15] = length * 0.590044f * x * (x * x - 3 * y * y);
+}
+
+constexpr int boxes = 9;
+constexpr float height_of_box = length * 0.846284f; // one over the root of its solid angle
+
+/// Which of nine boxes of the same solid angle a direction is in: three slices of z, each cut into three of
+/// azimuth.
+int box_of(glm::vec3 d) {
+    constexpr float sin_120 = 0.866025f;
+    const int slice = (d.z >= -1 / 3.0f) + (d.z >= 1 / 3.0f);
+    const int third = d.y >= 0 ? sin_120 * d.x + 0.5f * d.y <= 0 : 1 + (sin_120 * d.x - 0.5f * d.y >= 0);
+    return 3 * slice + third;
+}
+
+float fraction(double a) {
+    return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f);
+}
+
+} // namespace
+
+int part_count(Basis basis) {
+    switch (basis) {
+    case Basis::none:
+    case Basis::albedo:
+        return 0;
+    case Basis::sh1:
+        return 4;
+    case Basis::sh2:
+        return 9;
+    case Basis::sh3:
+        return 16;
+    case Basis::box:
+        return boxes;
+    }
+    return 0;
+}
+
+void evaluate_basis(Basis basis, glm::vec3 direction, float* values) {
+    if (basis != Basis::box)
+        return harmonics(part_count(basis), direction.x, direction.y, direction.z, values);
+    std::fill_n(values, boxes, 0.0f);
+    values[box_of(direction)] = height_of_box;
+}
+
+void project_evenly(Basis basis, float* s) {
+    const bool is_box = basis == Basis::box;
+    std::fill_n(s, part_count(basis), is_box ? 1 / 3.0f : 0.0f);
+    if (!is_box)
+        s[0] = 1;
+}
+
+void project(const Vertex& x, Basis basis, int directions, float* sums) {
+    const int parts = part_count(basis);
+    const Rgb albedo = x.bsdf.albedo(x.to_previous);
+    float even[most_parts], here[most_parts];
+    project_evenly(basis, even);
+    for (int i = 0; i < directions; ++i) { // the R3 sequence [Roberts 2018]
+        const float lobe = fraction(0.5 + i * 0.8191725133961645);
+        const glm::vec2 u{fraction(0.5 + i * 0.6710436067037893), fraction(0.5 + i * 0.5497004779019703)};
+        const auto s = x.bsdf.sample(x.to_previous, lobe, u);
+        if (!s)
+            continue;
+        if (!s->is_delta)
+            evaluate_basis(basis, x.to_world(s->to_next), here);
+        const float part = luminance(s->f_cos / albedo) / (s->pdf_w * static_cast<float>(directions));
+        for (int l = 0; l < parts; ++l)
+            sums[l] += part * (s->is_delta ? even[l] : here[l] / (length * length));
+    }
+}
+
+void ArrivingLight::reset(Basis basis, std::span<const Rgb> albedos) {
+    basis_ = basis;
+    parts_ = part_count(basis);
+    count_ = parts_ > 0 ? static_cast<int>(albedos.size()) : 0;
+    while (light_.size() < static_cast<std::size_t>(parts_))
+        light_.push_back(std::make_unique<Vec3Lanes>());
+    for (int m = 0; m < padded(count_); ++m)
+        least_f_cos_.set(m, m < count_ ? glm::max(least_of_albedo * albedos[static_cast<std::size_t>(m)], 1e-20f)
+                                       : Rgb(1));
+    for (int l = 0; l < parts_; ++l)
+        for (int m = 0; m < padded(count_); ++m)
+            part(l).set(m, Rgb(0));
+}
+
+void ArrivingLight::add(const FirstScatter& scatter, const Vec3Lanes& carried) {
+    for (int first = 0; first < count_; first += lanes_a_vector)
+        add_eight(first, scatter, carried);
+}
+
+void ArrivingLight::add_eight(int first, const FirstScatter& scatter, const Vec3Lanes& carried) {
+    const Eight r = load(carried.x, first), g = load(carried.y, first), b = load(carried.z, first);
+    const auto carries = r + g + b > 0;
+    if (std::none_of(&carries[0], &carries[0] + lanes_a_vector, [](auto lane) { return lane != 0; }))
+        return;
+    const auto arriving = [first](const Eight& c, const FloatLanes& f_cos, const FloatLanes& least) {
+        const Eight f = load(f_cos, first), l = load(least, first);
+        return c / (f > l ? f : l);
+    };
+    const Eight t[3] = {arriving(r, scatter.f_cos.x, least_f_cos_.x), arriving(g, scatter.f_cos.y, least_f_cos_.y),
+                        arriving(b, scatter.f_cos.z, least_f_cos_.z)};
+    // Where nothing is carried, directions may be anything.
+    const auto direction = [&](const FloatLanes& lanes) { return carries ? load(lanes, first) : Eight{}; };
+    const Eight x = direction(scatter.direction.x), y = direction(scatter.direction.y),
+                z = direction(scatter.direction.z);
+    Eight values[most_parts];
+    if (basis_ == Basis::box)
+        for (int j = 0; j < lanes_a_vector; ++j) {
+            float one[boxes];
+            evaluate_basis(basis_, {x[j], y[j], z[j]}, one);
+            for (int l = 0; l < boxes; ++l)
+                values[l][j] = one[l];
+        }
+    else
+        harmonics(parts_, x, y, z, values);
+    for (int l = 0; l < parts_; ++l) {
+        const auto add_to = [&](FloatLanes& sums, const Eight& light) {
+            const Eight sum = load(sums, first) + values[l] * light;
+            std::memcpy(&sums[first], &sum, sizeof sum);
+        };
+        add_to(part(l).x, t[0]);
+        add_to(part(l).y, t[1]);
+        add_to(part(l).z, t[2]);
+    }
+}
+
+void ArrivingLight::add(int lane, glm::vec3 direction, Rgb f_cos, Rgb carried) {
+    float values[most_parts];
+    evaluate_basis(basis_, direction, values);
+    const Rgb arriving = carried / glm::max(f_cos, least_f_cos_[lane]);
+    for (int l = 0; l < parts_; ++l)
+        part(l).set(lane, part(l)[lane] + values[l] * arriving);
+}
+
+void ArrivingLight::expand(int m, Rgb coefficient, const float* projection, Rgb* parts) const {
+    float squares = 0;
+    Rgb seen(0);
+    for (int l = 0; l < parts_; ++l) {
+        squares += projection[l] * projection[l];
+        seen += projection[l] * part(l)[m];
+    }
+    const Rgb residual = (coefficient - seen) / squares;
+    for (int l = 0; l < parts_; ++l)
+        parts[l] = part(l)[m] + projection[l] * residual;
+}
+
+} // namespace tessera

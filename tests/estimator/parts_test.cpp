@@ -1,0 +1,276 @@
+// Parts of the light by where it comes from, as Lossless Basis Expansion has them: that they are what they are
+// said to be, whoever shares the light, and that nothing is lost.
+#include "recon/reconstruct.h"
+#include "render/estimator/basis.h"
+#include "render/run/render.h"
+#include "tests/support/rooms.h"
+#include "tests/support/z_scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr Basis expanding[] = {Basis::sh1, Basis::sh2, Basis::sh3, Basis::box};
+
+/// The integral of `value` over the sphere, by equal steps of z and azimuth.
+double integral_over_sphere(const std::function<double(glm::vec3)>& value) {
+    constexpr int steps = 600;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const float z = 2 * (static_cast<float>(i) + 0.5f) / steps - 1, r = std::sqrt(1 - z * z);
+            const float phi = 2 * pi * (static_cast<float>(j) + 0.5f) / steps;
+            sum += value({r * std::cos(phi), r * std::sin(phi), z});
+        }
+    return sum * 4 * static_cast<double>(pi) / (steps * steps);
+}
+
+TEST(Parts, FunctionsAreOrthogonalAndOfOneLength) {
+    for (const Basis basis : expanding) {
+        const int parts = part_count(basis);
+        const auto at = [&](glm::vec3 d, int l) {
+            float values[most_parts];
+            evaluate_basis(basis, d, values);
+            return static_cast<double>(values[l]);
+        };
+        const double square = integral_over_sphere([&](glm::vec3 d) { return at(d, 0) * at(d, 0); });
+        float even[most_parts];
+        project_evenly(basis, even);
+        // Of g = 1 / (4 pi) the projections are the integrals over this.
+        const double longer = std::sqrt(4 * static_cast<double>(pi) * square);
+        for (int l = 0; l < parts; ++l) {
+            EXPECT_NEAR(integral_over_sphere([&](glm::vec3 d) { return at(d, l); }),
+                        longer * static_cast<double>(even[l]), 1e-3);
+            for (int k = 0; k <= l; ++k)
+                EXPECT_NEAR(integral_over_sphere([&](glm::vec3 d) { return at(d, l) * at(d, k); }),
+                            l == k ? square : 0, 1e-3)
+                    << l << ' ' << k;
+        }
+    }
+}
+
+TEST(Parts, ProjectionOfADiffuseSurfaceHasALengthOfAboutOne) {
+    for (const Basis basis : expanding)
+        for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(1, -2, 0.5f))}) {
+            Vertex x;
+            x.frame = Frame(normal);
+            x.to_previous = glm::normalize(glm::vec3(0.3f, 0.2f, 0.8f));
+            x.bsdf.kind = Diffuse{Rgb(0.7f, 0.4f, 0.1f)};
+            float s[most_parts] = {};
+            project(x, basis, 4000, s);
+            double squares = 0;
+            for (int l = 0; l < part_count(basis); ++l)
+                squares += static_cast<double>(s[l] * s[l]);
+            EXPECT_NEAR(squares, 1, basis == Basis::box ? 0.35 : basis == Basis::sh1 ? 0.13 : 0.01);
+        }
+}
+
+/// Functions and projections belong together: their sum is g, as far as so few functions can say it, and not a
+/// multiple of it, of which all the rest would be residual.
+TEST(Parts, FunctionsTimesProjectionsAreTheBsdf) {
+    for (const Basis basis : expanding) {
+        Vertex x;
+        x.frame = Frame(glm::normalize(glm::vec3(1, -2, 0.5f)));
+        x.to_previous = glm::normalize(glm::vec3(0.3f, 0.2f, 0.8f));
+        x.bsdf.kind = Diffuse{Rgb(0.7f)};
+        float s[most_parts] = {};
+        project(x, basis, 4000, s);
+        const auto g = [&](glm::vec3 d) { return std::max(glm::dot(d, x.frame.normal), 0.0f) * inv_pi; };
+        const double missing = integral_over_sphere([&](glm::vec3 d) {
+            float values[most_parts];
+            evaluate_basis(basis, d, values);
+            double sum = -g(d);
+            for (int l = 0; l < part_count(basis); ++l)
+                sum += static_cast<double>(s[l] * values[l]);
+            return sum * sum;
+        });
+        const double square = integral_over_sphere([&](glm::vec3 d) { return static_cast<double>(g(d) * g(d)); });
+        EXPECT_LT(missing, square * (basis == Basis::box ? 0.35 : basis == Basis::sh1 ? 0.14 : 0.01));
+    }
+}
+
+const TestScene& scene_named(const std::string& name) {
+    static const std::vector<TestScene> scenes = all_test_scenes();
+    return *std::ranges::find(scenes, name, &TestScene::name);
+}
+
+struct Variant {
+    const char* name;
+    Method method;
+    int tile;
+    Basis basis;
+    ShiftKind shift;
+    PrimalSource primal = PrimalSource::reuse;
+};
+
+constexpr Variant variants[] = {
+    {"gpt", Method::gpt, 1, Basis::sh1, ShiftKind::half_vector},
+    {"gpr", Method::gpr, 6, Basis::sh2, ShiftKind::half_vector},
+    {"gpr, base primal", Method::gpr, 3, Basis::box, ShiftKind::half_vector, PrimalSource::base},
+    {"gpr, reconnection", Method::gpr, 4, Basis::sh1, ShiftKind::reconnection},
+    {"gpr, replay", Method::gpr, 3, Basis::sh1, ShiftKind::replay},
+    {"gpr, replay-reconnection", Method::gpr, 4, Basis::box, ShiftKind::replay_reconnection},
+};
+
+RenderSettings settings_of(const Variant& v, const TestScene& t) {
+    RenderSettings s;
+    s.method = v.method;
+    s.tile = v.tile;
+    s.basis = v.basis;
+    s.shift = v.shift;
+    s.primal = v.primal;
+    s.max_depth = t.max_depth;
+    s.shift_threshold = t.shift_threshold;
+    s.shift_distance = t.shift_distance;
+    return s;
+}
+
+GradientImages images_of(const TestScene& t, const RenderSettings& settings, glm::ivec2 size, int passes) {
+    Render render(t.scene, t.scene->camera(), size, settings);
+    ThreadPool pool(1);
+    for (int i = 0; i < passes; ++i)
+        render.pass(pool);
+    return render.images();
+}
+
+/// One after the other, what part l is measured to be over many renders.
+class PartMoments {
+public:
+    explicit PartMoments(glm::ivec2 size) : sum_(size.x, size.y, glm::dvec3(0)), squares_(sum_) {}
+
+    void add(const RgbImage& image) {
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            const glm::dvec3 v(image.data()[i]);
+            sum_.data()[i] += v;
+            squares_.data()[i] += v * v;
+        }
+        ++count_;
+    }
+    Measured measured() const {
+        Measured result{RgbImage(sum_.width(), sum_.height()), RgbImage(sum_.width(), sum_.height())};
+        for (std::size_t i = 0; i < sum_.size(); ++i) {
+            const glm::dvec3 mean = sum_.data()[i] / count_;
+            const glm::dvec3 variance = glm::max(squares_.data()[i] / count_ - mean * mean, 0.0);
+            result.mean.data()[i] = Rgb(mean);
+            result.standard_error.data()[i] = Rgb(glm::sqrt(variance / (count_ - 1)));
+        }
+        return result;
+    }
+
+private:
+    Image<glm::dvec3> sum_, squares_;
+    double count_ = 0;
+};
+
+/// Whoever finds the light and shares it, the parts are those that an innocent path tracer finds, with 'samples'.
+void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) {
+    constexpr glm::ivec2 size(6, 5);
+    constexpr int passes = 16;
+    const TestScene& t = scene_named(scene);
+    for (const Variant& v : variants) {
+        RenderSettings settings = settings_of(v, t);
+        const int parts = part_count(v.basis);
+        const std::vector<CoefficientPart> of_film = images_of(t, settings, size, 1).parts;
+        const PartsOf parts_of = [&](glm::ivec2 p, Rgb albedo, std::span<const ByDirection> light,
+                                     std::span<Rgb> result) {
+            ArrivingLight arriving;
+            arriving.reset(v.basis, {&albedo, 1});
+            Rgb all(0);
+            for (const ByDirection& one : light) {
+                if (!std::isinf(one.f_cos.x))
+                    arriving.add(0, one.direction, one.f_cos, one.carried);
+                all += one.carried;
+            }
+            float projection[most_parts];
+            for (int l = 0; l < parts; ++l)
+                projection[l] = of_film[static_cast<std::size_t>(l)].projection(p.x, p.y);
+            arriving.expand(0, all / albedo, projection, result.data());
+        };
+        const std::vector<Measured> truth =
+            render_naive_parts(*t.scene, size, t.max_depth, samples * t.effort, 11, parts, parts_of);
+        std::vector<PartMoments> primal(static_cast<std::size_t>(parts), PartMoments(size)), dx(primal),
+            dy(primal);
+        for (int run = 0; run < runs * t.effort; ++run) {
+            settings.seed = 400 + static_cast<std::uint64_t>(run);
+            const GradientImages images = images_of(t, settings, size, passes);
+            for (std::size_t l = 0; l < primal.size(); ++l) {
+                primal[l].add(images.parts[l].primal);
+                dx[l].add(images.parts[l].dx);
+                dy[l].add(images.parts[l].dy);
+            }
+        }
+        const auto report = [&](const char* what, std::size_t l, const ZResult& z) {
+            EXPECT_TRUE(z.passes()) << scene << ' ' << v.name << " part " << l << ' ' << what << ": "
+                                    << z.to_string();
+        };
+        for (std::size_t l = 0; l < primal.size(); ++l) {
+            report("primal", l, z_test(primal[l].measured(), truth[l]));
+            report("dx", l, z_test(dx[l].measured(), difference_x(truth[l])));
+            report("dy", l, z_test(dy[l].measured(), difference_y(truth[l])));
+        }
+    }
+}
+
+class PartsOfScene : public testing::TestWithParam<std::string> {};
+TEST_P(PartsOfScene, AreThoseOfTheJudge) {
+    expect_parts_of_the_judge(GetParam(), 60, 40'000);
+}
+INSTANTIATE_TEST_SUITE_P(scenes, PartsOfScene,
+                         testing::Values("texture_edges", "black_texels", "glossy", "mirror"),
+                         [](const auto& p) { return p.param; });
+
+/// Where light seldom comes, standard errors of few runs are too small.
+class SlowPartsOfScene : public testing::TestWithParam<std::string> {};
+TEST_P(SlowPartsOfScene, AreThoseOfTheJudge) {
+    expect_parts_of_the_judge(GetParam(), 300, 200'000);
+}
+INSTANTIATE_TEST_SUITE_P(scenes, SlowPartsOfScene, testing::Values("shining_wall", "translucent"),
+                         [](const auto& p) { return p.param; });
+
+/// Those of the film are means over points of a pixel, not sums.
+TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
+    const TestScene& t = scene_named("diffuse");
+    const GradientImages images = images_of(t, settings_of(variants[1], t), {9, 7}, 1);
+    for (std::size_t i = 0; i < images.primal.size(); ++i) {
+        double squares = 0;
+        for (const CoefficientPart& part : images.parts)
+            squares += static_cast<double>(part.projection.data()[i] * part.projection.data()[i]);
+        EXPECT_GT(squares, 0.06); // of a pixel that sees black at three of four points
+        EXPECT_LT(squares, 1.1);
+    }
+}
+
+/// Times their projections, the parts are all of the coefficient, of every sample and so of all means.
+TEST(Parts, NothingIsLost) {
+    constexpr glm::ivec2 size(9, 7);
+    for (const TestScene& t : all_test_scenes())
+        for (const Variant& v : variants) {
+            const GradientImages images = images_of(t, settings_of(v, t), size, 2);
+            double largest = 0, difference = 0;
+            for (std::size_t i = 0; i < images.primal.size(); ++i) {
+                Rgb sum(0);
+                for (const CoefficientPart& part : images.parts)
+                    sum += part.projection.data()[i] * part.primal.data()[i];
+                largest = std::max(largest, static_cast<double>(glm::length(images.primal.data()[i])));
+                difference = std::max(difference, static_cast<double>(glm::length(sum - images.primal.data()[i])));
+            }
+            EXPECT_LE(difference, 1e-5 * largest) << t.name << ' ' << v.name;
+        }
+}
+
+} // namespace
+
+} // namespace tessera::test
