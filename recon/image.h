@@ -121,6 +121,17 @@ struct CoefficientPart {
     static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb) + 4 * sizeof(float);
 };
 
+/// Of each pixel the sample that brought most, in primal or gradients: what the others are to be judged without
+/// (recon/spikes.h). All images of one size, or all empty.
+struct BrightestSamples {
+    RgbImage primal, dx, dy; ///< of GradientImages; dx and dy empty where these are
+    RgbImage albedo;         ///< what its primal was divided by; empty without Demodulation
+    int samples = 0;         ///< that each pixel has, this one among them
+
+    static constexpr std::size_t bytes_a_pixel = 4 * sizeof(Rgb);
+    bool empty() const { return primal.empty(); }
+};
+
 /// What a gradient-domain method measures, as means over the samples taken; all images of one size.
 /// A method without gradients leaves dx and dy empty.
 struct GradientImages {
@@ -134,6 +145,7 @@ struct GradientImages {
 
     Demodulation demodulation{};
     std::vector<CoefficientPart> parts{}; ///< none: the coefficient is reconstructed as a whole
+    BrightestSamples brightest{};         ///< empty: unknown
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.

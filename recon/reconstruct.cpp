@@ -5,6 +5,7 @@
 #include "recon/poisson_l1.h"
 #include "recon/poisson_parts.h"
 #include "recon/poisson_weighted.h"
+#include "recon/spikes.h"
 
 #include <chrono>
 #include <cmath>
@@ -46,8 +47,10 @@ void check_sizes(const GradientImages& images) {
             throw std::invalid_argument("the images to reconstruct from differ in size");
     };
     const Demodulation& d = images.demodulation;
-    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo,
-                                  &d.sampled_albedo, &d.sampled_variance, &d.value_covariance})
+    const BrightestSamples& b = images.brightest;
+    for (const RgbImage* image :
+         {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo, &d.sampled_variance,
+          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo})
         check(*image);
     for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance,
                                          &d.albedo_variance, &d.sampled_share, &d.unexplained_variance})
@@ -64,6 +67,14 @@ void check_sizes(const GradientImages& images) {
 void add(RgbImage& sum, const RgbImage& image) {
     for (std::size_t i = 0; i < image.size(); ++i)
         sum.data()[i] += image.data()[i];
+}
+
+/// Of all luminances.
+double sum_of(const RgbImage& image) {
+    double sum = 0;
+    for (Rgb c : image)
+        sum += static_cast<double>(luminance(c));
+    return sum;
 }
 
 /// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
@@ -154,6 +165,10 @@ std::string_view to_string(Norm norm) {
     return "?";
 }
 
+std::string_view to_string(Spikes spikes) {
+    return spikes == Spikes::off ? "off" : "consistent";
+}
+
 std::optional<Norm> norm_from_name(std::string_view name) {
     for (const Norm norm : all_norms)
         if (to_string(norm) == name)
@@ -221,18 +236,35 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     return result;
 }
 
-Reconstruction Reconstructor::reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
-                                          const ParallelFor& parallel_for, const SolveWatch& watch) {
-    const auto start = std::chrono::steady_clock::now();
-    check_sizes(images);
-    if (settings.norm != Norm::none && !(settings.alpha > 0))
-        throw std::invalid_argument("the reconstruction's alpha must be above 0");
+/// Without very direct light.
+Reconstruction Reconstructor::picture_of(const GradientImages& images, const ReconstructionSettings& settings,
+                                         const ParallelFor& parallel_for, const SolveWatch& watch) {
     Reconstruction result = solve(images, settings, parallel_for, watch);
     const bool is_unbiased = images.has_gradients() && is_linear(settings.norm);
     if (!images.demodulation.empty() && !result.image.empty())
         remodulate(images, is_unbiased, result.image, parallel_for);
     if (!is_unbiased && (images.has_gradients() || !images.demodulation.empty()))
         lift_to_black(images.radiance(), result.image, parallel_for);
+    return result;
+}
+
+Reconstruction Reconstructor::reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
+                                          const ParallelFor& parallel_for, const SolveWatch& watch) {
+    const auto start = std::chrono::steady_clock::now();
+    check_sizes(images);
+    if (settings.norm != Norm::none && !(settings.alpha > 0))
+        throw std::invalid_argument("the reconstruction's alpha must be above 0");
+    Reconstruction result;
+    if (settings.spikes == Spikes::consistent && can_limit(images)) {
+        RgbImage held;
+        result = picture_of(limited(images, held, parallel_for), settings, parallel_for, watch);
+        if (!result.image.empty())
+            spread(held, result.image, parallel_for);
+        const double all = sum_of(images.radiance());
+        result.held_share = all > 0 ? sum_of(held) / all : 0;
+    } else {
+        result = picture_of(images, settings, parallel_for, watch);
+    }
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

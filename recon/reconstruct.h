@@ -41,16 +41,27 @@ std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
 
-/// Whether the image is a linear function of primal and gradients, and so as unbiased as they are.
+/// Whether the image is a linear function of primal and gradients, and so as unbiased as they are, if spikes count
+/// in full.
 bool is_linear(Norm norm);
 
 /// Whether a coefficient's parts are reconstructed with it, where there are any; else it is, as a whole.
 bool expands(Norm norm);
 
+/// What becomes of samples far above the others of their pixel (recon/spikes.h).
+enum class Spikes {
+    off,       ///< they count in full: with a linear norm, the picture is unbiased
+    consistent ///< the less they count, the fewer samples there are
+};
+
+/// "off", "consistent".
+std::string_view to_string(Spikes spikes);
+
 struct ReconstructionSettings {
     Norm norm = Norm::weighted;
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
     bool joint_colour = true; ///< L1 and mixed: lengths of colours, not absolute values of each channel
+    Spikes spikes = Spikes::consistent;
 
     bool operator==(const ReconstructionSettings&) const = default;
 };
@@ -60,6 +71,8 @@ struct Reconstruction {
     double residual = 0; ///< relative residual of the normal equations (L2)
     int iterations = 0;  ///< inner solves, or sweeps of uniform; 1 for L2, 0 for none
     double seconds = 0;  ///< wall time
+    /// Of the light, without very direct light, what was held back and spread (recon/spikes.h).
+    double held_share = 0;
 };
 
 /// Reconstructs one image after the other, and keeps what the next can use: prepared transforms, memory, and where
@@ -85,6 +98,8 @@ public:
 
 private:
     struct Solvers;
+    Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
+                              const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
                          const ParallelFor& parallel_for, const SolveWatch& watch);
 

@@ -183,6 +183,10 @@ CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings) {
     return add_setting(command, setting_named(settings_of(settings), "alpha"));
 }
 
+CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings) {
+    return add_setting(command, setting_named(settings_of(settings), "spikes"));
+}
+
 CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings) {
     return command.add_flag_callback(
         "--per-channel", [&settings] { settings.joint_colour = false; },
@@ -216,6 +220,7 @@ void add_picture_options(CLI::App& command, PictureWords words) {
         add_setting(command, setting);
     command.get_option("--max-depth")->default_str("the scene's");
     add_alpha(command, words.reconstruction);
+    add_spikes(command, words.reconstruction);
     add_setting(command, seed_setting(words.settings.seed));
     add_setting(command, threads_setting(words.threads));
 }

@@ -55,6 +55,8 @@ CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::str
 CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest);
 /// --alpha.
 CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings);
+/// --spikes.
+CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings);
 /// --per-channel, which turns the joint colour off.
 CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings);
 /// --clock, "cpu" or "wall": what --time counts.

@@ -2,6 +2,7 @@
 
 #include "app/cli/terminal.h"
 #include "recon/demodulation.h"
+#include "recon/spikes.h"
 #include "render/estimator/basis.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
@@ -40,6 +41,14 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add("dx_variance", grey(images.dx_variance));
     add("dy_variance", grey(images.dy_variance));
     file.attributes[patch_attribute] = fmt::format("{}", images.patch);
+    BrightestSamples& b = images.brightest;
+    if (!b.empty()) {
+        add_layer(file, "brightest_primal", std::move(b.primal));
+        add_layer(file, "brightest_dx", std::move(b.dx));
+        add_layer(file, "brightest_dy", std::move(b.dy));
+        add_layer(file, "brightest_albedo", std::move(b.albedo));
+        file.attributes[samples_attribute] = fmt::format("{}", b.samples);
+    }
     if (!is_demodulated)
         return;
     add_layer(file, "mean_albedo", std::move(d.albedo));
@@ -78,14 +87,17 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
     const bool gradients = has_gradients(settings.method), demodulated = is_demodulated(settings);
     const int parts = is_expanded(settings) ? part_count(settings.basis) : 0;
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::uint64_t images = pixels * (sizeof(Rgb) + (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
+    const std::uint64_t images = pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel +
+                                           (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
                                            (demodulated ? Demodulation::bytes_a_pixel : 0) +
                                            static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
     const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
+    const std::uint64_t limits =
+        wanted.settings.spikes == Spikes::consistent ? pixels * bytes_to_limit(gradients, demodulated) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
         most = std::max(
-            most, images + remodulation + done +
+            most, images + remodulation + limits + done +
                       Reconstructor().bytes_for(size.x, size.y, gradients ? norm : Norm::none, threads, parts));
         done += pixels * sizeof(Rgb);
     }

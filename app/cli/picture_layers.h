@@ -18,6 +18,8 @@ namespace tessera {
 
 /// The EXR attribute with GradientImages::patch.
 inline constexpr const char* patch_attribute = "tessera:patch";
+/// BrightestSamples::samples of the layers "brightest_...".
+inline constexpr const char* samples_attribute = "tessera:samples";
 
 /// The layer with the coefficient's part that radiance has in layer `name`: "primal", "dx", "dx_variance".
 inline std::string coefficient_layer(const std::string& name) {

@@ -4,6 +4,7 @@
 #include "render/io/exr.h"
 #include "render/io/files.h"
 #include "render/io/plain_images.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -44,17 +45,20 @@ std::map<std::string, std::string> own_attributes(const ExrFile& file) {
     return attributes;
 }
 
-float patch_of(const std::map<std::string, std::string>& attributes, const std::filesystem::path& path) {
-    const auto found = attributes.find(patch_attribute);
+/// The number that an attribute says, from 1 to `most`; 1 without it.
+template <class Number>
+Number number_of(const std::map<std::string, std::string>& attributes, const char* name, Number most,
+                 const std::filesystem::path& path) {
+    const auto found = attributes.find(name);
     if (found == attributes.end())
         return 1;
-    float patch = 0;
+    Number number = 0;
     const std::string& text = found->second;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), patch);
-    if (error != std::errc() || end != text.data() + text.size() || !(patch >= 1 && patch <= 1024))
-        throw BadInput(fmt::format("{}: attribute {} is \"{}\", but must be a number from 1 to 1024",
-                                   path.string(), patch_attribute, text));
-    return patch;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !(number >= 1 && number <= most))
+        throw BadInput(fmt::format("{}: attribute {} is \"{}\", but must be a number from 1 to {}", path.string(),
+                                   name, text, most));
+    return number;
 }
 
 NamedImage named_layer(const ExrFile& file, const std::string& name, const std::filesystem::path& path) {
@@ -181,6 +185,15 @@ Demodulation read_demodulation(const LayerReader& reader) {
     return d;
 }
 
+/// What the file has of each pixel's brightest sample.
+BrightestSamples read_brightest(const LayerReader& reader, bool has_coefficient, int samples) {
+    if (!find_layer(reader.file, "brightest_primal"))
+        return {};
+    return {reader.image("brightest_primal"), reader.image("brightest_dx", 1, 0),
+            reader.image("brightest_dy", 0, 1), has_coefficient ? reader.image("brightest_albedo") : RgbImage(),
+            samples};
+}
+
 /// The parts of the coefficient that the file has. Their projections may be below 0.
 std::vector<CoefficientPart> read_parts(const LayerReader& reader, bool has_variances) {
     std::vector<CoefficientPart> parts;
@@ -222,7 +235,7 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     if (files.size() == 1) {
         layers = read_layers(files.front());
         input.attributes = own_attributes(layers);
-        input.images.patch = patch_of(input.attributes, files.front());
+        input.images.patch = number_of(input.attributes, patch_attribute, 1024.0f, files.front());
         buffers = buffers_of(layers, files.front());
     } else {
         for (const std::filesystem::path& file : files)
@@ -242,6 +255,8 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
         input.images.demodulation = read_demodulation(reader);
         input.images.parts = read_parts(reader, has_variances);
     }
+    input.images.brightest = read_brightest(
+        reader, has_coefficient, number_of(input.attributes, samples_attribute, most_spp, files.front()));
     if (has_variances) {
         // Gradients are trusted least where they are noisy and the primal is not.
         input.images.primal_variance = reader.variances(named("primal_variance"), 0);

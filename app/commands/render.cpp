@@ -119,7 +119,7 @@ int run_render(const RenderOptions& options) {
     std::string failure;
     ExrFile file = layers_of(render, wanted, extension_of(options.output) == ".exr", pool, recon, failure);
     const nlohmann::json settings =
-        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings.alpha);
+        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     write_picture(options.output, file);

@@ -20,7 +20,7 @@ nlohmann::json settings_of(const SavedPicture& picture, Norm norm) {
     const Snapshot& snapshot = *picture.snapshot;
     const glm::ivec2 size(snapshot.images->primal.width(), snapshot.images->primal.height());
     nlohmann::json json =
-        settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction.alpha);
+        settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction);
     json["norm"] = to_string(norm);
     json["joint_colour"] = picture.reconstruction.joint_colour;
     return json;
@@ -38,8 +38,8 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
 /// The snapshot's own, if the same samples and settings would give it again; null: they would not.
 const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
     const Snapshot& s = *picture.snapshot;
-    const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
-                            s.reconstructed_with == picture.reconstruction && is_reconstructed(s.settings);
+    const bool is_current =
+        s.reconstruction && s.reconstruction_spp == s.spp && s.reconstructed_with == picture.reconstruction;
     return is_current && s.reconstruction->image.size() == s.images->primal.size() ? s.reconstruction.get()
                                                                                    : nullptr;
 }

@@ -205,7 +205,7 @@ nlohmann::json Experiment::key_of(const MeasuredScene& scene, const Setup& setup
     settings.seed = seed;
     return {{"scene", scene.name()},
             {"scene_checksums", to_string(scene_checksums_)},
-            {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction.alpha)},
+            {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction)},
             {"recon", to_string(setup.settings.reconstruction.norm)},
             {"threads", setup.settings.threads},
             {"effort", to_string(options_.effort)},

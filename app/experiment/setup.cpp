@@ -16,7 +16,7 @@ std::vector<Setting> settings_of(PictureSettings& s) {
     for (Setting& setting : settings_of(s.reconstruction)) {
         if (setting.id == "joint_colour") // journals and names of pictures do not tell it
             continue;
-        setting.matters = setting.matters && has_gradients(s.render.method);
+        setting.matters = setting.matters && (setting.id == "spikes" || has_gradients(s.render.method));
         if (setting.id == "norm") {
             setting.id = "recon";
             setting.label = "Reconstruction";
@@ -71,7 +71,7 @@ std::vector<PictureSettings> varied(const std::vector<PictureSettings>& all, con
 /// Without gradients there is nothing to reconstruct from: all settings of that are one.
 PictureSettings plain(PictureSettings settings) {
     if (!has_gradients(settings.render.method))
-        settings.reconstruction = {.norm = Norm::none};
+        settings.reconstruction = {.norm = Norm::none, .spikes = settings.reconstruction.spikes};
     return settings;
 }
 

@@ -51,7 +51,7 @@ ordered_json result_json(const ExperimentOptions& options, const Result& result)
     row["effort"] = to_string(effort_of(options, result));
     for (const ResultColumn& column : result_columns())
         row[std::string(column.id)] = number(column.value(result));
-    row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction.alpha);
+    row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction);
     row["runs"] = ordered_json::array();
     for (const Measurement& run : result.runs)
         row["runs"].push_back(to_json(run));

@@ -90,7 +90,8 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 } // namespace
 
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
-    const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(glm::dvec3) +
+    const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(Brightest) +
+                                sizeof(glm::dvec3) +
                                 (buffers.albedo ? sizeof(AlbedoPoints) + 4 * sizeof(glm::dvec3) : 0) +
                                 static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
                                 (buffers.reuse ? sizeof(ReuseCounts) : 0) +
@@ -99,8 +100,9 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
 }
 
 Film::Film(int width, int height, const FilmBuffers& buffers)
-    : primal_(width, height), parts_a_pixel_(buffers.parts), parts_(width * buffers.parts, height),
-      projections_(width * buffers.parts, height), very_direct_(width, height) {
+    : primal_(width, height), brightest_(width, height), parts_a_pixel_(buffers.parts),
+      parts_(width * buffers.parts, height), projections_(width * buffers.parts, height),
+      very_direct_(width, height) {
     if (buffers.gradients) {
         dx_ = Image<Moments>(width, height);
         dy_ = Image<Moments>(width, height);
@@ -134,6 +136,15 @@ void Film::add_parts(int x, int y, const PixelSample& sample) {
         parts[l].dy += sample.parts_dy[l];
 }
 
+void Film::remember_if_brightest(int x, int y, const PixelSample& sample) {
+    Brightest found{sample.primal, x + 1 < width() ? sample.dx : Rgb(0), y + 1 < height() ? sample.dy : Rgb(0),
+                    sample.albedo};
+    for (Rgb c : {found.primal, found.dx, found.dy})
+        found.size = std::max(found.size, luminance(glm::abs(c)));
+    if (Brightest& kept = brightest_(x, y); found.size > kept.size)
+        kept = found;
+}
+
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
     if (!base_luminance_.empty()) // its base path's alone, and finite, whatever the others brought
         base_luminance_(x, y) = sample.base_luminance;
@@ -144,6 +155,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     if (!reuse_.empty())
         reuse_(x, y) += sample.reuse;
     primal_(x, y) += sample.primal;
+    remember_if_brightest(x, y, sample);
     very_direct_(x, y) += sample.very_direct;
     if (keeps_albedo()) {
         const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a;
@@ -291,6 +303,19 @@ std::vector<CoefficientPart> Film::part_means(int passes) const {
     return result;
 }
 
+BrightestSamples Film::brightest_samples(int passes) const {
+    const auto image_of = [this](Rgb Brightest::*part) {
+        RgbImage image(width(), height());
+        std::transform(brightest_.begin(), brightest_.end(), image.begin(),
+                       [part](const Brightest& b) { return b.*part; });
+        return image;
+    };
+    const bool has_gradients = !dx_.empty();
+    return {image_of(&Brightest::primal), has_gradients ? image_of(&Brightest::dx) : RgbImage(),
+            has_gradients ? image_of(&Brightest::dy) : RgbImage(),
+            keeps_albedo() ? image_of(&Brightest::albedo) : RgbImage(), passes};
+}
+
 GradientImages Film::means(int passes) const {
     GradientImages images;
     measure(primal_, passes, images.primal, images.primal_variance);
@@ -299,6 +324,7 @@ GradientImages Film::means(int passes) const {
     images.parts = part_means(passes);
     images.demodulation = demodulation(passes);
     images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    images.brightest = brightest_samples(passes);
     return images;
 }
 
@@ -308,6 +334,8 @@ GradientImages Film::take_means(int passes) {
     GradientImages images;
     images.parts = part_means(passes);
     parts_ = {};
+    images.brightest = brightest_samples(passes);
+    brightest_ = {};
     const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
         measure(moments, passes, mean, variance);
         moments = {};
@@ -323,20 +351,11 @@ GradientImages Film::take_means(int passes) {
 }
 
 Memory Film::memory() {
-    return {memory_of(primal_),
-            memory_of(very_direct_),
-            memory_of(dx_),
-            memory_of(dy_),
-            memory_of(albedo_),
-            memory_of(value_),
-            memory_of(sampled_albedo_),
-            memory_of(albedo_squares_),
-            memory_of(albedo_values_),
-            memory_of(parts_),
-            memory_of(projections_),
-            memory_of(reuse_),
-            memory_of(base_luminance_),
-            memory_of(lamp_edges_)};
+    return {
+        memory_of(primal_),         memory_of(very_direct_),    memory_of(dx_),        memory_of(dy_),
+        memory_of(brightest_),      memory_of(albedo_),         memory_of(value_),     memory_of(sampled_albedo_),
+        memory_of(albedo_squares_), memory_of(albedo_values_),  memory_of(parts_),     memory_of(projections_),
+        memory_of(reuse_),          memory_of(base_luminance_), memory_of(lamp_edges_)};
 }
 
 } // namespace tessera

@@ -158,13 +158,22 @@ private:
         Moments primal, dx, dy;
     };
 
+    /// The sample that brought most to a pixel: primal, gradients, and the albedo.
+    struct Brightest {
+        Rgb primal{0}, dx{0}, dy{0}, albedo{0};
+        float size = 0; ///< the largest luminance of its primal and gradients, whatever their signs
+    };
+
     bool is_good(const PixelSample& sample) const;
     void add_parts(int x, int y, const PixelSample& sample);
+    void remember_if_brightest(int x, int y, const PixelSample& sample);
+    BrightestSamples brightest_samples(int passes) const;
     std::vector<CoefficientPart> part_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;
 
     Image<Moments> primal_, dx_, dy_;
+    Image<Brightest> brightest_;
     Image<AlbedoPoints> albedo_;
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
     int parts_a_pixel_;

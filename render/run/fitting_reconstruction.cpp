@@ -1,6 +1,7 @@
 #include "render/run/fitting_reconstruction.h"
 
 #include "recon/demodulation.h"
+#include "recon/spikes.h"
 #include "render/io/available_memory.h"
 
 #include <string>
@@ -16,8 +17,12 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const Norm norm = images.has_gradients() ? settings.norm : Norm::none;
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
     const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
+    const std::uint64_t limits =
+        settings.spikes == Spikes::consistent && can_limit(images)
+            ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
+            : 0;
     ask_for_memory(reconstructor.bytes_for(width, height, norm, threads, static_cast<int>(images.parts.size())) +
-                       remodulation,
+                       remodulation + limits,
                    what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
 }

@@ -14,7 +14,8 @@
 
 namespace tessera {
 
-nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::ivec2 size, int spp, float alpha) {
+nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::ivec2 size, int spp,
+                             const ReconstructionSettings& reconstruction) {
     nlohmann::json json{{"version", TESSERA_VERSION},
                         {"scene", to_string(scene)},
                         {"variables", scene.variables},
@@ -22,7 +23,8 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
                         {"width", size.x},
                         {"height", size.y},
                         {"spp", spp},
-                        {"alpha", alpha}};
+                        {"alpha", reconstruction.alpha},
+                        {"spikes", to_string(reconstruction.spikes)}};
     std::vector<Setting> settings = settings_of(s);
     settings.push_back(method_setting(s.method));
     settings.push_back(seed_setting(s.seed));
@@ -32,8 +34,8 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
 }
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size) {
-    nlohmann::json identity = settings_json(subject.source, settings, size, 0, 0);
-    for (const char* other : {"spp", "alpha", "variables"})
+    nlohmann::json identity = settings_json(subject.source, settings, size, 0, {});
+    for (const char* other : {"spp", "alpha", "spikes", "variables"})
         identity.erase(other);
     identity["camera"] = parse_json(camera_json(subject.camera));
     identity["scene"] = to_string(checksums_of(subject.scene->description(), subject.camera));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/reconstruct.h"
 #include "render/load/scene_source.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
@@ -16,8 +17,9 @@ namespace tessera {
 class Scene;
 
 /// Everything that decides the picture, as JSON: it goes into the header of every image and into the stats.
+/// Of the reconstruction it has what all norms have in common.
 nlohmann::json settings_json(const SceneSource& scene, RenderSettings settings, glm::ivec2 size, int spp,
-                             float alpha);
+                             const ReconstructionSettings& reconstruction);
 
 /// What a picture shows.
 struct PictureSubject {

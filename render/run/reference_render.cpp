@@ -86,8 +86,8 @@ FloorFreeError ReferenceRender::error_so_far() const {
 
 ReferenceImage ReferenceRender::finish() {
     ReferenceImage reference;
-    reference.settings = to_text(
-        settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction.alpha));
+    reference.settings =
+        to_text(settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction));
     reference.camera = camera_json(subject_.camera);
     reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
     for (std::size_t i = 0; i < 2; ++i) {

@@ -25,9 +25,10 @@ RenderSettings reference_settings();
 struct ReferenceRecipe {
     RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
     glm::ivec2 size{640, 360};
-    int spp = 512;                                           ///< of both halves together; one more if it is odd
-    ReconstructionSettings reconstruction{.norm = Norm::l2}; ///< linear, and so without bias
-    double checkpoint_seconds = 60;                          ///< wall time between checkpoints
+    int spp = 512; ///< of both halves together; one more if it is odd
+    /// Linear, and so without bias.
+    ReconstructionSettings reconstruction{.norm = Norm::l2, .spikes = Spikes::off};
+    double checkpoint_seconds = 60; ///< wall time between checkpoints
 };
 
 /// The file of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.

@@ -118,11 +118,6 @@ inline bool is_expanded(const RenderSettings& s) {
     return has_gradients(s.method) && s.basis > Basis::albedo;
 }
 
-/// Whether its picture is more than the mean of what the pixels got.
-inline bool is_reconstructed(const RenderSettings& s) {
-    return has_gradients(s.method) || is_demodulated(s);
-}
-
 /// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.
 inline bool has_tiles_to_cut(const RenderSettings& s) {
     return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);

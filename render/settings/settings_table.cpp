@@ -104,6 +104,18 @@ std::span<const SettingChoice> norm_choices() {
     return norms;
 }
 
+Setting spikes_setting(Spikes& spikes) {
+    static const std::array<SettingChoice, 2> choices = {{
+        {to_string(Spikes::off), "off",
+         "They count in full: nothing is smoothed, and what is linear is unbiased."},
+        {to_string(Spikes::consistent), "held back",
+         "What they are too bright by is held back from their pixels, and given to all around; the less, the more "
+         "samples there are."},
+    }};
+    return {"spikes", "Spikes", "What becomes of samples that are far brighter than the others of their pixel.",
+            one_of(choices, spikes)};
+}
+
 Setting method_setting(Method& method) {
     return {"method", "Method", "How light paths are sampled.", one_of(methods, method)};
 }
@@ -199,6 +211,7 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
          "On: misfits are lengths of colours, and the channels agree on what is an outlier. Off: each channel is "
          "on its own.",
          Setting::Switch{&s.joint_colour}, s.norm == Norm::l1 || s.norm == Norm::mixed},
+        spikes_setting(s.spikes),
     };
 }
 

@@ -95,9 +95,6 @@ TEST_F(SavedPictureTest, TheReconstructionIsMadeWhereTheOneOnShowIsAnother) {
     reconstruct(7);
     settings.alpha = 0.1f; // since
     EXPECT_NEAR(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4).b, 0.5f, 1e-3f);
-    reconstruct(7);
-    snapshot->settings.method = Method::pt; // which has none
-    EXPECT_EQ(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4), Rgb(0.5f));
 }
 
 /// Not those of the viewer's other threads, which render on meanwhile.

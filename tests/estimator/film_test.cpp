@@ -46,6 +46,25 @@ TEST(Film, RefusesWhatIsNotFinite) {
             }
 }
 
+/// By the largest of primal and gradients, of which borders have none.
+TEST(Film, RemembersTheBrightestSample) {
+    Film film(2, 1, {.gradients = true, .albedo = true});
+    Counters counters;
+    film.add(0, 0, 0, {Rgb(1), Rgb(-5), Rgb(0), Rgb(0), Rgb(0.5f)}, counters);
+    film.add(0, 0, 1, {Rgb(4), Rgb(1), Rgb(9), Rgb(0), Rgb(0.25f)}, counters); // there is no pixel below
+    film.add(1, 0, 0, {Rgb(1), Rgb(7), Rgb(0), Rgb(0), Rgb(1)}, counters);     // nor to the right
+    film.add(1, 0, 1, {Rgb(2), Rgb(0), Rgb(0), Rgb(0), Rgb(1)}, counters);
+    film.add(1, 0, 2, {Rgb(nan), Rgb(0), Rgb(0), Rgb(0), Rgb(1)}, counters);
+    const BrightestSamples b = film.means(2).brightest;
+    EXPECT_EQ(b.samples, 2);
+    EXPECT_EQ(b.primal(0, 0), Rgb(1));
+    EXPECT_EQ(b.dx(0, 0), Rgb(-5));
+    EXPECT_EQ(b.albedo(0, 0), Rgb(0.5f));
+    EXPECT_EQ(b.primal(1, 0), Rgb(2));
+    EXPECT_EQ(b.dx(1, 0), Rgb(0));
+    EXPECT_EQ(b.dy(0, 0), Rgb(0));
+}
+
 TEST(Film, RefusesAlbedosThatAreNotFinite) {
     for (const float bad : {infinity, -infinity, nan}) {
         Film film(2, 1, {.albedo = true});

@@ -75,7 +75,7 @@ MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, cons
                 coefficient.add(images.primal);
             dx.add(images.dx);
             dy.add(images.dy);
-            picture.add(reconstructor.reconstruct(images, {Norm::l2}).image);
+            picture.add(reconstructor.reconstruct(images, {.norm = Norm::l2, .spikes = Spikes::off}).image);
         }
     }
     return {primal.result(runs), very_direct.result(runs), dx.result(runs),

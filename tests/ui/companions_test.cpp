@@ -45,7 +45,7 @@ TEST_F(CompanionsTest, ErrorsToADroppedReference) {
     save("no-reference.png");
     drop_reference({48, 36}, 0.5f);
     ASSERT_FALSE(viewer.pane_image(0).empty());
-    const Rgb value = pane(0).snapshot->images->primal(10, 10) + pane(0).snapshot->images->very_direct(10, 10);
+    const Rgb value = pane(0).snapshot->reconstruction->image(10, 10);
     float expected = 0;
     for (int i = 0; i < 3; ++i)
         expected += (value[i] - 0.5f) * (value[i] - 0.5f) / (0.251f * 3);

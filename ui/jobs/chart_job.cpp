@@ -14,7 +14,7 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
     if (!s || s->coarse() || s->generation != pane.generation)
         return nullptr;
     std::shared_ptr<const void> source = picture_source(*s, Buffer::reconstruction);
-    return is_reconstructed(s->settings) && source != s->reconstruction ? nullptr : source;
+    return source != s->reconstruction ? nullptr : source;
 }
 
 } // namespace
@@ -48,7 +48,7 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     const Snapshot& s = *pane.snapshot;
     Request request{source, reference, wants_histogram, s.generation, s.settings.method, s.reconstructed_with};
     if (!has_gradients(request.method))
-        request.reconstruction = {Norm::none};
+        request.reconstruction = {.norm = Norm::none, .spikes = request.reconstruction.spikes};
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {

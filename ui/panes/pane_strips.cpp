@@ -147,6 +147,12 @@ std::string status_text(const ViewerState& state, int index) {
         line += "   first look";
     else if (!reconstructs_long && snapshot.reconstruction && has_gradients(snapshot.settings.method))
         line += "   " + reconstruction_text(snapshot);
+    if (const double held =
+            snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->held_share : 0;
+        held > 0) {
+        std::snprintf(text, sizeof text, "   %.2g %% held back", 100 * held);
+        line += text;
+    }
     if (snapshot.counters.refused_samples > 0)
         line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
     return line;

@@ -221,6 +221,8 @@ constexpr Action table[] = {
      ctrl(Key::digit8), no_shortcut, show_buffer<Buffer::covariance>, shows_buffer<Buffer::covariance>},
     {"Buffer", "Projection", "Shows how much of a part of the light the surfaces scatter, in all panes.",
      ctrl(Key::digit9), no_shortcut, show_buffer<Buffer::projection>, shows_buffer<Buffer::projection>},
+    {"Buffer", "Held back", "Shows the light of spikes that is held back, in all panes.", ctrl(Key::h),
+     no_shortcut, show_buffer<Buffer::held>, shows_buffer<Buffer::held>},
     {"Buffer", "Next part", "Shows the next part of coefficients and gradients, or the whole after the last.",
      ctrl(Key::digit3), no_shortcut, next_part, nullptr},
 

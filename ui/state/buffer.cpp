@@ -1,6 +1,7 @@
 #include "ui/state/buffer.h"
 
 #include "recon/demodulation.h"
+#include "recon/spikes.h"
 #include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
@@ -39,7 +40,7 @@ float rounded_up(float value) {
 
 /// Whether there is a reconstruction of this size: a first look's may still be there when the first whole pass is.
 bool has_reconstruction(const Snapshot& snapshot) {
-    if (!snapshot.images || !snapshot.reconstruction || !is_reconstructed(snapshot.settings))
+    if (!snapshot.images || !snapshot.reconstruction)
         return false;
     const RgbImage& image = snapshot.reconstruction->image;
     const RgbImage& primal = snapshot.images->primal;
@@ -179,6 +180,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return snapshot.images->demodulation.sampled_albedo;
     case Buffer::covariance:
         return scratch = sample_covariance(*snapshot.images);
+    case Buffer::held:
+        return scratch = held_light(*snapshot.images);
     case Buffer::reconstruction:
         return final_picture(snapshot, scratch);
     default:
@@ -194,6 +197,8 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
     const std::string name(paper_name(method));
     const bool of_gradients = family(buffer) == BufferFamily::gradient ||
                               (family(buffer) == BufferFamily::variance && buffer != Buffer::primal_variance);
+    if (buffer == Buffer::held && snapshot && is_expanded(snapshot->settings))
+        return "Of a basis with parts nothing is held back";
     if (of_gradients && !has_gradients(method))
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
@@ -365,6 +370,11 @@ constexpr BufferInfo table[] = {
      "How much a pixel's surface scatters of one part of the light, times which the parts are the coefficient; no "
      "unit: orange above zero, blue below. Of a basis with parts; Ctrl+3 goes to the next part.",
      Family::basis, ColourMap::signed_difference, "", 1},
+    {Buffer::held, "held", "Held back",
+     "What of its brightest sample is held back from a pixel, and given to those around, where spikes are held "
+     "back; "
+     "radiance. It gets less with the samples. None before the second.",
+     Family::picture, ColourMap::radiance, "", 1},
 };
 
 } // namespace

@@ -19,7 +19,8 @@ enum class Buffer {
     reference,
     albedo, normal, depth,
     primal_variance, dx_variance, dy_variance,
-    coefficient, mean_albedo, sampled_albedo, covariance, projection
+    coefficient, mean_albedo, sampled_albedo, covariance, projection,
+    held
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -45,7 +46,8 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::mean_albedo,
                                          Buffer::sampled_albedo,
                                          Buffer::covariance,
-                                         Buffer::projection};
+                                         Buffer::projection,
+                                         Buffer::held};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.

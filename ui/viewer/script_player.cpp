@@ -185,7 +185,7 @@ bool ScriptPlayer::have_samples(int spp) const {
         if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse() ||
             snapshot->spp < spp)
             return false;
-        if (is_reconstructed(snapshot->settings) && snapshot->reconstruction_spp < spp)
+        if (snapshot->reconstruction_spp < spp)
             return false;
     }
     return !viewer_.loading() && state.scene;

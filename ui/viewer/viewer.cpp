@@ -272,8 +272,7 @@ bool Viewer::settled(int spp) const {
         if (snapshot == nullptr || snapshot->generation != pane.generation || snapshot->coarse() ||
             snapshot->spp < spp)
             return false;
-        const bool reconstructs = is_reconstructed(snapshot->settings);
-        return !reconstructs || (snapshot->reconstruction && snapshot->reconstruction_spp == snapshot->spp);
+        return snapshot->reconstruction && snapshot->reconstruction_spp == snapshot->spp;
     });
 }
 

@@ -1,0 +1,215 @@
+#include "recon/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// A sample may weigh so much in its pixel's mean, in means of the others; and may be so many times as large as
+/// these in any case. Tried on caustics and rooms with 2 to 64 samples: 1/8 to 1/2 are nearly level.
+constexpr double share = 0.25, least_factor = 2;
+
+/// So much of the mean of a pixel's own others counts, where it is more than the mean around: features of one
+/// pixel, whose samples agree, are no spikes. In full it would let through what two samples of the pixel found.
+constexpr double own_share = 0.5;
+
+/// |v|: luminance, whatever the signs.
+double size_of(glm::dvec3 v) {
+    return glm::dot(glm::abs(v), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+std::size_t index_of(const Image<float>& image, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(x);
+}
+
+/// The mean of the samples without the brightest.
+glm::dvec3 mean_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, double n) {
+    return (n * glm::dvec3(mean.data()[i]) - glm::dvec3(brightest.data()[i])) / (n - 1);
+}
+
+/// mu of the primal, before it is blurred.
+Image<float> sizes_of_others(const GradientImages& images) {
+    Image<float> sizes(images.primal.width(), images.primal.height());
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        sizes.data()[i] = static_cast<float>(
+            size_of(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples)));
+    return sizes;
+}
+
+/// mu: what the other samples of the pixel and of those around say.
+double size_around(const Image<float>& sizes, int x, int y) {
+    double sum = 0;
+    int count = 0;
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, sizes.height() - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, sizes.width() - 1); ++i, ++count)
+            sum += static_cast<double>(sizes(i, j));
+    return std::max(sum / count, own_share * static_cast<double>(sizes(x, y)));
+}
+
+/// t of a pixel's primal and of its gradients.
+struct Limits {
+    double primal = 1, gradients = 1;
+};
+
+/// Of pixel (x, y). Where a spike lights the neighbour alone, gradients are limited, and the primal is not.
+Limits limits_of(const GradientImages& images, const Image<float>& sizes, int x, int y) {
+    const BrightestSamples& b = images.brightest;
+    const double factor = std::max(least_factor, share * b.samples);
+    const auto limit = [factor](double size, double others) {
+        return size > factor * others ? factor * others / size : 1;
+    };
+    const std::size_t i = index_of(sizes, x, y);
+    double others = size_around(sizes, x, y), size = size_of(b.primal.data()[i]);
+    Limits limits{limit(size, others)};
+    if (!images.has_gradients())
+        return limits;
+    for (const auto& [mean, brightest] : {std::pair(&images.dx, &b.dx), std::pair(&images.dy, &b.dy)}) {
+        others = std::max(others, size_of(mean_of_others(*mean, *brightest, i, b.samples)));
+        size = std::max(size, size_of(brightest->data()[i]));
+    }
+    limits.gradients = limit(size, others);
+    return limits;
+}
+
+/// A mean of n samples when x, one of them, counts as t x.
+void limit(Rgb& mean, glm::dvec3 x, double t, double n) {
+    mean = Rgb(glm::dvec3(mean) - (1 - t) * x / n);
+}
+
+/// What depends on the limited samples of pixel i; its coefficient is limited already. With v = a e of the sample,
+/// m(v) and cov(a, v) lack (1 - t) v / n and that times a - m(a): exactly, as the deviations from m(a) sum to
+/// zero.
+void limit_demodulation(GradientImages& images, std::size_t i, glm::dvec3 a, glm::dvec3 held) {
+    Demodulation& d = images.demodulation;
+    const glm::dvec3 mean_a(d.sampled_albedo.data()[i]);
+    d.value.data()[i] = Rgb(glm::dvec3(d.value.data()[i]) - held);
+    d.value_covariance.data()[i] = Rgb(glm::dvec3(d.value_covariance.data()[i]) - held * (a - mean_a));
+}
+
+/// What is held back of pixel i with t.
+glm::dvec3 held_of(const BrightestSamples& b, std::size_t i, double t) {
+    const glm::dvec3 a = b.albedo.empty() ? glm::dvec3(1) : glm::dvec3(b.albedo.data()[i]);
+    return (1 - t) / b.samples * a * glm::dvec3(b.primal.data()[i]);
+}
+
+template <class Visit>
+void for_each_limited(const GradientImages& images, const ParallelFor& parallel_for, Visit&& visit) {
+    const Image<float> sizes = sizes_of_others(images);
+    parallel_for(sizes.height(), [&](int y) {
+        for (int x = 0; x < sizes.width(); ++x)
+            if (const Limits t = limits_of(images, sizes, x, y); t.primal < 1 || t.gradients < 1)
+                visit(index_of(sizes, x, y), t);
+    });
+}
+
+} // namespace
+
+bool can_limit(const GradientImages& images) {
+    return !images.brightest.empty() && images.brightest.samples > 1 && images.parts.empty();
+}
+
+GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for) {
+    const BrightestSamples& b = images.brightest;
+    held = RgbImage(images.primal.width(), images.primal.height(), Rgb(0));
+    GradientImages result = images;
+    for_each_limited(images, parallel_for, [&](std::size_t i, Limits t) {
+        const double n = b.samples;
+        if (images.has_gradients()) {
+            limit(result.dx.data()[i], b.dx.data()[i], t.gradients, n);
+            limit(result.dy.data()[i], b.dy.data()[i], t.gradients, n);
+        }
+        if (t.primal == 1)
+            return;
+        const glm::dvec3 back = held_of(b, i, t.primal);
+        held.data()[i] = Rgb(back);
+        limit(result.primal.data()[i], b.primal.data()[i], t.primal, n);
+        if (!images.demodulation.empty())
+            limit_demodulation(result, i, b.albedo.data()[i], back);
+    });
+    return result;
+}
+
+RgbImage held_light(const GradientImages& images) {
+    RgbImage held(images.primal.width(), images.primal.height(), Rgb(0));
+    if (can_limit(images))
+        for_each_limited(images, serial_for, [&](std::size_t i, Limits t) {
+            held.data()[i] = Rgb(held_of(images.brightest, i, t.primal));
+        });
+    return held;
+}
+
+namespace {
+
+/// Of the squares over which what is held is spread, in pixels; and of those whose brightness it follows. A
+/// pixel's own brightness would make spikes anew where few samples find light at all.
+constexpr int spread_radius = 6, guide_radius = 1;
+
+/// Where a pixel beyond the border has its light from: the picture goes on as in a mirror.
+int mirrored(int i, int count) {
+    return i < 0 ? -1 - i : i >= count ? 2 * count - 1 - i : i;
+}
+
+/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives.
+template <class Pixel>
+void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
+    const int width = image.width(), height = image.height();
+    const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
+    Image<Pixel> other(width, height);
+    for (int round = 0; round < 3; ++round) {
+        parallel_for(height, [&](int y) {
+            for (int x = 0; x < width; ++x) {
+                Pixel sum(0);
+                for (int i = x - r_x; i <= x + r_x; ++i)
+                    sum += image(mirrored(i, width), y);
+                other(x, y) = sum / static_cast<float>(2 * r_x + 1);
+            }
+        });
+        parallel_for(height, [&](int y) {
+            for (int x = 0; x < width; ++x)
+                image(x, y) = Pixel(0);
+            for (int j = y - r_y; j <= y + r_y; ++j)
+                for (int x = 0; x < width; ++x)
+                    image(x, y) += other(x, mirrored(j, height)) / static_cast<float>(2 * r_y + 1);
+        });
+    }
+}
+
+} // namespace
+
+/// With brightness s, what a pixel q holds goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
+void spread(const RgbImage& held, RgbImage& image, const ParallelFor& parallel_for) {
+    if (std::all_of(held.begin(), held.end(), [](Rgb c) { return c == Rgb(0); }))
+        return;
+    double sum = 0;
+    for (Rgb c : image)
+        sum += std::max(0.0, static_cast<double>(luminance(c)));
+    // Where a whole neighbourhood is black, what is held is spread evenly; as in a picture that is black.
+    const auto least = sum > 0 ? static_cast<float>(1e-4 * sum / static_cast<double>(image.size())) : 1.0f;
+    Image<float> brightness(image.width(), image.height());
+    for (std::size_t i = 0; i < image.size(); ++i)
+        brightness.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
+    blur(brightness, guide_radius, parallel_for);
+    Image<float> around = brightness;
+    blur(around, spread_radius, parallel_for);
+    RgbImage ratio = held;
+    for (std::size_t i = 0; i < image.size(); ++i)
+        ratio.data()[i] /= around.data()[i];
+    blur(ratio, spread_radius, parallel_for);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] += brightness.data()[i] * ratio.data()[i];
+}
+
+std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
+    const std::size_t copies = (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) + sizeof(Rgb) +
+                               (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
+                               BrightestSamples::bytes_a_pixel;
+    const std::size_t held = sizeof(Rgb), spreading = 2 * (sizeof(Rgb) + sizeof(float));
+    return copies + held + spreading;
+}
+
+} // namespace tessera
