@@ -13,10 +13,10 @@ namespace tessera {
 // that came with it, and given to all the pixels around, each by its brightness:
 //     x counts as t x,   t = min(1, max(2, n / 4) mu / |x|),
 // where mu is the mean of the other samples over the 3x3 pixels around, or half that of the pixel's own, whichever
-// is larger, and |.| a luminance. Its gradients count as much, or less where they are larger than x, unless the other samples' are as well. With n samples, more and
-// more of any x is let through, so that the picture is consistent: it goes to that without limits. No light is
-// lost on the way, as with dropping outliers [Zirr 2018 has a survey], but it is smoothed, and the picture is not
-// linear in its samples.
+// is larger, and |.| a luminance. Its gradients count as much, or less where they are larger than x, unless the
+// other samples' are as well. With n samples, more and more of any x is let through, so that the picture is
+// consistent: it goes to that without limits. No light is lost on the way, as with dropping outliers [Zirr 2018
+// has a survey], but it is smoothed, and the picture is not linear in its samples.
 //
 // Variances stay as they are: what a pixel was before its spike was limited says best how little is known of it.
 //
@@ -30,8 +30,8 @@ bool can_limit(const GradientImages& images);
 /// @param held  becomes the radiance that is held back; black where there is nothing
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for);
 
-/// Gives what is held back to the pixels around, about 20 pixels wide, by the brightness around each. The image, radiance without very direct
-/// light, gains as much light as there is in `held`, but for rounding.
+/// Gives what is held back to the pixels around, about 20 pixels wide, by the brightness about each. The image,
+/// radiance without very direct light, gains as much light as there is in `held`, but for rounding.
 void spread(const RgbImage& held, RgbImage& image, const ParallelFor& parallel_for);
 
 /// The radiance that limited() holds back; black where it is not to be used.
