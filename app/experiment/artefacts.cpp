@@ -62,6 +62,34 @@ std::vector<double> pieces_of(const RgbImage& image, const RgbImage& r1, const R
     return relative;
 }
 
+double tone_mapped(float x) {
+    return x > 0 ? static_cast<double>(x) / (1 + static_cast<double>(x)) : 0;
+}
+
+/// Mean over pixels and channels. Two references, as for relMSE, take their own noise out of it.
+double tone_mapped_error(const RgbImage& image, const RgbImage& r1, const RgbImage& r2) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double v = tone_mapped(image.data()[i][c]);
+            sum += (v - tone_mapped(r1.data()[i][c])) * (v - tone_mapped(r2.data()[i][c])) / 3;
+        }
+    return sum / static_cast<double>(image.size());
+}
+
+double tenfold_share(const RgbImage& image, const RgbImage& r1, const RgbImage& r2) {
+    static constexpr double least = 0.01, fold = 10; // least: of the mean
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const auto luminance_of = [i](const RgbImage& of) {
+            return std::max(static_cast<double>(luminance(of.data()[i])), least);
+        };
+        const double v = luminance_of(image), a = luminance_of(r1), b = luminance_of(r2);
+        count += v > fold * std::max(a, b) || fold * v < std::min(a, b);
+    }
+    return static_cast<double>(count) / static_cast<double>(image.size());
+}
+
 } // namespace
 
 std::size_t worst_count(std::size_t pixels) {
@@ -76,6 +104,8 @@ Artefacts measure_artefacts(const RgbImage& image, const RgbImage& reference1, c
     artefacts.error = mean_of_pieces(errors);
     artefacts.mean = mean_luminance(value);
     artefacts.pieces = pieces_of(value, r1, r2);
+    artefacts.tone_mapped = tone_mapped_error(value, r1, r2);
+    artefacts.tenfold = tenfold_share(value, r1, r2);
     artefacts.bad_pixels = static_cast<std::size_t>(
         std::count_if(image.begin(), image.end(), [unit](Rgb c) { return !is_finite(in_units(c, unit)); }));
     for (double& error : errors)

@@ -19,6 +19,8 @@ struct Artefacts {
     glm::ivec2 worst_pixel{0};  ///< where the first of them is
     std::size_t bad_pixels = 0; ///< not finite in these units: they count as black in all that is above
     std::vector<double> pieces; ///< pieces_of the image, by those pixels
+    double tone_mapped = 0;     ///< mean squared error of tone-mapped radiances, x / (1 + x): of what is seen
+    double tenfold = 0; ///< share of pixels of more than ten times the reference's luminance, or below a tenth
 };
 
 /// How many of the worst pixels are kept: more than one in a thousand, so that several runs' together tell the
@@ -26,8 +28,9 @@ struct Artefacts {
 std::size_t worst_count(std::size_t pixels);
 
 /// A pixel's squared error is (I - r1)(I - r2) / (r^2 + relative_mse_epsilon), at least 0, so that a spike of one
-/// reference is not taken for one of the image. Throws std::invalid_argument if the sizes differ or the images are
-/// empty.
+/// reference is not taken for one of the image. Its tone-mapped one is that, without denominator; and it is off by
+/// tenfold if both references say so, of which one hundredth of the mean is taken where they are darker. Throws
+/// std::invalid_argument if the sizes differ or the images are empty.
 Artefacts measure_artefacts(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
 
 /// What is known of the two references that images are measured by, in the units of Artefacts. Their noise is

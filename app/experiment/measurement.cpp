@@ -48,7 +48,9 @@ nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
             {"worst", a->worst},
             {"worst_pixel", {a->worst_pixel.x, a->worst_pixel.y}},
             {"bad_pixels", a->bad_pixels},
-            {"pieces", a->pieces}};
+            {"pieces", a->pieces},
+            {"tone_mapped", a->tone_mapped},
+            {"tenfold", a->tenfold}};
 }
 
 /// The artefacts in the JSON; null where none were measured, or the journal is from before there were any.
@@ -62,6 +64,9 @@ std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
     json.at("bad_pixels").get_to(a.bad_pixels);
     a.pieces = numbers(json.at("pieces"));
+    // Journals of before have neither.
+    a.tone_mapped = number(json.value("tone_mapped", nlohmann::json()));
+    a.tenfold = number(json.value("tenfold", nlohmann::json()));
     return a;
 }
 

@@ -30,6 +30,8 @@ struct Findings {
     double worst = 0;           ///< the largest of them
     glm::ivec2 worst_pixel{0};
     double worst_share = 0; ///< of the squared error, what the worst pixels (worst_count) have
+    double tone_mapped = 0; ///< mean of Artefacts::tone_mapped
+    double tenfold = 0;     ///< mean of Artefacts::tenfold
     double tile_edges = 0;  ///< mean of TileSpectrum::edges; not a number where there are none
     double tile_edges_error = 0;
     double error = 0;       ///< relMSE, of pictures in units of the reference's mean

@@ -185,12 +185,14 @@ std::string cause_of_worse(const Findings& f) {
 
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference) {
     Findings f;
-    Numbers errors, edges;
+    Numbers errors, edges, tone_mapped, tenfold;
     for (const Measurement& run : result.runs) {
         f.bad_pixels += run.artefacts->bad_pixels;
         f.refused += run.counters.refused_samples;
         f.counters += run.counters;
         errors.push_back(run.artefacts->error.relative_mse);
+        tone_mapped.push_back(run.artefacts->tone_mapped);
+        tenfold.push_back(run.artefacts->tenfold);
         if (run.tiles)
             edges.push_back(run.tiles->edges);
     }
@@ -201,6 +203,8 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     f.energy = energy_of(result, reference, tolerance.energy);
     f.squared_bias = squared_bias_of(result, reference, tolerance.pieces);
     find_spikes(result, f);
+    f.tone_mapped = mean_of(tone_mapped);
+    f.tenfold = mean_of(tenfold);
     f.tile_edges = edges.empty() ? none : mean_of(edges);
     f.tile_edges_error = edges.empty() ? none : standard_error_of(edges);
     find_factor(result, path_tracing, reference.squared_error_error, f);

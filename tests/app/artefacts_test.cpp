@@ -49,6 +49,22 @@ TEST(Artefacts, AreThoseOfKnownImages) {
     EXPECT_NEAR(a.pieces[5], 1.5 / std::sqrt(1.001), 1e-6);
 }
 
+/// Of 200 pixels five are far too bright and three far too dark; one of the black ones is hardly off.
+TEST(Artefacts, TellWhatIsSeenAndWhatIsOffTenfold) {
+    RgbImage reference(20, 10, Rgb(1)), image = reference;
+    reference(0, 0) = image(0, 0) = Rgb(0);
+    for (int x = 5; x < 10; ++x)
+        image(x, 3) = Rgb(1e6f);
+    for (int x = 5; x < 8; ++x)
+        image(x, 5) = Rgb(0.01f);
+    image(0, 0) = Rgb(0.05f);
+    const Artefacts a = measure_artefacts(image, reference, reference);
+    EXPECT_DOUBLE_EQ(a.tenfold, 8 / 200.0);
+    // 1 is mapped to 1/2 in units of the mean, which is 199/200: the bright ones are off by 1/2, and no more.
+    EXPECT_NEAR(a.tone_mapped, (5 * 0.25 + 3 * 0.49 * 0.49) / 200, 1e-4);
+    EXPECT_EQ(measure_artefacts(reference, reference, reference).tenfold, 0);
+}
+
 TEST(Artefacts, AreFiniteWhateverThePixels) {
     const RgbImage reference(16, 8, Rgb(1e-6f));
     RgbImage image(reference);
