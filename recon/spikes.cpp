@@ -20,7 +20,7 @@ constexpr double own_share = 0.5;
 
 /// |v|: luminance, whatever the signs.
 double size_of(glm::dvec3 v) {
-    return glm::dot(glm::abs(v), glm::dvec3(0.2126, 0.7152, 0.0722));
+    return luminance(Rgb(glm::abs(v)));
 }
 
 std::size_t index_of(const Image<float>& image, int x, int y) {

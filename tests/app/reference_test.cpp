@@ -72,7 +72,8 @@ TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
     EXPECT_EQ(r.seeds, (std::array<std::uint64_t, 2>{5, 6}));
     EXPECT_EQ(nlohmann::json::parse(r.settings)["spp"], 8) << "four in each half";
     ASSERT_EQ(run(folder(),
-                  "render " + box + " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 --spikes off -o half.exr")
+                  "render " + box +
+                      " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 --spikes off -o half.exr")
                   .exit_code,
               0);
     const ExrFile half = read_exr(folder() / "half.exr");

@@ -83,8 +83,8 @@ numeric: accumulate adjacent_difference exclusive_scan gcd inclusive_scan inner_
 optional: bad_optional_access make_optional nullopt nullopt_t optional
 ostream|fstream|iostream|sstream: endl flush ostream
 queue: priority_queue queue
-random: bernoulli_distribution discrete_distribution minstd_rand exponential_distribution mt19937 mt19937_64 normal_distribution random_device
-    seed_seq uniform_int_distribution uniform_real_distribution
+random: bernoulli_distribution discrete_distribution exponential_distribution minstd_rand mt19937 mt19937_64
+    normal_distribution random_device seed_seq uniform_int_distribution uniform_real_distribution
 ranges: views
 ratio: milli micro nano ratio
 regex: cmatch regex regex_match regex_replace regex_search smatch

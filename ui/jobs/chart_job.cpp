@@ -14,7 +14,7 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
     if (!s || s->coarse() || s->generation != pane.generation)
         return nullptr;
     std::shared_ptr<const void> source = picture_source(*s, Buffer::reconstruction);
-    return source != s->reconstruction ? nullptr : source;
+    return source == s->reconstruction ? source : nullptr;
 }
 
 } // namespace

@@ -372,8 +372,7 @@ constexpr BufferInfo table[] = {
      Family::basis, ColourMap::signed_difference, "", 1},
     {Buffer::held, "held", "Held back",
      "What of its brightest sample is held back from a pixel, and given to those around, where spikes are held "
-     "back; "
-     "radiance. It gets less with the samples. None before the second.",
+     "back; radiance. It gets less with the samples. None before the second.",
      Family::picture, ColourMap::radiance, "", 1},
 };
 
