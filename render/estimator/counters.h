@@ -80,6 +80,10 @@ struct Counters {
     std::uint64_t shift_attempts() const {
         return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});
     }
+    std::uint64_t offset_rays() const {
+        return rays[static_cast<std::size_t>(RayKind::shift_bounce)] +
+               rays[static_cast<std::size_t>(RayKind::shift_edge)];
+    }
     std::uint64_t all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
     std::uint64_t set_paths() const { return dark_paths + skipped_paths + reused_paths; }
 

@@ -95,7 +95,7 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
                                 (buffers.albedo ? sizeof(AlbedoPoints) + 4 * sizeof(glm::dvec3) : 0) +
                                 static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
                                 (buffers.reuse ? sizeof(ReuseCounts) : 0) +
-                                (buffers.base_luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
+                                (buffers.evidence ? sizeof(PlanEvidence) : 0) + (buffers.lamp_edges ? 1 : 0);
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
 }
 
@@ -113,8 +113,8 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
     }
     if (buffers.reuse)
         reuse_ = Image<ReuseCounts>(width, height);
-    if (buffers.base_luminance)
-        base_luminance_ = Image<float>(width, height);
+    if (buffers.evidence)
+        evidence_ = Image<PlanEvidence>(width, height);
     if (buffers.lamp_edges)
         lamp_edges_ = Image<std::uint8_t>(width, height);
 }
@@ -122,8 +122,8 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
 bool Film::is_good(const PixelSample& sample) const {
     const auto all_finite = [](std::span<const Rgb> values) { return std::ranges::all_of(values, is_finite); };
     return is_finite(sample.primal) && is_finite(sample.dx) && is_finite(sample.dy) &&
-           is_finite(sample.very_direct) && is_finite(sample.albedo) && all_finite(sample.parts) &&
-           all_finite(sample.parts_dx) && all_finite(sample.parts_dy);
+           is_finite(sample.very_direct) && is_finite(sample.albedo) && is_finite(sample.beside) &&
+           all_finite(sample.parts) && all_finite(sample.parts_dx) && all_finite(sample.parts_dy);
 }
 
 void Film::add_parts(int x, int y, const PixelSample& sample) {
@@ -146,9 +146,10 @@ void Film::remember_if_brightest(int x, int y, const PixelSample& sample) {
 }
 
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
-    if (!base_luminance_.empty()) // its base path's alone, and finite, whatever the others brought
-        base_luminance_(x, y) = sample.base_luminance;
-    if (!is_good(sample)) {
+    const bool good = is_good(sample);
+    if (!evidence_.empty()) // the luminance is its base path's alone, and finite, whatever the others brought
+        evidence_(x, y) = good ? sample.evidence : PlanEvidence{sample.evidence.luminance};
+    if (!good) {
         counters.refuse({pass, y, x});
         return;
     }
@@ -158,7 +159,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     remember_if_brightest(x, y, sample);
     very_direct_(x, y) += sample.very_direct;
     if (keeps_albedo()) {
-        const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a;
+        const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a + glm::dvec3(sample.beside);
         value_(x, y) += v;
         sampled_albedo_(x, y) += a;
         albedo_squares_(x, y) += a * a;
@@ -330,7 +331,7 @@ GradientImages Film::means(int passes) const {
 
 GradientImages Film::take_means(int passes) {
     reuse_ = {};
-    base_luminance_ = {};
+    evidence_ = {};
     GradientImages images;
     images.parts = part_means(passes);
     parts_ = {};
@@ -352,10 +353,10 @@ GradientImages Film::take_means(int passes) {
 
 Memory Film::memory() {
     return {
-        memory_of(primal_),         memory_of(very_direct_),    memory_of(dx_),        memory_of(dy_),
-        memory_of(brightest_),      memory_of(albedo_),         memory_of(value_),     memory_of(sampled_albedo_),
-        memory_of(albedo_squares_), memory_of(albedo_values_),  memory_of(parts_),     memory_of(projections_),
-        memory_of(reuse_),          memory_of(base_luminance_), memory_of(lamp_edges_)};
+        memory_of(primal_),         memory_of(very_direct_),   memory_of(dx_),        memory_of(dy_),
+        memory_of(brightest_),      memory_of(albedo_),        memory_of(value_),     memory_of(sampled_albedo_),
+        memory_of(albedo_squares_), memory_of(albedo_values_), memory_of(parts_),     memory_of(projections_),
+        memory_of(reuse_),          memory_of(evidence_),      memory_of(lamp_edges_)};
 }
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 #include "render/estimator/counters.h"
+#include "render/estimator/reuse_policy.h"
 #include "render/io/memory.h"
 
 #include <algorithm>
@@ -58,21 +59,25 @@ struct PixelSample {
     Rgb very_direct{0};
     Rgb albedo{1}; ///< above 0, or black where nothing is seen
     ReuseCounts reuse{};
-    float base_luminance = -1; ///< PathReuse::arriving_luminance of its own base path
+    PlanEvidence evidence{}; ///< what it tells the plan
 
     /// Of primal, dx and dy the parts by direction (basis.h), in memory that outlives the sample; none: without
     /// such a basis, or no neighbour.
     std::span<const Rgb> parts{}, parts_dx{}, parts_dy{};
+
+    /// Radiance less primal times albedo: other than 0 where the sample is the mean of several paths, whose light
+    /// is not divided by one albedo.
+    Rgb beside{0};
 };
 
 /// What a film keeps beside primal and very direct light.
 struct FilmBuffers {
     bool gradients = false;
-    bool albedo = false;         ///< what radiance was divided by, and radiance itself
-    bool reuse = false;          ///< how sharing went
-    bool base_luminance = false; ///< of the last pass
-    bool lamp_edges = false;     ///< of the lamps that the camera sees
-    int parts = 0;               ///< of primal and gradients
+    bool albedo = false;     ///< what radiance was divided by, and radiance itself
+    bool reuse = false;      ///< how sharing went
+    bool evidence = false;   ///< for the plan, of the last pass
+    bool lamp_edges = false; ///< of the lamps that the camera sees
+    int parts = 0;           ///< of primal and gradients
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -100,7 +105,7 @@ public:
     int height() const { return primal_.height(); }
 
     /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted: nothing of it
-    /// is kept but its base luminance.
+    /// is kept but its base path's luminance.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
     bool keeps_albedo() const { return !albedo_.empty(); }
@@ -132,8 +137,8 @@ public:
     GradientImages take_means(int passes);
     /// How sharing went over `passes` complete passes; empty where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
-    /// PixelSample::base_luminance of the last pass; empty where it is not kept.
-    const Image<float>& base_luminance() const { return base_luminance_; }
+    /// PixelSample::evidence of the last pass; empty where it is not kept.
+    const Image<PlanEvidence>& evidence() const { return evidence_; }
     /// All that it has summed.
     Memory memory();
 
@@ -181,7 +186,7 @@ private:
     Image<float> projections_; // likewise
     Image<glm::dvec3> very_direct_;
     Image<ReuseCounts> reuse_;
-    Image<float> base_luminance_;
+    Image<PlanEvidence> evidence_;
     Image<std::uint8_t> lamp_edges_;
 };
 

@@ -18,7 +18,7 @@ inline RouletteKind roulette_of(const RenderSettings& settings) {
 /// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
 template <class Visit>
 void for_each_tile_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner) {
+    pass.grid.for_each_part(block, [&](PixelRect inner, PixelRect) {
         set.assign(inner);
         visit(inner);
     });
@@ -65,19 +65,20 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
 }
 
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
-/// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all)`; T is `all`,
-/// row by row.
+/// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all, paths_alone)`;
+/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (TileGrid::paths_alone).
 template <class Visit>
 void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner) {
+    pass.grid.for_each_part(block, [&](PixelRect inner, PixelRect tile) {
         const PixelRect all = inner.with_halo(pass.size);
         set.assign(all);
-        visit(inner, all);
+        visit(inner, all, pass.grid.paths_alone(tile));
     });
 }
 
 /// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
-/// for each; of PT and G-PT those of the pixel. The path inspector goes this way.
+/// for each; of PT and G-PT those of the pixel. Pixels that share nothing have sets of their own, one
+/// for each of their paths. The path inspector goes this way.
 template <class Visit>
 void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
@@ -91,7 +92,17 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
     case Method::gpt:
         return for_each_gpt_set(pass, p, set, visit_inner);
     case Method::gpr:
-        return for_each_gpr_set(pass, tile, set, visit_inner);
+        return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
+            if (paths_alone == 0)
+                return visit(inner);
+            for_each_square(inner, 1, [&](PixelRect alone) {
+                for (int path = 0; path < paths_alone; ++path) {
+                    set.assign(alone);
+                    set.number = path;
+                    visit(alone);
+                }
+            });
+        });
     }
 }
 

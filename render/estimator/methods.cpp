@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include <glm/vec2.hpp>
 
@@ -93,6 +94,7 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
             const Rgb here = worker.set.coefficient(i);
             const std::span<const Rgb> parts = worker.set.parts_of(i);
             PixelSample sample = worker.set.sample(i, worker.reuse);
+            sample.evidence = evidence_of(pass, worker, i, all);
             sample.parts = parts;
             if (x + 1 < all.x1) {
                 sample.dx = worker.set.coefficient(i + 1) - here;
@@ -110,13 +112,46 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
         }
 }
 
+/// Adds the inner pixels of worker.set where its pixels share nothing: the means of `count` base paths of each.
+/// Their gradients are mere differences of these; across the set's border, to the neighbour's first path.
+void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
+    worker.means.clear();
+    for (glm::ivec2 p : worker.set.pixels) {
+        MeanOfPaths mean;
+        const int paths = inner.contains(p) ? count : 1;
+        mean.add(pass, worker.base.at(p.x, p.y), paths);
+        for (int number = 1; number < paths; ++number) {
+            trace_pixel(pass, worker.tracer, p.x, p.y, pass.camera_sample({inner.x0, inner.y0}, number),
+                        worker.path, number);
+            mean.add(pass, worker.path, paths);
+        }
+        worker.means.push_back(mean);
+    }
+    for (std::size_t i = 0; i < worker.means.size(); ++i) {
+        const auto [x, y] = std::pair(worker.set.pixels[i].x, worker.set.pixels[i].y);
+        if (!inner.contains({x, y}))
+            continue;
+        const MeanOfPaths& here = worker.means[i];
+        PixelSample sample{here.coefficient, Rgb(0), Rgb(0), here.very_direct, here.albedo};
+        sample.beside = here.radiance - here.coefficient * here.albedo;
+        if (x + 1 < all.x1)
+            sample.dx = worker.means[i + 1].coefficient - here.coefficient;
+        if (y + 1 < all.y1)
+            sample.dy = worker.means[i + static_cast<std::size_t>(all.width())].coefficient - here.coefficient;
+        sample.evidence.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
+        add_sample(pass, x, y, sample, worker, film);
+    }
+}
+
 /// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
 /// gradients are the differences of these shares: sum of (c_n - c_m) / R; or of them over the albedos, sum of
 /// (c_n / a_n - c_m / a_m) / R, as what a pixel got from all paths is divided by one albedo.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
-    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all) {
+    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
+        if (paths_alone > 0)
+            return add_alone(pass, inner, all, paths_alone, worker, film);
         share_light(pass, roulette_of(pass.settings), worker);
         worker.set.expand(film);
         add_tile(pass, inner, all, worker, film);

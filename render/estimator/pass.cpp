@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 namespace tessera {
@@ -50,8 +51,13 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
 PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    return {
-        coefficient(i), Rgb(0), Rgb(0), path.very_direct, albedo[m], reuse[m], estimator.arriving_luminance(path)};
+    return {coefficient(i),
+            Rgb(0),
+            Rgb(0),
+            path.very_direct,
+            albedo[m],
+            reuse[m],
+            {estimator.arriving_luminance(path)}};
 }
 
 namespace {
@@ -125,8 +131,13 @@ glm::vec2 Pass::lens_at(glm::ivec2 pixel) const {
             fraction(lens_.y + block.x * std::sqrt(7.0) + block.y * std::sqrt(13.0))};
 }
 
-CameraSample Pass::camera_sample(glm::ivec2 pixel) const {
-    return {subpixel_at(pixel), sample_disk(lens_at(pixel))};
+/// Further paths go on by multiples of other roots, so that they do not meet those of other passes.
+CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
+    const glm::vec2 subpixel = subpixel_at(pixel), lens = lens_at(pixel);
+    if (path == 0)
+        return {subpixel, sample_disk(lens)};
+    return {{fraction(subpixel.x + path * std::sqrt(17.0)), fraction(subpixel.y + path * std::sqrt(19.0))},
+            sample_disk({fraction(lens.x + path * std::sqrt(23.0)), fraction(lens.y + path * std::sqrt(29.0))})};
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -168,15 +179,15 @@ bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) 
                           RayKind::camera);
 }
 
-void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside) {
-    const CameraSample from = pass.camera_sample(inside);
+void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number) {
+    const CameraSample from = pass.camera_sample(inside, number);
     rect_ = rect;
     const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     if (paths_.size() < count)
         paths_.resize(count);
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x)
-            trace_pixel(pass, tracer, x, y, from, paths_[index(x, y)]);
+            trace_pixel(pass, tracer, x, y, from, paths_[index(x, y)], number);
 }
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
@@ -197,8 +208,18 @@ std::vector<PixelRect> blocks_of(const Pass& pass) {
     return blocks;
 }
 
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path) {
-    trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y), path);
+void MeanOfPaths::add(const Pass& pass, const BasePath& path, int count) {
+    const Rgb a = pass.albedo_of(path);
+    const float share = 1 / static_cast<float>(count);
+    coefficient += tessera::coefficient(path.radiance(), a) * share;
+    radiance += path.radiance() * share;
+    albedo += a * share;
+    very_direct += path.very_direct * share;
+}
+
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
+                 int number) {
+    trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y, number), path);
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, y, x});
@@ -271,6 +292,32 @@ ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& work
 
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
     share_light(pass, kind, worker, [](int, const ReuseDecision&) {});
+}
+
+PlanEvidence evidence_of(const Pass& pass, const Worker& worker, int i, PixelRect all) {
+    const SamplingSet& set = worker.set;
+    const BasePath& path = *set.paths[static_cast<std::size_t>(i)];
+    PlanEvidence evidence{worker.reuse.arriving_luminance(path)};
+    if (pass.index > 0 || !finds_gain_of_sharing(pass.settings))
+        return evidence;
+    const auto own = [&set](int m) {
+        return coefficient(set.paths[static_cast<std::size_t>(m)]->radiance(),
+                           set.albedo[static_cast<std::size_t>(m)]);
+    };
+    const auto compare = [&](int m) {
+        const auto shared_step = glm::length(glm::dvec3(set.coefficient(m)) - glm::dvec3(set.coefficient(i)));
+        const auto own_step = glm::length(glm::dvec3(own(m)) - glm::dvec3(own(i)));
+        evidence.shared_steps += static_cast<float>(shared_step);
+        evidence.own_steps += static_cast<float>(own_step);
+    };
+    const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
+    if (p.x + 1 < all.x1)
+        compare(i + 1);
+    if (p.y + 1 < all.y1)
+        compare(i + all.width());
+    evidence.offset_rays = set.offset_rays;
+    evidence.base_rays = static_cast<float>(path.size() * (1 + path.light_samples()));
+    return evidence;
 }
 
 } // namespace tessera

@@ -27,12 +27,17 @@ struct SamplingSet {
     std::vector<Rgb> radiance;
     std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
     std::vector<ReuseCounts> reuse;
+    int number = 0;         ///< which of the paths that a pixel takes for itself alone (Pass::camera_sample)
+    float offset_rays = 0;  ///< that an offset took, in the mean
     ArrivingLight arriving; ///< if the basis has parts
     std::vector<Rgb> parts; ///< of the coefficients, part_count() a pixel, once they are expanded
 
     int size() const { return static_cast<int>(pixels.size()); }
 
-    void clear() { pixels.clear(); }
+    void clear() {
+        pixels.clear();
+        number = 0;
+    }
     void add(int x, int y) { pixels.emplace_back(x, y); }
     /// All pixels of a rectangle, row by row, and no others.
     void assign(PixelRect rect);
@@ -84,7 +89,8 @@ public:
     /// [Bauszat 2017, 3.2], and all see the scene through the same pinhole, whose picture is sharp. The positions
     /// of a block are a low-discrepancy sequence over the passes; each block's is rotated by another vector, as an
     /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
-    CameraSample camera_sample(glm::ivec2 pixel) const;
+    /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
+    CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
@@ -110,8 +116,10 @@ public:
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     bool has_lens() const { return has_lens_; }
 
-    Random random(int x, int y) const {
-        return Random(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
+    /// The numbers of a pixel's path; `path` as in camera_sample().
+    Random random(int x, int y, int path = 0) const {
+        const std::uint64_t own = static_cast<std::uint64_t>(path) * 0x6f77'6e20'7061'7468u;
+        return Random(settings.seed ^ own, static_cast<std::uint32_t>(y * size.x + x),
                       static_cast<std::uint32_t>(index));
     }
 
@@ -128,7 +136,8 @@ private:
 class BaseBlock {
 public:
     /// For the light that pixels of the block of `inside` get, and no others.
-    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside);
+    /// @param number  of the paths, as in Pass::camera_sample()
+    void trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number = 0);
     const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
 
 private:
@@ -138,6 +147,14 @@ private:
 
     PixelRect rect_{0, 0, 0, 0};
     std::vector<BasePath> paths_; // never shrinks, so that vertices keep their memory
+};
+
+/// The mean of several base paths of a pixel.
+struct MeanOfPaths {
+    Rgb coefficient{0}, radiance{0}, albedo{0}, very_direct{0};
+
+    /// Adds one of `count` paths.
+    void add(const Pass& pass, const BasePath& path, int count);
 };
 
 /// What a worker carries from block to block: memory and counts.
@@ -159,6 +176,7 @@ struct Worker {
     SamplingSet set;
     ArrivingLight own;                              ///< of one base path
     std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
+    std::vector<MeanOfPaths> means;                 ///< of a set whose pixels share nothing
 };
 
 /// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
@@ -174,7 +192,9 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 
 /// Traces the path of one sample of this pass, from there in its pixel and on the lens. One that is not finite is
 /// refused, counted, and left empty: it would spoil all pixels that share it.
-void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path);
+/// @param number  of the path, as in Pass::camera_sample()
+void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
+                 int number = 0);
 
 /// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
 /// it blurs is seen through some of its points only.
@@ -211,14 +231,22 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     set.collect(pass, worker.base);
     const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
     worker.reuse.begin(set.paths);
+    const std::uint64_t rays = worker.counters.offset_rays();
     for (int k = 0; k < set.size(); ++k) {
         const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
         worker.reuse.share(k, decision.scale, set.radiance, set.arriving.is_kept() ? &set.arriving : nullptr);
         set.count(worker.reuse.outcomes(), k);
         watch(k, decision);
     }
+    const int offsets = set.size() * (set.size() - 1);
+    set.offset_rays =
+        static_cast<float>(worker.counters.offset_rays() - rays) / static_cast<float>(std::max(offsets, 1));
 }
 /// share_light() where nobody wants to know of single paths.
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
+
+/// What entry i of a set of G-PR that has shared its light tells the plan. The set is all of the rectangle, row by
+/// row.
+PlanEvidence evidence_of(const Pass& pass, const Worker& worker, int i, PixelRect all);
 
 } // namespace tessera

@@ -28,14 +28,16 @@ public:
     PixelRect part_at(glm::ivec2 pixel) const;
     /// The edge of the squares into which a tile is cut.
     int part_edge(PixelRect tile) const { return plan_.part_edge(tile); }
+    /// How many base paths each pixel of the tile takes for itself alone; 0: its pixels share one each.
+    int paths_alone(PixelRect tile) const { return plan_.paths_alone(tile); }
 
-    /// Calls `visit(part)` for the squares, not empty, into which the plan cuts the tiles of a block.
+    /// Calls `visit(part, tile)` for the squares, not empty, into which the plan cuts the tiles of a block.
     template <class Visit>
     void for_each_part(PixelRect block, Visit&& visit) const {
         for_each_square(block, settings_.tile, [&](PixelRect tile) {
             for_each_square(tile, part_edge(tile), [&](PixelRect part) {
                 if (const PixelRect inner = part.clipped(size); !inner.empty())
-                    visit(inner);
+                    visit(inner, tile);
             });
         });
     }

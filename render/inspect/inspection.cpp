@@ -24,7 +24,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     InspectedSet result{worker.set.pixels, {}, {}, {}, {}};
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
-    worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0});
+    worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0}, worker.set.number);
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
     share_light(pass, roulette_of(pass.settings), worker, onlooker);
     result.albedo = worker.set.albedo;
@@ -50,6 +50,13 @@ bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings&
 }
 
 } // namespace
+
+Rgb Inspection::shared_radiance() const {
+    Rgb sum(0);
+    for (const InspectedSet& set : sets)
+        sum += set.radiance(pixel) / static_cast<float>(sets.size());
+    return sum;
+}
 
 int InspectedSet::index_of(glm::ivec2 pixel) const {
     const auto found = std::find(pixels.begin(), pixels.end(), pixel);
@@ -92,14 +99,22 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Worker worker(scene, settings);
     const CameraSample from = pass.camera_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
-    // Not by trace_pixel(), which empties a path that is to be refused.
-    trace_base_path(worker.tracer, pass.camera_ray(pixel.x, pixel.y, from), pass.pixel_width(),
-                    pass.random(pixel.x, pixel.y), worker.path);
-    result.path = inspect_path(worker.path);
-    result.radiance = worker.path.radiance();
-    result.very_direct = worker.path.very_direct;
-    const Rgb albedo = has_own_primal(settings) ? pass.albedo_of(worker.path) : Rgb(1);
-    result.is_refused = !is_finite(coefficient(result.radiance, albedo) + result.very_direct);
+    const int paths =
+        std::max(reuses_paths(settings.method) ? pass.grid.paths_alone(pass.grid.tile_at(pixel)) : 0, 1);
+    for (int number = 0; number < paths; ++number) {
+        // Not by trace_pixel(), which empties a path that is to be refused.
+        const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.camera_sample(pixel, number));
+        trace_base_path(worker.tracer, ray, pass.pixel_width(), pass.random(pixel.x, pixel.y, number),
+                        worker.path);
+        if (number == 0) {
+            result.path = inspect_path(worker.path);
+            result.radiance = worker.path.radiance();
+        }
+        result.very_direct += worker.path.very_direct / static_cast<float>(paths);
+        const Rgb albedo = has_own_primal(settings) ? pass.albedo_of(worker.path) : Rgb(1);
+        result.is_refused =
+            result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + worker.path.very_direct);
+    }
     for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
         if (inner.contains(pixel) && worker.set.contains(pixel))
             result.sets.push_back(inspect_set(pass, inner, pixel, worker));
@@ -121,6 +136,40 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
     return result;
 }
 
+namespace {
+
+/// What the base paths of a pass tell the plan of the pixels that are seen.
+void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan& plan) {
+    for (int y = seen.y0; y < seen.y1; ++y)
+        for (int x = seen.x0; x < seen.x1; ++x) {
+            trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
+            plan.learn(x, y, {worker.reuse.arriving_luminance(worker.path)});
+        }
+}
+
+/// What G-PR's first pass tells it: with it, sets share their light.
+void learn_gain(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan& plan) {
+    Image<PlanEvidence> evidence(seen.width(), seen.height());
+    const auto look_at = [&](PixelRect tile) {
+        for_each_gpr_set(pass, tile, worker.set, [&](PixelRect inner, PixelRect all, int) {
+            worker.base.trace(pass, worker.tracer, all, {inner.x0, inner.y0});
+            share_light(pass, roulette_of(pass.settings), worker);
+            for (int i = 0; i < worker.set.size(); ++i)
+                if (const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
+                    inner.contains(p) && seen.contains(p))
+                    evidence(p.x - seen.x0, p.y - seen.y0) = evidence_of(pass, worker, i, all);
+        });
+    };
+    const PixelRect first = pass.grid.tile_at({seen.x0, seen.y0}),
+                    last = pass.grid.tile_at({seen.x1 - 1, seen.y1 - 1});
+    for_each_square({first.x0, first.y0, last.x1, last.y1}, pass.settings.tile, look_at);
+    for (int y = seen.y0; y < seen.y1; ++y)
+        for (int x = seen.x0; x < seen.x1; ++x)
+            plan.learn(x, y, evidence(x - seen.x0, y - seen.y0));
+}
+
+} // namespace
+
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                       int pass, glm::ivec2 pixel, std::stop_token stop) {
     ReusePlan plan(size, settings);
@@ -128,13 +177,14 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
         return plan;
     const PixelRect seen = plan.evidence(TileGrid(size, settings, plan, pass).tile_at(pixel));
     Worker worker(scene, settings);
+    const ReusePlan untaught = plan;
     for (int i = 0; i < pass && !stop.stop_requested(); ++i) {
-        const Pass earlier(scene, camera, size, settings, plan, i); // no base path depends on the plan
-        for (int y = seen.y0; y < seen.y1; ++y)
-            for (int x = seen.x0; x < seen.x1; ++x) {
-                trace_pixel(earlier, worker.tracer, x, y, earlier.camera_sample({x, y}), worker.path);
-                plan.learn(x, y, worker.reuse.arriving_luminance(worker.path));
-            }
+        // Neither base paths nor the sets of the first pass depend on the plan.
+        const Pass earlier(scene, camera, size, settings, i == 0 ? untaught : plan, i);
+        if (i == 0 && finds_gain_of_sharing(settings))
+            learn_gain(earlier, seen, worker, plan);
+        else
+            learn_luminance(earlier, seen, worker, plan);
     }
     return plan;
 }

@@ -101,9 +101,13 @@ struct Inspection {
     std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: the camera ray leaves the scene
     Rgb radiance;                      ///< of the pixel's own base path, without very direct light
     Rgb very_direct;
-    bool is_refused; ///< the path, or what the pixel and its neighbours got, is not finite: it was left out
-    /// The sets that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below).
+    bool is_refused; ///< a path, or what the pixel and its neighbours got, is not finite: it was left out
+    /// The sets that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below); and
+    /// where the pixel shares nothing, one for each of the paths whose mean it takes.
     std::vector<InspectedSet> sets;
+
+    /// What the pixel gets from its sets: their mean.
+    Rgb shared_radiance() const;
 };
 
 /// All sampling sets of a tile in one pass, done again, in the order in which the pass takes them.
@@ -130,7 +134,8 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
 
 /// The plan that a pass of a render had, as far as the tile of one pixel goes: bit for bit, and good for no other
 /// tile. It is learnt again from the base paths of the passes before, of the few pixels that decide on that tile;
-/// this costs as much as path tracing some 16 x 16 pixels as often.
+/// this costs as much as path tracing some 16 x 16 pixels as often, and
+/// of G-PR as its first pass over them.
 /// @param pass  counts from 0
 /// @param stop  ends it early: it has then learnt less, and is good for nothing
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,

@@ -124,7 +124,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         return false;
     std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
-    plan_.learn(film_.base_luminance());
+    plan_.learn(film_.evidence());
     ++spp_;
     film_.ask_for_albedo(spp_);
     return true;

@@ -123,4 +123,10 @@ inline bool has_tiles_to_cut(const RenderSettings& s) {
     return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
 }
 
+/// Whether its plan finds out where sharing brings nothing: gradients tell, and of parts there are means of one
+/// path only.
+inline bool finds_gain_of_sharing(const RenderSettings& s) {
+    return s.method == Method::gpr && s.adapt_tile && s.tile > 1 && !is_expanded(s);
+}
+
 } // namespace tessera

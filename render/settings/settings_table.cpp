@@ -146,7 +146,9 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. Used by PR and G-PR.",
          Setting::Whole{&s.tile, 1, most_tile}, shares},
         {"adapt_tile", "Adapt",
-         "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain.",
+         "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain. "
+         "Where "
+         "sharing brings G-PR nothing, pixels take more paths of their own instead.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
         {"jitter", "Jitter",
          "Moves the grid of tiles every pass, so that no pixel is always at a tile's edge. Off, edges stay in the "

@@ -184,8 +184,9 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
     for (auto _ : state)
         for (std::size_t i = 0; i < base.size(); ++i) {
             std::swap(worker.base, base[i]);
-            for_each_gpr_set(stage.pass, stage.blocks[i], worker.set,
-                             [&](PixelRect, PixelRect) { tessera::share_light(stage.pass, roulette, worker); });
+            for_each_gpr_set(stage.pass, stage.blocks[i], worker.set, [&](PixelRect, PixelRect, int) {
+                tessera::share_light(stage.pass, roulette, worker);
+            });
             std::swap(worker.base, base[i]);
         }
     report(state, "paths", static_cast<double>(worker.counters.set_paths()));

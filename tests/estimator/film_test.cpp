@@ -26,7 +26,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
         for (Rgb PixelSample::*part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
                                        &PixelSample::very_direct, &PixelSample::albedo})
             for (int channel = 0; channel < 3; ++channel) {
-                Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .base_luminance = true});
+                Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .evidence = true});
                 Counters counters;
                 PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
                 (sample.*part)[channel] = bad;
@@ -42,7 +42,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
-                EXPECT_EQ(film.base_luminance()(1, 0), 1); // so that a plan depends on base paths alone
+                EXPECT_EQ(film.evidence()(1, 0).luminance, 1); // so that a plan depends on base paths alone
             }
 }
 

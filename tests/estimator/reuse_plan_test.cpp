@@ -19,19 +19,58 @@ RenderSettings settings_of(Method method = Method::gpr, int tile = 6) {
 }
 
 /// Base paths of which every n-th is lit, in the left half of the image; those in the right half all are.
-Image<float> luminance(int n, float scale = 1) {
-    Image<float> image(size.x, size.y);
+Image<PlanEvidence> luminance(int n, float scale = 1) {
+    Image<PlanEvidence> image(size.x, size.y);
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
-            image(x, y) = x >= size.x / 2 || (y * size.x + x) % n == 0 ? scale : 0;
+            image(x, y).luminance = x >= size.x / 2 || (y * size.x + x) % n == 0 ? scale : 0;
     return image;
 }
 
 constexpr PixelRect left{2, 2, 8, 8}, right{50, 2, 56, 8};
 
-TEST(ReusePlan, WithoutAPassTilesStayWhole) {
-    const ReusePlan plan(size, settings_of());
-    EXPECT_EQ(plan.part_edge(left), 6);
+TEST(ReusePlan, WithoutAPassGprSharesInSmallSquaresAndPrInWholeTiles) {
+    EXPECT_EQ(ReusePlan(size, settings_of()).part_edge(left), 2);
+    EXPECT_EQ(ReusePlan(size, settings_of()).paths_alone(left), 0);
+    EXPECT_EQ(ReusePlan(size, settings_of(Method::pr)).part_edge(left), 6);
+}
+
+/// Paths that bring very different light: lengths of gradients are `shared` with sharing, and 1 without.
+Image<PlanEvidence> steps(float shared, float offset_rays) {
+    Image<PlanEvidence> image = luminance(1000);
+    for (PlanEvidence& e : image) {
+        e.luminance = e.luminance > 0 ? 1000.0f : 0.001f;
+        e = {e.luminance, 2 * shared, 2, offset_rays, 8};
+    }
+    return image;
+}
+
+TEST(ReusePlan, PixelsAreAloneWhereGradientsTellNothingForTheirCost) {
+    const auto paths_alone = [](float shared, float offset_rays, Method method = Method::gpr) {
+        ReusePlan plan(size, settings_of(method));
+        plan.learn(steps(shared, offset_rays));
+        EXPECT_EQ(plan.part_edge(left), 6);
+        return plan.paths_alone(left);
+    };
+    EXPECT_EQ(paths_alone(0.1f, 1.5f), 0); // 65 offsets a pixel: 12 rays of offsets to one of a base path
+    EXPECT_EQ(paths_alone(0.4f, 0.1f), 0);
+    EXPECT_EQ(paths_alone(0.6f, 1.5f), 6); // what sharing would have cost
+    EXPECT_EQ(paths_alone(1, 1000), 12);
+    EXPECT_EQ(paths_alone(0.6f, 1.5f, Method::pr), 0); // it has no gradients
+}
+
+TEST(ReusePlan, WhatTheFirstPassFoundStays) {
+    ReusePlan plan(size, settings_of());
+    plan.learn(steps(0.6f, 1.5f));
+    for (int pass = 1; pass < 10; ++pass)
+        plan.learn(luminance(1000, 1000));
+    EXPECT_EQ(plan.paths_alone(left), 6);
+}
+
+TEST(ReusePlan, WithoutLightPixelsShare) {
+    ReusePlan plan(size, settings_of());
+    plan.learn(Image<PlanEvidence>(size.x, size.y, {0, 0, 0, 0, 8}));
+    EXPECT_EQ(plan.paths_alone(left), 0);
 }
 
 TEST(ReusePlan, CutsWherePathsBringAlike) {

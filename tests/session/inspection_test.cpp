@@ -66,7 +66,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
             const glm::ivec2 p = pixels[n];
             const Inspection seen =
                 inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), pass, p);
-            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.sets.at(0).radiance(p);
+            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.shared_radiance();
             const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.radiance()(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
                 << p.x << ',' << p.y << " pass " << pass;
@@ -180,7 +180,7 @@ TEST(Inspection, TilesAreThoseOfThePass) {
         for (const glm::ivec2 p : seen.sets[0].pixels)
             EXPECT_TRUE(part.contains(p));
         int parts_with_it = 0;
-        grid.for_each_part({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other) {
+        grid.for_each_part({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other, PixelRect) {
             if (other.contains({12, 7})) {
                 ++parts_with_it;
                 EXPECT_EQ(other.x0, part.x0);

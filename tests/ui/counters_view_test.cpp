@@ -126,8 +126,9 @@ TEST_F(CountersView, PanelDrawsSharesAsBars) {
     ASSERT_TRUE(wait_until([&] { return viewer.settled(3); })); // of another size
     const Snapshot& snapshot = *pane(1).snapshot;
     const double share =
-        static_cast<double>(snapshot.counters.shifts[0]) / static_cast<double>(snapshot.counters.shift_attempts());
-    const ControlRect row = place("statistics.shifts.ok");
+        static_cast<double>(snapshot.counters.rays[static_cast<std::size_t>(RayKind::shift_edge)]) /
+        static_cast<double>(snapshot.counters.all_rays());
+    const ControlRect row = place("statistics.rays.shift_edge");
     const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(method_colour(Method::gpr));
     const ScreenPixels pixels = screen();
     int filled = 0, width = 0;

@@ -23,6 +23,7 @@ constexpr ImU32 tile_colour = IM_COL32(255, 255, 255, 90), part_colour = IM_COL3
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 70);
 constexpr ImU32 set_colour = IM_COL32(64, 196, 178, 70), set_edge_colour = IM_COL32(64, 196, 178, 255);
 constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90);
+constexpr ImU32 alone_colour = IM_COL32(51, 102, 255, 60); // pixels that share nothing
 
 class TileDrawing {
 public:
@@ -100,6 +101,8 @@ private:
     void draw_cuts(PixelRect tile) const {
         const int edge = grid_.part_edge(tile);
         const PixelRect inner = tile.clipped(size_);
+        if (grid_.paths_alone(tile) > 0)
+            drawing_.fill(inner, alone_colour);
         if (static_cast<float>(edge) * unit_ < least_edge)
             return;
         for (int x = tile.x0 + edge; x < inner.x1; x += edge)
@@ -138,10 +141,11 @@ private:
                 outline({x, y, x + 1, y + 1}, set_edge_colour);
             });
         } else if (reuses_paths(settings_.method)) {
-            const PixelRect part = grid_.part_at(p);
+            const bool is_alone = grid_.paths_alone(grid_.tile_at(p)) > 0;
+            const PixelRect part = is_alone ? pixel : grid_.part_at(p);
             drawing_.fill(part, set_colour);
             outline(part, set_edge_colour);
-            if (settings_.method == Method::gpr) {
+            if (settings_.method == Method::gpr && !is_alone) {
                 const PixelRect all = part.with_halo(size_);
                 drawing_.fill(PixelRect{part.x1, all.y0, all.x1, all.y1}, halo_colour);
                 drawing_.fill(PixelRect{all.x0, part.y1, part.x1, all.y1}, halo_colour);
