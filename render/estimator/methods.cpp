@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
 
 #include <glm/vec2.hpp>
 
@@ -112,12 +111,11 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
         }
 }
 
-/// Adds the inner pixels of worker.set where its pixels share nothing: the means of `count` base paths of each.
-/// Their gradients are mere differences of these; across the set's border, to the neighbour's first path.
-void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
-    worker.means.clear();
+/// Where the pixels of worker.set share nothing: finds the means of `count` base paths of each. Beyond the set, what
+/// the neighbours' first paths bring, until they have a mean of their own: sets that follow write over it.
+void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     for (glm::ivec2 p : worker.set.pixels) {
-        MeanOfPaths mean;
+        MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
         const int paths = inner.contains(p) ? count : 1;
         mean.add(pass, worker.base.at(p.x, p.y), paths);
         for (int number = 1; number < paths; ++number) {
@@ -125,22 +123,24 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
                         worker.path, number);
             mean.add(pass, worker.path, paths);
         }
-        worker.means.push_back(mean);
     }
-    for (std::size_t i = 0; i < worker.means.size(); ++i) {
-        const auto [x, y] = std::pair(worker.set.pixels[i].x, worker.set.pixels[i].y);
-        if (!inner.contains({x, y}))
-            continue;
-        const MeanOfPaths& here = worker.means[i];
-        PixelSample sample{here.coefficient, Rgb(0), Rgb(0), here.very_direct, here.albedo};
-        sample.beside = here.radiance - here.coefficient * here.albedo;
-        if (x + 1 < all.x1)
-            sample.dx = worker.means[i + 1].coefficient - here.coefficient;
-        if (y + 1 < all.y1)
-            sample.dy = worker.means[i + static_cast<std::size_t>(all.width())].coefficient - here.coefficient;
-        sample.evidence.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
-        add_sample(pass, x, y, sample, worker, film);
-    }
+}
+
+/// Adds pixels that share nothing. Their gradients are mere differences of their means: then the means are all that
+/// a reconstruction finds. Only across the block's border, and to pixels that share, they are not quite.
+void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
+    for (int y = inner.y0; y < inner.y1; ++y)
+        for (int x = inner.x0; x < inner.x1; ++x) {
+            const MeanOfPaths& here = worker.base.mean(x, y);
+            PixelSample sample{here.coefficient, Rgb(0), Rgb(0), here.very_direct, here.albedo};
+            sample.beside = here.radiance - here.coefficient * here.albedo;
+            if (x + 1 < all.x1)
+                sample.dx = worker.base.mean(x + 1, y).coefficient - here.coefficient;
+            if (y + 1 < all.y1)
+                sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
+            sample.evidence.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
+            add_sample(pass, x, y, sample, worker, film);
+        }
 }
 
 /// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
@@ -149,9 +149,13 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
+    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect, int paths_alone) {
+        if (paths_alone > 0)
+            take_means(pass, inner, paths_alone, worker);
+    });
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
         if (paths_alone > 0)
-            return add_alone(pass, inner, all, paths_alone, worker, film);
+            return add_alone(pass, inner, all, worker, film);
         share_light(pass, roulette_of(pass.settings), worker);
         worker.set.expand(film);
         add_tile(pass, inner, all, worker, film);

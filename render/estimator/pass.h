@@ -132,6 +132,14 @@ private:
     glm::vec2 subpixel_, lens_;
 };
 
+/// The mean of several base paths of a pixel.
+struct MeanOfPaths {
+    Rgb coefficient{0}, radiance{0}, albedo{0}, very_direct{0};
+
+    /// Adds one of `count` paths.
+    void add(const Pass& pass, const BasePath& path, int count);
+};
+
 /// The base paths of a rectangle of pixels.
 class BaseBlock {
 public:
@@ -139,6 +147,11 @@ public:
     /// @param number  of the paths, as in Pass::camera_sample()
     void trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number = 0);
     const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
+    /// What paths of its own alone bring a pixel that shares nothing; that of others is anything.
+    MeanOfPaths& mean(int x, int y) {
+        means_.resize(paths_.size());
+        return means_[index(x, y)];
+    }
 
 private:
     std::size_t index(int x, int y) const {
@@ -147,14 +160,7 @@ private:
 
     PixelRect rect_{0, 0, 0, 0};
     std::vector<BasePath> paths_; // never shrinks, so that vertices keep their memory
-};
-
-/// The mean of several base paths of a pixel.
-struct MeanOfPaths {
-    Rgb coefficient{0}, radiance{0}, albedo{0}, very_direct{0};
-
-    /// Adds one of `count` paths.
-    void add(const Pass& pass, const BasePath& path, int count);
+    std::vector<MeanOfPaths> means_;
 };
 
 /// What a worker carries from block to block: memory and counts.
@@ -176,7 +182,6 @@ struct Worker {
     SamplingSet set;
     ArrivingLight own;                              ///< of one base path
     std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
-    std::vector<MeanOfPaths> means;                 ///< of a set whose pixels share nothing
 };
 
 /// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the
