@@ -82,7 +82,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     command.add_flag(
         "--buffers", options.layers.buffers,
         "primal, dx, dy, direct, the variances, and shares of what was reused, of each outcome of the "
-        "shifts and of survival in the roulette as layers of the EXR file, too");
+        "shifts and of survival in the roulette, and what the plan has chosen, as layers of the EXR file, too");
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

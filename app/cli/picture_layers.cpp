@@ -135,6 +135,8 @@ ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const Rec
         add_layer(file, fmt::format("shifts_{}", to_string(outcome)), grey(maps.share(outcome)));
     }
     add_layer(file, "survival", grey(maps.survival()));
+    add_layer(file, "sharers", grey(maps.sharers));
+    add_layer(file, "gain", grey(maps.gain));
     return file;
 }
 

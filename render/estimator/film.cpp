@@ -90,12 +90,12 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 } // namespace
 
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
-    const std::size_t a_pixel = sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(Brightest) +
-                                sizeof(glm::dvec3) +
-                                (buffers.albedo ? sizeof(AlbedoPoints) + 4 * sizeof(glm::dvec3) : 0) +
-                                static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
-                                (buffers.reuse ? sizeof(ReuseCounts) : 0) +
-                                (buffers.evidence ? sizeof(PlanEvidence) : 0) + (buffers.lamp_edges ? 1 : 0);
+    const std::size_t a_pixel =
+        sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(Brightest) + sizeof(glm::dvec3) +
+        (buffers.albedo ? sizeof(AlbedoPoints) + (buffers.means ? 5 : 4) * sizeof(glm::dvec3) : 0) +
+        static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
+        (buffers.reuse ? sizeof(ReuseCounts) : 0) + (buffers.luminance ? sizeof(float) : 0) +
+        (buffers.lamp_edges ? 1 : 0);
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
 }
 
@@ -110,11 +110,13 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
     if (buffers.albedo) {
         albedo_ = Image<AlbedoPoints>(width, height);
         value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = Image<glm::dvec3>(width, height);
+        if (buffers.means)
+            beside_ = Image<glm::dvec3>(width, height);
     }
     if (buffers.reuse)
         reuse_ = Image<ReuseCounts>(width, height);
-    if (buffers.evidence)
-        evidence_ = Image<PlanEvidence>(width, height);
+    if (buffers.luminance)
+        luminance_ = Image<float>(width, height);
     if (buffers.lamp_edges)
         lamp_edges_ = Image<std::uint8_t>(width, height);
 }
@@ -139,6 +141,9 @@ void Film::add_parts(int x, int y, const PixelSample& sample) {
 void Film::remember_if_brightest(int x, int y, const PixelSample& sample) {
     Brightest found{sample.primal, x + 1 < width() ? sample.dx : Rgb(0), y + 1 < height() ? sample.dy : Rgb(0),
                     sample.albedo};
+    for (int c = 0; c < 3; ++c) // so that primal times albedo is its radiance, of a mean of paths, too
+        if (found.primal[c] > 0)
+            found.albedo[c] += sample.beside[c] / found.primal[c];
     for (Rgb c : {found.primal, found.dx, found.dy})
         found.size = std::max(found.size, luminance(glm::abs(c)));
     if (Brightest& kept = brightest_(x, y); found.size > kept.size)
@@ -146,10 +151,9 @@ void Film::remember_if_brightest(int x, int y, const PixelSample& sample) {
 }
 
 void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& counters) {
-    const bool good = is_good(sample);
-    if (!evidence_.empty()) // the luminance is its base path's alone, and finite, whatever the others brought
-        evidence_(x, y) = good ? sample.evidence : PlanEvidence{sample.evidence.luminance};
-    if (!good) {
+    if (!luminance_.empty()) // it is its base path's alone, and finite, whatever the others brought
+        luminance_(x, y) = sample.luminance;
+    if (!is_good(sample)) {
         counters.refuse({pass, y, x});
         return;
     }
@@ -161,6 +165,8 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     if (keeps_albedo()) {
         const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a + glm::dvec3(sample.beside);
         value_(x, y) += v;
+        if (!beside_.empty())
+            beside_(x, y) += glm::dvec3(sample.beside);
         sampled_albedo_(x, y) += a;
         albedo_squares_(x, y) += a * a;
         albedo_values_(x, y) += a * v;
@@ -241,8 +247,9 @@ void Film::ask_for_albedo(int passes) {
 void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
     const double n = passes;
     const glm::dvec3 a = sampled_albedo_.data()[i] / n, v = value_.data()[i] / n, e = primal_.data()[i].sum / n;
+    const glm::dvec3 beside = beside_.empty() ? glm::dvec3(0) : beside_.data()[i] / n;
     const glm::dvec3 variance = glm::max(albedo_squares_.data()[i] / n - a * a, 0.0); // below 0 by rounding alone
-    const glm::dvec3 with_value = albedo_values_.data()[i] / n - a * v, with_light = v - a * e;
+    const glm::dvec3 with_value = albedo_values_.data()[i] / n - a * v, with_light = v - beside - a * e;
     const double all = primal_.data()[i].squares - n * glm::dot(e, e);
     double explained = 0;
     for (int c = 0; c < 3; ++c)
@@ -331,7 +338,7 @@ GradientImages Film::means(int passes) const {
 
 GradientImages Film::take_means(int passes) {
     reuse_ = {};
-    evidence_ = {};
+    luminance_ = {};
     GradientImages images;
     images.parts = part_means(passes);
     parts_ = {};
@@ -345,7 +352,7 @@ GradientImages Film::take_means(int passes) {
     take(dy_, images.dy, images.dy_variance);
     images.demodulation = demodulation(passes);
     albedo_ = {};
-    value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = {};
+    value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = beside_ = {};
     take(primal_, images.primal, images.primal_variance);
     images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
     return images;
@@ -355,8 +362,8 @@ Memory Film::memory() {
     return {
         memory_of(primal_),         memory_of(very_direct_),   memory_of(dx_),        memory_of(dy_),
         memory_of(brightest_),      memory_of(albedo_),        memory_of(value_),     memory_of(sampled_albedo_),
-        memory_of(albedo_squares_), memory_of(albedo_values_), memory_of(parts_),     memory_of(projections_),
-        memory_of(reuse_),          memory_of(evidence_),      memory_of(lamp_edges_)};
+        memory_of(albedo_squares_), memory_of(albedo_values_), memory_of(beside_),    memory_of(parts_),
+        memory_of(projections_),    memory_of(reuse_),         memory_of(luminance_), memory_of(lamp_edges_)};
 }
 
 } // namespace tessera

@@ -2,7 +2,6 @@
 
 #include "recon/image.h"
 #include "render/estimator/counters.h"
-#include "render/estimator/reuse_policy.h"
 #include "render/io/memory.h"
 
 #include <algorithm>
@@ -35,6 +34,10 @@ struct ReuseMaps {
     Image<ReuseCounts> counts; ///< of all passes; empty where pixels share nothing
     int passes = 0;
 
+    // What the plan has chosen for the next pass; empty where there are no tiles:
+    Image<float> sharers{}; ///< pixels of the sampling set that a pixel is in; 1: it shares nothing
+    Image<float> gain{};    ///< ReusePlan::gain
+
     bool empty() const { return counts.empty(); }
 
     Image<float> reused() const; ///< base paths of other pixels that brought light here, a pass
@@ -59,7 +62,7 @@ struct PixelSample {
     Rgb very_direct{0};
     Rgb albedo{1}; ///< above 0, or black where nothing is seen
     ReuseCounts reuse{};
-    PlanEvidence evidence{}; ///< what it tells the plan
+    float luminance = -1; ///< PathReuse::arriving_luminance of its base path, which the plan learns from
 
     /// Of primal, dx and dy the parts by direction (basis.h), in memory that outlives the sample; none: without
     /// such a basis, or no neighbour.
@@ -75,9 +78,10 @@ struct FilmBuffers {
     bool gradients = false;
     bool albedo = false;     ///< what radiance was divided by, and radiance itself
     bool reuse = false;      ///< how sharing went
-    bool evidence = false;   ///< for the plan, of the last pass
+    bool luminance = false;  ///< for the plan, of the last pass
     bool lamp_edges = false; ///< of the lamps that the camera sees
     int parts = 0;           ///< of primal and gradients
+    bool means = false;      ///< samples may be means of several paths (PixelSample::beside)
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -137,8 +141,8 @@ public:
     GradientImages take_means(int passes);
     /// How sharing went over `passes` complete passes; empty where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
-    /// PixelSample::evidence of the last pass; empty where it is not kept.
-    const Image<PlanEvidence>& evidence() const { return evidence_; }
+    /// PixelSample::luminance of the last pass; empty where it is not kept.
+    const Image<float>& path_luminance() const { return luminance_; }
     /// All that it has summed.
     Memory memory();
 
@@ -163,7 +167,7 @@ private:
         Moments primal, dx, dy;
     };
 
-    /// The sample that brought most to a pixel: primal, gradients, and the albedo.
+    /// The sample that brought most to a pixel: primal, gradients, and its radiance over the primal.
     struct Brightest {
         Rgb primal{0}, dx{0}, dy{0}, albedo{0};
         float size = 0; ///< the largest luminance of its primal and gradients, whatever their signs
@@ -181,12 +185,13 @@ private:
     Image<Brightest> brightest_;
     Image<AlbedoPoints> albedo_;
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
+    Image<glm::dvec3> beside_;                                                  // what of v is not e a
     int parts_a_pixel_;
     Image<Part> parts_;        // those of a pixel side by side
     Image<float> projections_; // likewise
     Image<glm::dvec3> very_direct_;
     Image<ReuseCounts> reuse_;
-    Image<PlanEvidence> evidence_;
+    Image<float> luminance_;
     Image<std::uint8_t> lamp_edges_;
 };
 

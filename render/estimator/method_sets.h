@@ -18,7 +18,7 @@ inline RouletteKind roulette_of(const RenderSettings& settings) {
 /// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
 template <class Visit>
 void for_each_tile_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner, PixelRect) {
+    pass.grid.for_each_part(block, [&](PixelRect inner, int) {
         set.assign(inner);
         visit(inner);
     });
@@ -66,13 +66,13 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
 
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
 /// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all, paths_alone)`;
-/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (TileGrid::paths_alone).
+/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (ReusePlan::paths_alone).
 template <class Visit>
 void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner, PixelRect tile) {
+    pass.grid.for_each_part(block, [&](PixelRect inner, int paths_alone) {
         const PixelRect all = inner.with_halo(pass.size);
         set.assign(all);
-        visit(inner, all, pass.grid.paths_alone(tile));
+        visit(inner, all, paths_alone);
     });
 }
 
@@ -104,6 +104,25 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
             });
         });
     }
+}
+
+/// Of how many pixels the sampling set is that each pixel of the image has its light from; 1: it shares nothing.
+inline Image<float> sharers_of(const Pass& pass) {
+    Image<float> sharers(pass.size.x, pass.size.y, 1);
+    SamplingSet set;
+    for (const PixelRect& block : blocks_of(pass)) {
+        const auto note = [&](PixelRect inner, bool shares = true) {
+            for (glm::ivec2 p : set.pixels)
+                if (inner.contains(p) && shares)
+                    sharers(p.x, p.y) = static_cast<float>(set.size());
+        };
+        if (pass.settings.method == Method::gpr)
+            for_each_gpr_set(pass, block, set,
+                             [&](PixelRect inner, PixelRect, int alone) { note(inner, !alone); });
+        else
+            for_each_pr_set(pass, block, set, [&](PixelRect inner) { note(inner); });
+    }
+    return sharers;
 }
 
 } // namespace tessera

@@ -93,7 +93,6 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
             const Rgb here = worker.set.coefficient(i);
             const std::span<const Rgb> parts = worker.set.parts_of(i);
             PixelSample sample = worker.set.sample(i, worker.reuse);
-            sample.evidence = evidence_of(pass, worker, i, all);
             sample.parts = parts;
             if (x + 1 < all.x1) {
                 sample.dx = worker.set.coefficient(i + 1) - here;
@@ -111,8 +110,8 @@ void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, 
         }
 }
 
-/// Where the pixels of worker.set share nothing: finds the means of `count` base paths of each. Beyond the set, what
-/// the neighbours' first paths bring, until they have a mean of their own: sets that follow write over it.
+/// Where the pixels of worker.set share nothing: finds the means of `count` base paths of each. Beyond the set,
+/// what the neighbours' first paths bring, until they have a mean of their own: sets that follow write over it.
 void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     for (glm::ivec2 p : worker.set.pixels) {
         MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
@@ -126,8 +125,8 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     }
 }
 
-/// Adds pixels that share nothing. Their gradients are mere differences of their means: then the means are all that
-/// a reconstruction finds. Only across the block's border, and to pixels that share, they are not quite.
+/// Adds pixels that share nothing. Their gradients are mere differences of their means: then the means are all
+/// that a reconstruction finds. Only across the block's border, and to pixels that share, they are not quite.
 void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
@@ -138,7 +137,7 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker,
                 sample.dx = worker.base.mean(x + 1, y).coefficient - here.coefficient;
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
-            sample.evidence.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
+            sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
             add_sample(pass, x, y, sample, worker, film);
         }
 }

@@ -51,13 +51,8 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
 PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
     const auto m = static_cast<std::size_t>(i);
     const BasePath& path = *paths[m];
-    return {coefficient(i),
-            Rgb(0),
-            Rgb(0),
-            path.very_direct,
-            albedo[m],
-            reuse[m],
-            {estimator.arriving_luminance(path)}};
+    return {
+        coefficient(i), Rgb(0), Rgb(0), path.very_direct, albedo[m], reuse[m], estimator.arriving_luminance(path)};
 }
 
 namespace {
@@ -138,6 +133,10 @@ CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
         return {subpixel, sample_disk(lens)};
     return {{fraction(subpixel.x + path * std::sqrt(17.0)), fraction(subpixel.y + path * std::sqrt(19.0))},
             sample_disk({fraction(lens.x + path * std::sqrt(23.0)), fraction(lens.y + path * std::sqrt(29.0))})};
+}
+
+bool Pass::are_in_one_block(glm::ivec2 a, glm::ivec2 b) const {
+    return block_of(*this, a) == block_of(*this, b);
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -292,32 +291,6 @@ ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& work
 
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker) {
     share_light(pass, kind, worker, [](int, const ReuseDecision&) {});
-}
-
-PlanEvidence evidence_of(const Pass& pass, const Worker& worker, int i, PixelRect all) {
-    const SamplingSet& set = worker.set;
-    const BasePath& path = *set.paths[static_cast<std::size_t>(i)];
-    PlanEvidence evidence{worker.reuse.arriving_luminance(path)};
-    if (pass.index > 0 || !finds_gain_of_sharing(pass.settings))
-        return evidence;
-    const auto own = [&set](int m) {
-        return coefficient(set.paths[static_cast<std::size_t>(m)]->radiance(),
-                           set.albedo[static_cast<std::size_t>(m)]);
-    };
-    const auto compare = [&](int m) {
-        const auto shared_step = glm::length(glm::dvec3(set.coefficient(m)) - glm::dvec3(set.coefficient(i)));
-        const auto own_step = glm::length(glm::dvec3(own(m)) - glm::dvec3(own(i)));
-        evidence.shared_steps += static_cast<float>(shared_step);
-        evidence.own_steps += static_cast<float>(own_step);
-    };
-    const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
-    if (p.x + 1 < all.x1)
-        compare(i + 1);
-    if (p.y + 1 < all.y1)
-        compare(i + all.width());
-    evidence.offset_rays = set.offset_rays;
-    evidence.base_rays = static_cast<float>(path.size() * (1 + path.light_samples()));
-    return evidence;
 }
 
 } // namespace tessera

@@ -74,7 +74,7 @@ struct CameraSample {
 /// One sample a pixel of a whole image: what all its blocks have in common.
 class Pass {
 public:
-    /// `index` counts passes from 0. Keeps references to scene, settings and plan.
+    /// `index` counts passes from 0; those of a pilot are below. Keeps references to scene, settings and plan.
     Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
          const ReusePlan& plan, int index);
 
@@ -91,6 +91,7 @@ public:
     /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
     /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
     CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
+    bool are_in_one_block(glm::ivec2 a, glm::ivec2 b) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
@@ -249,9 +250,5 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
 }
 /// share_light() where nobody wants to know of single paths.
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker);
-
-/// What entry i of a set of G-PR that has shared its light tells the plan. The set is all of the rectangle, row by
-/// row.
-PlanEvidence evidence_of(const Pass& pass, const Worker& worker, int i, PixelRect all);
 
 } // namespace tessera

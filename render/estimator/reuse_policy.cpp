@@ -15,92 +15,85 @@ namespace {
 /// veach-ajar together.
 constexpr double sharers = 20;
 
-constexpr int first_edge = 2; // of G-PR's squares in the first pass
-
-/// Of what rho times cost may be, 1.7, 2, 2.5 and 3.3 were tried on glossy, bent and rough surfaces, in glass, and
-/// on edges, where true gradients make rho too large.
-constexpr double most_rho_cost = 2.5;
 constexpr double most_paths_alone = 12;
-
-/// What a sample costs in paths of a path tracer, where each offset takes `offset_rays`: from times measured in
-/// those scenes. Rays of offsets go in packets, and end at the base's vertices or at lights.
-double cost_of_sharing(double offset_rays, double base_rays, int edge) {
-    constexpr double own = 1.25, a_ray = 0.4;
-    const double set = (edge + 1) * (edge + 1); // with G-PR's column and row
-    return own + a_ray * offset_rays * set * (set - 1) / (edge * edge) / std::max(base_rays, 1.0);
-}
 
 } // namespace
 
+PlanEvidence& PlanEvidence::operator+=(const PlanEvidence& more) {
+    paths += more.paths;
+    lit += more.lit;
+    sum += more.sum;
+    squares += more.squares;
+    shared_noise += more.shared_noise;
+    own_noise += more.own_noise;
+    offset_rays += more.offset_rays;
+    base_rays += more.base_rays;
+    return *this;
+}
+
 ReusePlan::ReusePlan(glm::ivec2 size, const RenderSettings& settings)
-    : tile_(settings.tile), adapts_(settings.adapt_tile), finds_gain_(adapts_ && finds_gain_of_sharing(settings)),
-      size_(size), cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge) {}
+    : tile_(settings.tile), adapts_(settings.adapt_tile), wants_pilot_(finds_gain_of_sharing(settings)),
+      size_(size), cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge),
+      gain_(cells_.width(), cells_.height()) {}
 
-void ReusePlan::learn(const Image<PlanEvidence>& evidence) {
-    if (!adapts_)
-        return;
-    for (int y = 0; y < evidence.height(); ++y)
-        for (int x = 0; x < evidence.width(); ++x)
-            learn(x, y, evidence(x, y));
+void ReusePlan::learn(const Image<float>& luminance) {
+    for (int y = 0; y < luminance.height(); ++y)
+        for (int x = 0; x < luminance.width(); ++x)
+            learn(x, y, luminance(x, y));
 }
 
-void ReusePlan::learn(int x, int y, const PlanEvidence& evidence) {
-    const double l = evidence.luminance;
-    if (l < 0)
-        return;
-    Cell& cell = cells_(x / cell_edge, y / cell_edge);
-    cell.paths += 1;
-    cell.lit += l > 0;
-    cell.sum += l;
-    cell.squares += l * l;
-    cell.shared_steps += evidence.shared_steps;
-    cell.own_steps += evidence.own_steps;
-    cell.offset_rays += evidence.offset_rays;
-    cell.base_rays += evidence.base_rays;
+void ReusePlan::learn(int x, int y, float luminance) {
+    if (adapts_ && luminance >= 0)
+        cells_(x / cell_edge, y / cell_edge).add_path(luminance);
 }
 
-/// A tile belongs to the cell of the pixel in its middle.
-glm::ivec2 ReusePlan::cell_of(PixelRect tile) const {
-    const glm::ivec2 middle = glm::ivec2(tile.x0 + tile.x1, tile.y0 + tile.y1) / 2;
-    return glm::clamp(middle, glm::ivec2(0), size_ - 1) / cell_edge;
-}
-
-PixelRect ReusePlan::evidence(PixelRect tile) const {
-    const glm::ivec2 from = cell_of(tile) * cell_edge;
+PixelRect ReusePlan::cell(int index) const {
+    const glm::ivec2 from = glm::ivec2(index % cells_.width(), index / cells_.width()) * cell_edge;
     return PixelRect{from.x, from.y, from.x + cell_edge, from.y + cell_edge}.clipped(size_);
 }
 
-const ReusePlan::Cell& ReusePlan::cell(PixelRect tile) const {
-    const glm::ivec2 at = cell_of(tile);
-    return cells_(at.x, at.y);
+int ReusePlan::cell_of(PixelRect piece) const {
+    const glm::ivec2 middle = glm::ivec2(piece.x0 + piece.x1, piece.y0 + piece.y1) / 2;
+    const glm::ivec2 at = glm::clamp(middle, glm::ivec2(0), size_ - 1) / cell_edge;
+    return at.y * cells_.width() + at.x;
 }
 
 /// A whole number of parts, all of nearly the same size.
-int ReusePlan::cut_edge(const Cell& cell) const {
-    if (!(cell.sum > 0))
+int ReusePlan::cut_edge(const PlanEvidence& known) const {
+    if (!(known.sum > 0))
         return tile_;
-    const double relative_variance = cell.squares * cell.paths / (cell.sum * cell.sum) - 1;
-    const double edge = std::sqrt(sharers * std::max(relative_variance, 0.0) * cell.paths / cell.lit);
+    const double relative_variance = known.squares * known.paths / (known.sum * known.sum) - 1;
+    const double edge = std::sqrt(sharers * std::max(relative_variance, 0.0) * known.paths / known.lit);
     const int parts = static_cast<int>(std::ceil(tile_ / std::clamp(edge, 1.0, static_cast<double>(tile_))));
     return (tile_ + parts - 1) / parts;
 }
 
-int ReusePlan::part_edge(PixelRect tile) const {
-    if (!adapts_ || paths_alone(tile) > 0)
-        return tile_;
-    if (finds_gain_ && cell(tile).paths == 0)
-        return std::min(first_edge, tile_);
-    return cut_edge(cell(tile));
+int ReusePlan::part_edge(PixelRect piece) const {
+    return adapts_ && paths_alone(piece) == 0 ? cut_edge(known_of(piece)) : tile_;
 }
 
-int ReusePlan::paths_alone(PixelRect tile) const {
-    const Cell& c = cell(tile);
-    if (!finds_gain_ || !(c.own_steps > 0))
-        return 0;
-    const double cost = cost_of_sharing(c.offset_rays, c.base_rays, tile_);
-    if (c.shared_steps / c.own_steps * cost <= most_rho_cost)
-        return 0;
-    return static_cast<int>(std::clamp(std::round(cost), 1.0, most_paths_alone));
+/// What a sample costs in samples of a path tracer. From times measured in 11 scenes, of which it tells within a
+/// quarter; rays of offsets go in packets, and end at the base's vertices or at lights.
+double ReusePlan::cost_of_sharing(const PlanEvidence& known) const {
+    constexpr double own = 1.7, a_ray = 0.55;
+    const double edge = cut_edge(known), set = (edge + 1) * (edge + 1); // with G-PR's column and row
+    return own + a_ray * known.offset_rays * set * (set - 1) / (edge * edge) / std::max(known.base_rays, 1.0);
+}
+
+void ReusePlan::learn(const std::vector<PlanEvidence>& pilot) {
+    constexpr double least = 1e-6; // where sharing leaves no noise at all
+    double costs = 0, sharing = 0;
+    for (std::size_t i = 0; i < pilot.size(); ++i) {
+        const PlanEvidence& known = cells_.data()[i] += pilot[i];
+        const double cost = cost_of_sharing(known), rho = known.shared_noise / known.own_noise;
+        if (known.own_noise > 0)
+            gain_.data()[i] = static_cast<float>(1 / std::max(rho * rho * cost, least));
+        const bool shares = !is_alone(static_cast<int>(i));
+        costs += shares ? cost : 0;
+        sharing += shares;
+    }
+    if (sharing > 0)
+        paths_alone_ = static_cast<int>(std::clamp(std::round(costs / sharing), 1.0, most_paths_alone));
 }
 
 namespace {

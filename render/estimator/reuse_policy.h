@@ -4,22 +4,32 @@
 #include "render/io/memory.h"
 #include "render/settings/settings.h"
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
 namespace tessera {
 
 struct BasePath;
 class PathReuse;
 
-/// What one sample of a pixel tells the plan.
+/// What is known of the base paths of one cell of a plan: sums.
 struct PlanEvidence {
-    float luminance = -1; ///< PathReuse::arriving_luminance of its base path
+    // Of base paths, and of PathReuse::arriving_luminance:
+    double paths = 0, lit = 0, sum = 0, squares = 0;
 
-    // In the first pass of G-PR, of gradients to the right and below:
-    float shared_steps = 0; ///< their lengths, as sharing measures them
-    float own_steps = 0;    ///< and as mere differences of base paths
-    float offset_rays = 0;  ///< rays that an offset took, in the mean of the set
-    float base_rays = 0;    ///< rays that the base path took
+    // Of what a pilot tried (pilot.h): lengths of the noise of gradients, as sharing measures them and as mere
+    // differences of base paths; and rays that offsets took, and base paths, in the mean for each.
+    double shared_noise = 0, own_noise = 0;
+    double offset_rays = 0, base_rays = 0;
+
+    void add_path(double luminance) {
+        paths += 1;
+        lit += luminance > 0;
+        sum += luminance;
+        squares += luminance * luminance;
+    }
+    PlanEvidence& operator+=(const PlanEvidence& more);
 };
 
 /// Into what tiles are cut before their pixels share light, so that each path has the offsets that pay; and where
@@ -34,55 +44,92 @@ struct PlanEvidence {
 /// alike they are cut down to single pixels and their neighbours. Lights a thousand times as bright change
 /// nothing.
 ///
-/// What sharing brings shows in the gradients: rho, the mean length of those that sharing measures over that of
-/// mere differences of base paths. It is found alike with small squares and with whole tiles; over 18 scenes the
-/// squared error of a reconstructed sample was 0.6 to 1.1 rho times that of a path tracer's. Where rho times the
-/// cost, in base paths, is too much, the pixels of a tile share nothing for the rest of the render: instead each
-/// takes the mean of as many paths of its own as sharing would have cost, so that a pass takes about as long
-/// everywhere. G-PR's first pass finds rho, in squares of 2 x 2 pixels, as it is at its cheapest there.
+/// What sharing brings shows in the noise of the gradients: rho is its mean length with sharing over that of mere
+/// differences of base paths, and rho^2 about what is left of the squared error. Where that, times the cost in
+/// samples of a path tracer, is above 1, pixels share nothing: instead each takes the mean of as many paths of its
+/// own as sharing costs elsewhere in the picture, so that a pass takes about as long everywhere. A pilot finds rho
+/// before the first pass, in small sets, where it is about what it is in whole tiles. (Of lengths of gradients,
+/// not of their noise, it was too large at edges; with rho instead of rho^2, no limit was right on metals, glass,
+/// and in rooms alike.)
 ///
-/// It looks at earlier passes of the same render only: a choice by the light of the paths at hand, or of passes
-/// that a render begun anew will draw again, would be biased.
+/// It looks at the pilot and at earlier passes of the same render only: a choice by the light of the paths at
+/// hand, or of passes that a render begun anew will draw again, would be biased. So would be one that left passes
+/// as they are or gave them another weight by what was found in them: the pilot is no part of the picture.
 class ReusePlan {
 public:
     ReusePlan(glm::ivec2 size, const RenderSettings& settings);
 
-    /// The edge of the squares into which a tile is cut; the last ones may be smaller. Where pixels share nothing,
-    /// and before the first pass of PR, tiles stay whole.
-    int part_edge(PixelRect tile) const;
+    /// Calls `visit(piece)` for what is cut by itself: the whole tile; or, where it reaches into cells of which
+    /// some share and others do not, what it has of each. So a pixel always shares, or never: else its few bad
+    /// samples would spoil the many good ones.
+    template <class Visit>
+    void for_each_piece(PixelRect tile, Visit&& visit) const;
 
-    /// How many base paths each pixel of the tile takes for itself alone; 0: its pixels share one each.
-    int paths_alone(PixelRect tile) const;
+    /// The edge of the squares into which a piece is cut; the last ones may be smaller. Where pixels share
+    /// nothing, and before anything is known, it stays whole.
+    int part_edge(PixelRect piece) const;
 
-    /// Learns from a whole pass.
-    void learn(const Image<PlanEvidence>& evidence);
-    /// Learns from one pixel of a pass. A plan's bits depend on the order of those of a tile's evidence(): row by
-    /// row.
-    void learn(int x, int y, const PlanEvidence& evidence);
+    /// How many base paths each pixel of the piece takes for itself alone; 0: its pixels share one each.
+    int paths_alone(PixelRect piece) const { return is_alone(cell_of(piece)) ? paths_alone_ : 0; }
 
-    /// The pixels whose base paths decide on how a tile is cut.
-    PixelRect evidence(PixelRect tile) const;
+    /// Learns from a whole pass: the arriving luminance of its base paths; below 0: of none.
+    void learn(const Image<float>& luminance);
+    /// Learns from one pixel of a pass. A plan's bits depend on the order of those of a cell: row by row.
+    void learn(int x, int y, float luminance);
+
+    /// Squares of the image, of which each is judged by itself; a piece belongs to the one that its middle is in.
+    int cell_count() const { return static_cast<int>(cells_.size()); }
+    PixelRect cell(int index) const;
+    int cell_of(PixelRect piece) const;
+
+    /// Whether a pilot is to tell of all cells before the first pass.
+    bool wants_pilot() const { return wants_pilot_; }
+    /// Learns from it, of all cells in their order: what it tells of who shares holds for the rest of the render.
+    void learn(const std::vector<PlanEvidence>& pilot);
+
+    /// What sharing brings in a cell for its cost, as the pilot found it: 1 / (rho^2 cost), how many times fewer
+    /// paths a path tracer's error takes; 0: it is not known.
+    float gain(int cell) const { return gain_.data()[cell]; }
 
     /// All that it has learnt.
-    Memory memory() { return {memory_of(cells_)}; }
+    Memory memory() { return {memory_of(cells_), memory_of(gain_), memory_of(paths_alone_)}; }
 
 private:
-    static constexpr int cell_edge = 16; // pixels
-    struct Cell {
-        double paths = 0, lit = 0, sum = 0, squares = 0;
-        double shared_steps = 0, own_steps = 0, offset_rays = 0, base_rays = 0;
-    };
+    static constexpr int cell_edge = 16; // pixels, no fewer than those of any tile
+    static_assert(cell_edge >= most_tile);
 
-    glm::ivec2 cell_of(PixelRect tile) const;
-    const Cell& cell(PixelRect tile) const;
-    int cut_edge(const Cell& cell) const;
+    const PlanEvidence& known_of(PixelRect piece) const { return cells_.data()[cell_of(piece)]; }
+    double cost_of_sharing(const PlanEvidence& known) const;
+    bool is_alone(int cell) const { return gain_.data()[cell] > 0 && gain_.data()[cell] < 1; }
+    int cut_edge(const PlanEvidence& known) const;
 
     int tile_;
-    bool adapts_;
-    bool finds_gain_; ///< the first pass measures what sharing brings
+    bool adapts_, wants_pilot_;
     glm::ivec2 size_;
-    Image<Cell> cells_;
+    Image<PlanEvidence> cells_;
+    Image<float> gain_;   ///< of sharing, by cells
+    int paths_alone_ = 4; ///< where pixels share nothing; as many as make halos and pilot cheap, if none does
 };
+
+template <class Visit>
+void ReusePlan::for_each_piece(PixelRect tile, Visit&& visit) const {
+    // The borders of cells go through the tile once at the most in each direction.
+    const auto border = [](int from, int to, int end) {
+        const int next = (std::max(from, 0) / cell_edge + 1) * cell_edge;
+        return next < std::min(to, end) ? next : to;
+    };
+    const int x = border(tile.x0, tile.x1, size_.x), y = border(tile.y0, tile.y1, size_.y);
+    const PixelRect pieces[] = {
+        {tile.x0, tile.y0, x, y}, {x, tile.y0, tile.x1, y}, {tile.x0, y, x, tile.y1}, {x, y, tile.x1, tile.y1}};
+    const auto is_like_first = [&](PixelRect piece) {
+        return piece.empty() || paths_alone(piece) == paths_alone(pieces[0]);
+    };
+    if (std::ranges::all_of(pieces, is_like_first))
+        return visit(tile);
+    for (const PixelRect piece : pieces)
+        if (!piece.empty())
+            visit(piece);
+}
 
 /// What the roulette decided on one base path.
 struct ReuseDecision {

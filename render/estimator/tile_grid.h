@@ -26,18 +26,20 @@ public:
     PixelRect tile_at(glm::ivec2 pixel) const;
     /// The square of the tile, cut by the plan and at the image's border, that the pixel is in.
     PixelRect part_at(glm::ivec2 pixel) const;
-    /// The edge of the squares into which a tile is cut.
-    int part_edge(PixelRect tile) const { return plan_.part_edge(tile); }
-    /// How many base paths each pixel of the tile takes for itself alone; 0: its pixels share one each.
-    int paths_alone(PixelRect tile) const { return plan_.paths_alone(tile); }
+    /// How many base paths the pixel takes for itself alone; 0: it shares one.
+    int paths_alone_at(glm::ivec2 pixel) const;
 
-    /// Calls `visit(part, tile)` for the squares, not empty, into which the plan cuts the tiles of a block.
+    /// Calls `visit(part, paths_alone)` for the squares, not empty, into which the plan cuts the tiles of a block;
+    /// paths_alone as ReusePlan has them.
     template <class Visit>
     void for_each_part(PixelRect block, Visit&& visit) const {
         for_each_square(block, settings_.tile, [&](PixelRect tile) {
-            for_each_square(tile, part_edge(tile), [&](PixelRect part) {
-                if (const PixelRect inner = part.clipped(size); !inner.empty())
-                    visit(inner, tile);
+            plan_.for_each_piece(tile, [&](PixelRect piece) {
+                const int paths_alone = plan_.paths_alone(piece);
+                for_each_square(piece, plan_.part_edge(piece), [&](PixelRect part) {
+                    if (const PixelRect inner = part.clipped(size); !inner.empty())
+                        visit(inner, paths_alone);
+                });
             });
         });
     }
@@ -60,6 +62,8 @@ public:
     int pattern_at(glm::ivec2 pixel, PixelRect tile, const std::vector<int>& columns) const;
 
 private:
+    PixelRect piece_at(glm::ivec2 pixel) const;
+
     const RenderSettings& settings_;
     const ReusePlan& plan_;
     int pass_;
@@ -85,9 +89,21 @@ inline PixelRect TileGrid::tile_at(glm::ivec2 pixel) const {
     return square_at(pixel, origin, settings_.tile);
 }
 
+inline PixelRect TileGrid::piece_at(glm::ivec2 pixel) const {
+    PixelRect found = tile_at(pixel);
+    plan_.for_each_piece(found, [&](PixelRect piece) { found = piece.contains(pixel) ? piece : found; });
+    return found;
+}
+
 inline PixelRect TileGrid::part_at(glm::ivec2 pixel) const {
-    const PixelRect tile = tile_at(pixel);
-    return square_at(pixel, {tile.x0, tile.y0}, part_edge(tile)).clipped({tile.x1, tile.y1}).clipped(size);
+    const PixelRect piece = piece_at(pixel);
+    return square_at(pixel, {piece.x0, piece.y0}, plan_.part_edge(piece))
+        .clipped({piece.x1, piece.y1})
+        .clipped(size);
+}
+
+inline int TileGrid::paths_alone_at(glm::ivec2 pixel) const {
+    return plan_.paths_alone(piece_at(pixel));
 }
 
 inline void TileGrid::shuffle_columns(PixelRect tile, std::vector<int>& columns) const {

@@ -2,10 +2,12 @@
 
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
+#include "render/estimator/pilot.h"
 #include "render/inspect/onlooker.h"
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace tessera {
 
@@ -26,7 +28,8 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
         result.is_border.push_back(!inner.contains(p));
     worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0}, worker.set.number);
     Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
-    share_light(pass, roulette_of(pass.settings), worker, onlooker);
+    const bool is_alone = reuses_paths(pass.settings.method) && pass.grid.paths_alone_at(result.pixels[0]) > 0;
+    share_light(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
     result.albedo = worker.set.albedo;
     return result;
 }
@@ -47,6 +50,21 @@ bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings&
     };
     return is_bad(pixel) || (has_gradients(settings.method) &&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
+}
+
+/// The same of a pixel that shares nothing: the means of its paths and of its neighbours'.
+bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
+    for (const glm::ivec2 p : {pixel, pixel + glm::ivec2(1, 0), pixel + glm::ivec2(0, 1)}) {
+        if (p.x >= pass.size.x || p.y >= pass.size.y)
+            continue;
+        const int alone = pass.are_in_one_block(p, pixel) ? pass.grid.paths_alone_at(p) : 0;
+        for (int number = 0; number < std::max(alone, 1); ++number) {
+            trace_pixel(pass, worker.tracer, p.x, p.y, pass.camera_sample(pixel, number), worker.path, number);
+            if (!is_finite(coefficient(worker.path.radiance(), pass.albedo_of(worker.path))))
+                return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -99,8 +117,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Worker worker(scene, settings);
     const CameraSample from = pass.camera_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
-    const int paths =
-        std::max(reuses_paths(settings.method) ? pass.grid.paths_alone(pass.grid.tile_at(pixel)) : 0, 1);
+    const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
+    const int paths = std::max(paths_alone, 1);
     for (int number = 0; number < paths; ++number) {
         // Not by trace_pixel(), which empties a path that is to be refused.
         const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.camera_sample(pixel, number));
@@ -119,6 +137,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
         if (inner.contains(pixel) && worker.set.contains(pixel))
             result.sets.push_back(inspect_set(pass, inner, pixel, worker));
     });
+    if (paths_alone > 0)
+        result.is_refused = result.is_refused || is_mean_refused(pass, pixel, worker);
     for (const InspectedSet& set : result.sets)
         result.is_refused = result.is_refused || is_refused(set, pixel, settings);
     return result;
@@ -143,29 +163,8 @@ void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan
     for (int y = seen.y0; y < seen.y1; ++y)
         for (int x = seen.x0; x < seen.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
-            plan.learn(x, y, {worker.reuse.arriving_luminance(worker.path)});
+            plan.learn(x, y, worker.reuse.arriving_luminance(worker.path));
         }
-}
-
-/// What G-PR's first pass tells it: with it, sets share their light.
-void learn_gain(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan& plan) {
-    Image<PlanEvidence> evidence(seen.width(), seen.height());
-    const auto look_at = [&](PixelRect tile) {
-        for_each_gpr_set(pass, tile, worker.set, [&](PixelRect inner, PixelRect all, int) {
-            worker.base.trace(pass, worker.tracer, all, {inner.x0, inner.y0});
-            share_light(pass, roulette_of(pass.settings), worker);
-            for (int i = 0; i < worker.set.size(); ++i)
-                if (const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
-                    inner.contains(p) && seen.contains(p))
-                    evidence(p.x - seen.x0, p.y - seen.y0) = evidence_of(pass, worker, i, all);
-        });
-    };
-    const PixelRect first = pass.grid.tile_at({seen.x0, seen.y0}),
-                    last = pass.grid.tile_at({seen.x1 - 1, seen.y1 - 1});
-    for_each_square({first.x0, first.y0, last.x1, last.y1}, pass.settings.tile, look_at);
-    for (int y = seen.y0; y < seen.y1; ++y)
-        for (int x = seen.x0; x < seen.x1; ++x)
-            plan.learn(x, y, evidence(x - seen.x0, y - seen.y0));
 }
 
 } // namespace
@@ -175,17 +174,22 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
     ReusePlan plan(size, settings);
     if (!settings.adapt_tile || !has_tiles_to_cut(settings) || settings.tile == 1)
         return plan;
-    const PixelRect seen = plan.evidence(TileGrid(size, settings, plan, pass).tile_at(pixel));
     Worker worker(scene, settings);
-    const ReusePlan untaught = plan;
-    for (int i = 0; i < pass && !stop.stop_requested(); ++i) {
-        // Neither base paths nor the sets of the first pass depend on the plan.
-        const Pass earlier(scene, camera, size, settings, i == 0 ? untaught : plan, i);
-        if (i == 0 && finds_gain_of_sharing(settings))
-            learn_gain(earlier, seen, worker, plan);
-        else
-            learn_luminance(earlier, seen, worker, plan);
+    if (plan.wants_pilot()) {
+        const Pilot pilot(scene, camera, size, settings, plan);
+        std::vector<PlanEvidence> found;
+        for (int i = 0; i < plan.cell_count() && !stop.stop_requested(); ++i)
+            found.push_back(pilot.explore(plan.cell(i), worker));
+        plan.learn(found);
     }
+    const PixelRect tile = TileGrid(size, settings, plan, pass).tile_at(pixel);
+    std::set<int> cells; // that it reaches into
+    for (const int x : {tile.x0, tile.x1 - 1})
+        for (const int y : {tile.y0, tile.y1 - 1})
+            cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
+    for (int i = 0; i < pass && !stop.stop_requested(); ++i)
+        for (const int cell : cells)
+            learn_luminance(Pass(scene, camera, size, settings, plan, i), plan.cell(cell), worker, plan);
     return plan;
 }
 

@@ -1,7 +1,9 @@
 #include "render/run/render.h"
 
 #include "render/estimator/basis.h"
+#include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
+#include "render/estimator/pilot.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/settings/settings_table.h"
@@ -21,7 +23,8 @@ namespace {
 FilmBuffers buffers_of(const RenderSettings& s) {
     return {has_gradients(s.method), is_demodulated(s),
             s.method != Method::pt,  reuses_paths(s.method) && s.adapt_tile,
-            s.very_direct_grid > 1,  is_expanded(s) ? part_count(s.basis) : 0};
+            s.very_direct_grid > 1,  is_expanded(s) ? part_count(s.basis) : 0,
+            finds_gain_of_sharing(s)};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -65,47 +68,88 @@ GradientImages Render::with_patch(GradientImages images) const {
     return images;
 }
 
-bool Render::pass(ThreadPool& pool, std::stop_token stop) {
-    const auto start = std::chrono::steady_clock::now();
-    const Pass pass(*scene_, camera_, size_, settings_, plan_, spp_);
-    const std::vector<PixelRect> blocks = blocks_of(pass);
-    if (spp_ == 0)
-        ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
-    std::vector<std::unique_ptr<Worker>> workers;
-    for (int i = 0; i < pool.size(); ++i)
-        workers.push_back(std::make_unique<Worker>(*scene_, settings_));
+/// Workers, one a thread of the pool.
+class Render::Workers {
+public:
+    Workers(const Render& render, ThreadPool& pool, std::stop_token stop) : pool_(pool), stop_(std::move(stop)) {
+        for (int i = 0; i < pool.size(); ++i)
+            all_.push_back(std::make_unique<Worker>(*render.scene_, render.settings_));
+    }
 
-    const auto for_each = [&](std::size_t count, const auto& work) {
-        pool.parallel_for(
+    /// Has `work(i, worker)` done for all i below count. False: stopped on the way.
+    template <class Work>
+    bool for_each(std::size_t count, const Work& work) {
+        pool_.parallel_for(
             static_cast<int>(count),
             [&](int i, int w) {
-                Worker& worker = *workers[static_cast<std::size_t>(w)];
+                Worker& worker = *all_[static_cast<std::size_t>(w)];
                 const double before = thread_cpu_seconds();
                 work(i, worker);
                 worker.cpu_seconds += thread_cpu_seconds() - before;
             },
-            stop);
-    };
-    const auto done_before = std::ranges::count(done_blocks_, 1);
-    const bool looks_first = spp_ == 0 && done_before == 0;
-    const int looks = looks_first ? very_direct_looks(pass) : 0;
+            stop_);
+        return !stop_.stop_requested();
+    }
+
+    const std::vector<std::unique_ptr<Worker>>& all() const { return all_; }
+
+private:
+    ThreadPool& pool_;
+    std::stop_token stop_;
+    std::vector<std::unique_ptr<Worker>> all_;
+};
+
+/// The edges of lamps, and the projections: what is to be known before the first pass. False: stopped; a part of
+/// it tells nothing.
+bool Render::look_first(const Pass& pass, const std::vector<PixelRect>& blocks, Workers& workers) {
+    const int looks = very_direct_looks(pass);
     for (int look = 0; look < looks; ++look) {
         RgbImage lamps(size_.x, size_.y);
-        for_each(blocks.size(), [&](int i, Worker& worker) {
-            show_very_direct(pass, look, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
-        });
-        if (stop.stop_requested())
-            return false; // a part of the lamps tells nothing
+        if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {
+                show_very_direct(pass, look, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
+            }))
+            return false;
         film_.find_lamp_edges(lamps);
     }
-    if (looks_first && is_expanded(settings_)) {
-        for_each(blocks.size(), [&](int i, Worker& worker) {
-            find_projections(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, film_);
-        });
-        if (stop.stop_requested())
-            return false;
-    }
-    for_each(blocks.size(), [&](int i, Worker& worker) {
+    return !is_expanded(settings_) || workers.for_each(blocks.size(), [&](int i, Worker& worker) {
+        find_projections(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, film_);
+    });
+}
+
+/// What sharing would bring, which the plan wants to know. Its samples are no part of the picture, so that their
+/// counts are none of the render's.
+bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop) {
+    if (!plan_.wants_pilot())
+        return true;
+    ReusePlan plan(size_, settings_);
+    const Pilot pilot(*scene_, camera_, size_, settings_, plan_);
+    Workers workers(*this, pool, stop);
+    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan.cell_count()));
+    if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
+            found[static_cast<std::size_t>(i)] = pilot.explore(plan.cell(i), worker);
+        }))
+        return false;
+    plan.learn(found);
+    plan_ = plan;
+    for (const auto& worker : workers.all())
+        cpu_seconds_ += worker->cpu_seconds;
+    return true;
+}
+
+bool Render::pass(ThreadPool& pool, std::stop_token stop) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto done_before = std::ranges::count(done_blocks_, 1);
+    if (spp_ == 0)
+        ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
+    const bool is_begun = spp_ > 0 || done_before > 0;
+    if (!is_begun && !send_pilot(pool, stop))
+        return false;
+    const Pass pass(*scene_, camera_, size_, settings_, plan_, spp_);
+    const std::vector<PixelRect> blocks = blocks_of(pass);
+    Workers workers(*this, pool, stop);
+    if (!is_begun && !look_first(pass, blocks, workers))
+        return false;
+    workers.for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
         if (is_done)
             return; // before the pass was stopped
@@ -115,7 +159,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     const auto done = std::ranges::count(done_blocks_, 1);
     if (done == done_before)
         return false; // and the look, if there was one, is to be had again
-    for (const auto& worker : workers) {
+    for (const auto& worker : workers.all()) {
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
     }
@@ -124,10 +168,21 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
         return false;
     std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
-    plan_.learn(film_.evidence());
+    plan_.learn(film_.path_luminance());
     ++spp_;
     film_.ask_for_albedo(spp_);
     return true;
+}
+
+ReuseMaps Render::reuse_maps() const {
+    ReuseMaps maps = film_.reuse_maps(spp_);
+    if (maps.empty() || spp_ == 0 || !reuses_paths(settings_.method))
+        return maps;
+    maps.sharers = sharers_of(Pass(*scene_, camera_, size_, settings_, plan_, spp_));
+    maps.gain = Image<float>(size_.x, size_.y);
+    for (int i = 0; i < plan_.cell_count(); ++i)
+        for_each_square(plan_.cell(i), 1, [&](PixelRect p) { maps.gain(p.x0, p.y0) = plan_.gain(i); });
+    return maps;
 }
 
 Memory Render::memory() {

@@ -12,6 +12,7 @@
 
 namespace tessera {
 
+class Pass;
 class Scene;
 
 /// A render in progress: a film and the passes it has seen.
@@ -43,7 +44,7 @@ public:
     /// What images() returns, giving up all that the render has summed, reuse_maps() with it: no pass may follow.
     /// Times and counts stay.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
-    ReuseMaps reuse_maps() const { return film_.reuse_maps(spp_); }
+    ReuseMaps reuse_maps() const;
     /// What the newest pass knew of where tiles are to be cut.
     std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
@@ -51,6 +52,10 @@ public:
     Memory memory();
 
 private:
+    class Workers;
+
+    bool send_pilot(ThreadPool& pool, const std::stop_token& stop);
+    bool look_first(const Pass& pass, const std::vector<PixelRect>& blocks, Workers& workers);
     GradientImages with_patch(GradientImages images) const;
 
     std::shared_ptr<const Scene> scene_;

@@ -29,6 +29,7 @@ GradientImages one_pass(Method method, int pass, float aperture_radius = 0) {
     settings.method = method;
     settings.max_depth = 2;
     settings.roulette = RouletteKind::none;
+    settings.adapt_tile = false; // light without noise is not worth sharing
     settings.seed = static_cast<std::uint64_t>(pass);
     const auto scene = b.build();
     Render render(scene, scene->camera(), size, settings);

@@ -26,7 +26,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
         for (Rgb PixelSample::*part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
                                        &PixelSample::very_direct, &PixelSample::albedo})
             for (int channel = 0; channel < 3; ++channel) {
-                Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .evidence = true});
+                Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .luminance = true});
                 Counters counters;
                 PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
                 (sample.*part)[channel] = bad;
@@ -42,7 +42,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
-                EXPECT_EQ(film.evidence()(1, 0).luminance, 1); // so that a plan depends on base paths alone
+                EXPECT_EQ(film.path_luminance()(1, 0), 1); // so that a plan depends on base paths alone
             }
 }
 
@@ -63,6 +63,41 @@ TEST(Film, RemembersTheBrightestSample) {
     EXPECT_EQ(b.primal(1, 0), Rgb(2));
     EXPECT_EQ(b.dx(1, 0), Rgb(0));
     EXPECT_EQ(b.dy(0, 0), Rgb(0));
+}
+
+/// Means of two paths each, of which e and a go against each other: v = m(e a) is far from m(e) m(a).
+PixelSample mean_of_two(float e, float a, float other_e, float other_a) {
+    PixelSample sample{Rgb((e + other_e) / 2), Rgb(0), Rgb(0), Rgb(0), Rgb((a + other_a) / 2)};
+    sample.beside = Rgb((e * a + other_e * other_a) / 2) - sample.primal * sample.albedo;
+    return sample;
+}
+
+TEST(Film, OfAMeanOfPathsTheBrightestHasItsOwnRadiance) {
+    Film film(1, 1, {.albedo = true, .means = true});
+    Counters counters;
+    film.add(0, 0, 0, mean_of_two(1, 0.5f, 1, 0.5f), counters);
+    film.add(0, 0, 1, mean_of_two(1000, 0.01f, 0, 0.9f), counters);
+    const GradientImages images = film.means(2);
+    EXPECT_NEAR((images.brightest.primal(0, 0) * images.brightest.albedo(0, 0)).r, 5, 1e-4);
+    EXPECT_NEAR(images.demodulation.value(0, 0).r, (0.5 + 5) / 2, 1e-4);
+}
+
+/// What e and a of a mean's paths have to do with each other says nothing of how the means go together: here not
+/// at all, as e is the same for all, and so is what is not explained.
+TEST(Film, WhatIsBesideExplainsNothing) {
+    const auto unexplained = [](bool beside) {
+        Film film(1, 1, {.albedo = true, .means = true});
+        Counters counters;
+        const float e[] = {1, 2, 2, 1}, a[] = {0.5f, 0.5f, 0.6f, 0.6f};
+        for (int i = 0; i < 4; ++i) {
+            PixelSample sample = mean_of_two(e[i], a[i], e[i], a[i]);
+            sample.beside = beside ? Rgb(0.05f) : Rgb(0);
+            film.add(0, 0, i, sample, counters);
+        }
+        return film.means(4).demodulation.unexplained_variance(0, 0);
+    };
+    EXPECT_NEAR(unexplained(false), 3 * 1.0 / (4 * 2), 1e-6);
+    EXPECT_FLOAT_EQ(unexplained(true), unexplained(false));
 }
 
 TEST(Film, RefusesAlbedosThatAreNotFinite) {

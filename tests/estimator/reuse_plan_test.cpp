@@ -1,6 +1,7 @@
 #include "render/estimator/reuse_policy.h"
 
 #include <initializer_list>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
@@ -19,58 +20,99 @@ RenderSettings settings_of(Method method = Method::gpr, int tile = 6) {
 }
 
 /// Base paths of which every n-th is lit, in the left half of the image; those in the right half all are.
-Image<PlanEvidence> luminance(int n, float scale = 1) {
-    Image<PlanEvidence> image(size.x, size.y);
+Image<float> luminance(int n, float scale = 1) {
+    Image<float> image(size.x, size.y);
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
-            image(x, y).luminance = x >= size.x / 2 || (y * size.x + x) % n == 0 ? scale : 0;
+            image(x, y) = x >= size.x / 2 || (y * size.x + x) % n == 0 ? scale : 0;
     return image;
 }
 
-constexpr PixelRect left{2, 2, 8, 8}, right{50, 2, 56, 8};
+constexpr PixelRect left{2, 2, 8, 8}, right{50, 2, 56, 8}, between{12, 2, 18, 8};
 
-TEST(ReusePlan, WithoutAPassGprSharesInSmallSquaresAndPrInWholeTiles) {
-    EXPECT_EQ(ReusePlan(size, settings_of()).part_edge(left), 2);
-    EXPECT_EQ(ReusePlan(size, settings_of()).paths_alone(left), 0);
-    EXPECT_EQ(ReusePlan(size, settings_of(Method::pr)).part_edge(left), 6);
-}
-
-/// Paths that bring very different light: lengths of gradients are `shared` with sharing, and 1 without.
-Image<PlanEvidence> steps(float shared, float offset_rays) {
-    Image<PlanEvidence> image = luminance(1000);
-    for (PlanEvidence& e : image) {
-        e.luminance = e.luminance > 0 ? 1000.0f : 0.001f;
-        e = {e.luminance, 2 * shared, 2, offset_rays, 8};
+TEST(ReusePlan, KnowingNothingTilesAreWhole) {
+    for (const Method method : {Method::pr, Method::gpr}) {
+        EXPECT_EQ(ReusePlan(size, settings_of(method)).part_edge(left), 6);
+        EXPECT_EQ(ReusePlan(size, settings_of(method)).paths_alone(left), 0);
     }
-    return image;
 }
 
-TEST(ReusePlan, PixelsAreAloneWhereGradientsTellNothingForTheirCost) {
-    const auto paths_alone = [](float shared, float offset_rays, Method method = Method::gpr) {
-        ReusePlan plan(size, settings_of(method));
-        plan.learn(steps(shared, offset_rays));
-        EXPECT_EQ(plan.part_edge(left), 6);
-        return plan.paths_alone(left);
-    };
-    EXPECT_EQ(paths_alone(0.1f, 1.5f), 0); // 65 offsets a pixel: 12 rays of offsets to one of a base path
-    EXPECT_EQ(paths_alone(0.4f, 0.1f), 0);
-    EXPECT_EQ(paths_alone(0.6f, 1.5f), 6); // what sharing would have cost
-    EXPECT_EQ(paths_alone(1, 1000), 12);
-    EXPECT_EQ(paths_alone(0.6f, 1.5f, Method::pr), 0); // it has no gradients
+/// Of a cell whose base paths bring very different light, and take 8 rays: sharing leaves rho of the noise of
+/// gradients, and an offset takes so many rays.
+PlanEvidence found(double rho, double offset_rays) {
+    PlanEvidence e;
+    for (int i = 0; i < 100; ++i)
+        e.add_path(i == 0);
+    e.shared_noise = rho;
+    e.own_noise = 1;
+    e.offset_rays = 100 * offset_rays;
+    e.base_rays = 800;
+    return e;
 }
 
-TEST(ReusePlan, WhatTheFirstPassFoundStays) {
+/// A pilot that has found this in the left cell of the upper row, and elsewhere that sharing pays.
+ReusePlan after_pilot(const PlanEvidence& there, double offset_rays = 0.5) {
     ReusePlan plan(size, settings_of());
-    plan.learn(steps(0.6f, 1.5f));
-    for (int pass = 1; pass < 10; ++pass)
+    std::vector<PlanEvidence> pilot(static_cast<std::size_t>(plan.cell_count()), found(0.1, offset_rays));
+    pilot[0] = there;
+    plan.learn(pilot);
+    return plan;
+}
+
+// An offset of half a ray, 65 of them a pixel in a tile of 6 x 6: a cost of 1.7 + 0.55 * 65 / 16 = 3.9.
+
+TEST(ReusePlan, PixelsAreAloneWhereTheNoiseThatIsLeftIsNotWorthItsCost) {
+    EXPECT_EQ(after_pilot(found(0.50, 0.5)).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(found(0.52, 0.5)).paths_alone(left), 4);
+    EXPECT_EQ(after_pilot(found(0.70, 0.01)).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(found(0.80, 0.01)).paths_alone(left), 4);
+    EXPECT_EQ(after_pilot(found(1, 0.5)).paths_alone(right), 0);
+}
+
+TEST(ReusePlan, PixelsThatAreAloneTakeAsManyPathsAsSharingCostsElsewhere) {
+    EXPECT_EQ(after_pilot(found(1, 0.5), 0).paths_alone(left), 2);
+    EXPECT_EQ(after_pilot(found(1, 0.5), 1).paths_alone(left), 6);
+    EXPECT_EQ(after_pilot(found(1, 0.5), 4).paths_alone(left), 12);
+}
+
+TEST(ReusePlan, WhatThePilotFoundStays) {
+    ReusePlan plan = after_pilot(found(1, 0.5));
+    for (int pass = 0; pass < 10; ++pass)
         plan.learn(luminance(1000, 1000));
-    EXPECT_EQ(plan.paths_alone(left), 6);
+    EXPECT_EQ(plan.paths_alone(left), 4);
+    EXPECT_EQ(plan.part_edge(left), 6);
 }
 
 TEST(ReusePlan, WithoutLightPixelsShare) {
-    ReusePlan plan(size, settings_of());
-    plan.learn(Image<PlanEvidence>(size.x, size.y, {0, 0, 0, 0, 8}));
-    EXPECT_EQ(plan.paths_alone(left), 0);
+    PlanEvidence dark;
+    dark.paths = 100;
+    dark.base_rays = 800;
+    EXPECT_EQ(after_pilot(dark).paths_alone(left), 0);
+}
+
+TEST(ReusePlan, OnlyGprWantsAPilot) {
+    EXPECT_TRUE(ReusePlan(size, settings_of()).wants_pilot());
+    EXPECT_FALSE(ReusePlan(size, settings_of(Method::gpr, 1)).wants_pilot());
+    EXPECT_FALSE(ReusePlan(size, settings_of(Method::pr)).wants_pilot()); // it has no gradients
+}
+
+std::vector<PixelRect> pieces_of(const ReusePlan& plan, PixelRect tile) {
+    std::vector<PixelRect> pieces;
+    plan.for_each_piece(tile, [&](PixelRect piece) { pieces.push_back(piece); });
+    return pieces;
+}
+
+TEST(ReusePlan, ATileIsInPiecesWhereSomeOfItSharesAndSomeDoesNot) {
+    const ReusePlan plan = after_pilot(found(1, 0.5)); // the first cell ends at column and row 16
+    EXPECT_EQ(pieces_of(plan, left), std::vector{left});
+    EXPECT_EQ(pieces_of(plan, right), std::vector{right});
+    EXPECT_EQ(pieces_of(plan, between), (std::vector<PixelRect>{{12, 2, 16, 8}, {16, 2, 18, 8}}));
+    EXPECT_EQ(pieces_of(plan, {12, 13, 18, 19}),
+              (std::vector<PixelRect>{{12, 13, 16, 16}, {16, 13, 18, 16}, {12, 16, 16, 19}, {16, 16, 18, 19}}));
+    EXPECT_EQ(pieces_of(plan, {-3, 12, 3, 18}), (std::vector<PixelRect>{{-3, 12, 3, 16}, {-3, 16, 3, 18}}));
+    EXPECT_EQ(plan.paths_alone({12, 2, 16, 8}), 4);
+    EXPECT_EQ(plan.paths_alone({16, 2, 18, 8}), 0);
+    EXPECT_EQ(pieces_of(after_pilot(found(0, 0.5)), between), std::vector{between}); // all share
 }
 
 TEST(ReusePlan, CutsWherePathsBringAlike) {

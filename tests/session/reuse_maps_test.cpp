@@ -22,6 +22,7 @@ RenderSettings settings_of(Method method, RouletteKind roulette) {
     settings.roulette = roulette;
     settings.tile = 5;
     settings.max_depth = 4;
+    settings.adapt_tile = false; // all share
     return settings;
 }
 

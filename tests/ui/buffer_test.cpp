@@ -25,7 +25,8 @@ Snapshot snapshot_of(Method method) {
     snapshot.settings.method = method;
     snapshot.images = images;
     if (method != Method::pt) // of two passes
-        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}}, 2});
+        snapshot.reuse = std::make_shared<ReuseMaps>(
+            ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}}, 2, Image<float>(4, 3, 49), Image<float>(4, 3, 2.5f)});
     return snapshot;
 }
 
@@ -131,13 +132,17 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 7.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::outcomes), 0.25f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::survival), 0.75f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::sharers), 49);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::gain), 2.5f);
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
     EXPECT_EQ(picture_source(snapshot, Buffer::outcomes), snapshot.reuse);
-    for (Buffer map : {Buffer::reused, Buffer::outcomes, Buffer::survival}) {
+    for (Buffer map : {Buffer::reused, Buffer::outcomes, Buffer::survival, Buffer::sharers, Buffer::gain}) {
         EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
         EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
         EXPECT_TRUE(has_one_number(colour_map(map)));
     }
+    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::gain, {}).find("G-PR"), std::string::npos);
+    EXPECT_NE(missing_text(nullptr, Method::gpt, Buffer::sharers, {}).find("no tiles"), std::string::npos);
 }
 
 /// The numbers are shares, and the colours the mean of those that stand for the outcomes everywhere.

@@ -99,18 +99,16 @@ private:
     }
 
     void draw_cuts(PixelRect tile) const {
-        const int edge = grid_.part_edge(tile);
-        const PixelRect inner = tile.clipped(size_);
-        if (grid_.paths_alone(tile) > 0)
-            drawing_.fill(inner, alone_colour);
-        if (static_cast<float>(edge) * unit_ < least_edge)
-            return;
-        for (int x = tile.x0 + edge; x < inner.x1; x += edge)
-            if (x > inner.x0)
-                line({x, inner.y0}, {x, inner.y1}, part_colour);
-        for (int y = tile.y0 + edge; y < inner.y1; y += edge)
-            if (y > inner.y0)
-                line({inner.x0, y}, {inner.x1, y}, part_colour);
+        grid_.for_each_part(tile, [&](PixelRect part, int paths_alone) {
+            if (paths_alone > 0)
+                drawing_.fill(part, alone_colour);
+            if (static_cast<float>(part.width()) * unit_ < least_edge)
+                return;
+            if (part.x0 > std::max(tile.x0, 0))
+                line({part.x0, part.y0}, {part.x0, part.y1}, part_colour);
+            if (part.y0 > std::max(tile.y0, 0))
+                line({part.x0, part.y0}, {part.x1, part.y0}, part_colour);
+        });
     }
 
     void draw_patterns(PixelRect tile) {
@@ -141,7 +139,7 @@ private:
                 outline({x, y, x + 1, y + 1}, set_edge_colour);
             });
         } else if (reuses_paths(settings_.method)) {
-            const bool is_alone = grid_.paths_alone(grid_.tile_at(p)) > 0;
+            const bool is_alone = grid_.paths_alone_at(p) > 0;
             const PixelRect part = is_alone ? pixel : grid_.part_at(p);
             drawing_.fill(part, set_colour);
             outline(part, set_edge_colour);

@@ -223,6 +223,10 @@ constexpr Action table[] = {
      ctrl(Key::digit9), no_shortcut, show_buffer<Buffer::projection>, shows_buffer<Buffer::projection>},
     {"Buffer", "Held back", "Shows the light of spikes that is held back, in all panes.", ctrl(Key::h),
      no_shortcut, show_buffer<Buffer::held>, shows_buffer<Buffer::held>},
+    {"Buffer", "Sharers", "Shows how many pixels share their paths with each pixel, in all panes.",
+     ctrl_shift(Key::x), no_shortcut, show_buffer<Buffer::sharers>, shows_buffer<Buffer::sharers>},
+    {"Buffer", "Gain of sharing", "Shows what sharing brings for its cost, in all panes.", ctrl_shift(Key::g),
+     no_shortcut, show_buffer<Buffer::gain>, shows_buffer<Buffer::gain>},
     {"Buffer", "Next part", "Shows the next part of coefficients and gradients, or the whole after the last.",
      ctrl(Key::digit3), no_shortcut, next_part, nullptr},
 

@@ -160,6 +160,10 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return scratch = grey(snapshot.reuse->failed());
     case Buffer::survival:
         return scratch = grey(snapshot.reuse->survival());
+    case Buffer::sharers:
+        return scratch = grey(snapshot.reuse->sharers);
+    case Buffer::gain:
+        return scratch = grey(snapshot.reuse->gain);
     case Buffer::dx:
     case Buffer::dy:
     case Buffer::dx_variance:
@@ -205,6 +209,10 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return "A variance takes two passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt)
         return name + " shares no paths between pixels";
+    if (buffer == Buffer::sharers && !reuses_paths(method))
+        return name + " has no tiles";
+    if (buffer == Buffer::gain && snapshot && !finds_gain_of_sharing(snapshot->settings))
+        return "What sharing brings is found for G-PR whose tiles adapt";
     if (family(buffer) == BufferFamily::basis && method == Method::pt)
         return name + " divides by no albedo";
     if (family(buffer) == BufferFamily::basis && snapshot && snapshot->settings.basis == Basis::none)
@@ -274,126 +282,6 @@ std::string legend_text(Buffer buffer, const ValueRange& range) {
                   static_cast<double>(range.high) * scale, *about.unit ? " " : "", about.unit,
                   range.logarithmic ? "  log scale" : "");
     return text;
-}
-
-// What there is to know of buffers before any image of them.
-
-namespace {
-
-using Family = BufferFamily;
-
-constexpr BufferInfo table[] = {
-    {Buffer::reconstruction, "reconstruction", "Reconstruction",
-     "The picture made from primal and gradients; radiance.", Family::picture, ColourMap::radiance, "", 1},
-    {Buffer::primal, "primal", "Primal", "The picture as measured, before any reconstruction; radiance.",
-     Family::picture, ColourMap::radiance, "", 1},
-    {Buffer::dx, "dx", "Gradient dx",
-     "Right neighbour minus pixel, luminance: orange above zero, blue below; of the coefficient where the basis "
-     "is "
-     "the albedo. Measured by G-PT and G-PR.",
-     Family::gradient, ColourMap::signed_difference, "", 1},
-    {Buffer::dy, "dy", "Gradient dy",
-     "Pixel below minus pixel, luminance: orange above zero, blue below; of the coefficient where the basis is "
-     "the "
-     "albedo. Measured by G-PT and G-PR.",
-     Family::gradient, ColourMap::signed_difference, "", 1},
-    {Buffer::reused, "reused", "Reuse count",
-     "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
-     Family::reuse, ColourMap::false_colour, "paths a pass", 1},
-    {Buffer::outcomes, "outcomes", "Shift outcomes",
-     "How the shifts of other pixels' base paths to a pixel ended: the mean of the outcomes' colours, black where "
-     "none was tried. Its number, in differences, too, is the share that brought no light. Not for PT.",
-     Family::reuse, ColourMap::own, "%", 100},
-    {Buffer::survival, "survival", "Roulette survival",
-     "Of a pixel's own base paths that carry light, the share that the roulette on reuse let be shifted to the "
-     "others of its tile (all passes; 0 where none has carried light). A survivor weighs 1/q for its probability "
-     "q; "
-     "roulette none and G-PT reuse all: 100 %. Not for PT.",
-     Family::reuse, ColourMap::false_colour, "%", 100},
-    {Buffer::very_direct, "very_direct", "Very direct",
-     "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
-     ColourMap::radiance, "", 1},
-    {Buffer::error_relative_squared, "relMSE", "Error: relMSE",
-     "(I - r)^2 / (r^2 + 0.001), the mean of red, green and blue, of the picture I and the reference r (no unit). "
-     "Its mean over the pixels is the relMSE of [Bauszat 2017, 4].",
-     Family::error, ColourMap::false_colour, "", 1},
-    {Buffer::error_squared, "squared", "Error: squared",
-     "(I - r)^2, the mean of red, green and blue, of the picture I and the reference r; radiance squared.",
-     Family::error, ColourMap::false_colour, "", 1},
-    {Buffer::error_absolute, "absolute", "Error: absolute",
-     "|I - r|, the mean of red, green and blue, of the picture I and the reference r; radiance.", Family::error,
-     ColourMap::false_colour, "", 1},
-    {Buffer::error_relative, "relative", "Error: relative",
-     "|I - r| / (|r| + 0.01), the mean of red, green and blue, of the picture I and the reference r; per cent.",
-     Family::error, ColourMap::false_colour, "%", 100},
-    {Buffer::reference, "reference", "Reference", "The picture that errors are measured against; radiance.",
-     Family::reference, ColourMap::radiance, "", 1},
-    {Buffer::albedo, "albedo", "Albedo",
-     "The share of light that the surface first seen would send to the camera if it came from everywhere (no "
-     "unit).",
-     Family::first_hit, ColourMap::radiance, "", 1},
-    {Buffer::normal, "normal", "Normal",
-     "The shading normal of the surface first seen, in the world: x is red, y green, z blue; -1 is black, 1 full.",
-     Family::first_hit, ColourMap::direction, "", 1},
-    {Buffer::depth, "depth", "Depth",
-     "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
-     Family::first_hit, ColourMap::false_colour, "units", 1},
-    {Buffer::primal_variance, "primal_variance", "Variance of primal",
-     "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
-     "with the samples; of the coefficient where the basis is the albedo. Pixels that share light err alike: "
-     "their variances do not tell that.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-    {Buffer::dx_variance, "dx_variance", "Variance of dx",
-     "Variance of the mean of gradient dx over the passes, the sum of red, green and blue; radiance squared.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-    {Buffer::dy_variance, "dy_variance", "Variance of dy",
-     "Variance of the mean of gradient dy over the passes, the sum of red, green and blue; radiance squared.",
-     Family::variance, ColourMap::false_colour, "radiance^2", 1},
-    {Buffer::coefficient, "coefficient", "Coefficient",
-     "Radiance over the albedo, as sampled: what gradients and variances are of, and the picture is made of, "
-     "where "
-     "the basis is the albedo; radiance.",
-     Family::basis, ColourMap::radiance, "", 1},
-    {Buffer::mean_albedo, "mean_albedo", "Mean albedo",
-     "The mean of the albedos at many points of a pixel, which the reconstructed coefficient is multiplied by; no "
-     "unit. Black where nothing is seen.",
-     Family::basis, ColourMap::radiance, "", 1},
-    {Buffer::sampled_albedo, "sampled_albedo", "Sampled albedo",
-     "The mean of the albedos that the samples were divided by; no unit. It differs from the mean albedo by noise "
-     "alone.",
-     Family::basis, ColourMap::radiance, "", 1},
-    {Buffer::covariance, "covariance", "Covariance term",
-     "Mean radiance minus mean albedo times mean coefficient, of the samples, luminance: orange above zero, blue "
-     "below. At edges, where albedo and light change together within a pixel, the picture needs it.",
-     Family::basis, ColourMap::signed_difference, "", 1},
-    {Buffer::projection, "projection", "Projection",
-     "How much a pixel's surface scatters of one part of the light, times which the parts are the coefficient; no "
-     "unit: orange above zero, blue below. Of a basis with parts; Ctrl+3 goes to the next part.",
-     Family::basis, ColourMap::signed_difference, "", 1},
-    {Buffer::held, "held", "Held back",
-     "What of its brightest sample is held back from a pixel, and given to those around, where spikes are held "
-     "back; radiance. It gets less with the samples. None before the second.",
-     Family::picture, ColourMap::radiance, "", 1},
-};
-
-} // namespace
-
-const BufferInfo& info(Buffer buffer) {
-    return entry_of(table, buffer);
-}
-
-std::string_view paper_name(Method method) {
-    switch (method) {
-    case Method::pt:
-        return "PT";
-    case Method::pr:
-        return "PR";
-    case Method::gpt:
-        return "G-PT";
-    case Method::gpr:
-        return "G-PR";
-    }
-    return "";
 }
 
 } // namespace tessera

@@ -20,7 +20,8 @@ enum class Buffer {
     albedo, normal, depth,
     primal_variance, dx_variance, dy_variance,
     coefficient, mean_albedo, sampled_albedo, covariance, projection,
-    held
+    held,
+    sharers, gain
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -47,7 +48,9 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::sampled_albedo,
                                          Buffer::covariance,
                                          Buffer::projection,
-                                         Buffer::held};
+                                         Buffer::held,
+                                         Buffer::sharers,
+                                         Buffer::gain};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.

@@ -1,0 +1,83 @@
+#include "render/estimator/pilot.h"
+
+#include "render/estimator/method_sets.h"
+#include "render/estimator/tile_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+namespace {
+
+constexpr int set_edge = 3, set_distance = 4; // pixels
+
+/// What one sample of a set brought its pixels, with sharing and without.
+struct Trial {
+    std::vector<glm::dvec3> shared, own;
+
+    Trial(const Pass& pilot, PixelRect all, glm::ivec2 inside, Worker& worker, PlanEvidence& found) {
+        SamplingSet& set = worker.set;
+        set.assign(all);
+        worker.base.trace(pilot, worker.tracer, all, inside);
+        share_light(pilot, roulette_of(pilot.settings), worker);
+        for (int i = 0; i < set.size(); ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const BasePath& path = *set.paths[at];
+            if (const float l = worker.reuse.arriving_luminance(path); l >= 0)
+                found.add_path(l);
+            found.offset_rays += set.offset_rays;
+            found.base_rays += static_cast<double>(path.size() * (1 + path.light_samples()));
+            shared.emplace_back(set.coefficient(i));
+            own.emplace_back(coefficient(path.radiance(), set.albedo[at]));
+        }
+    }
+};
+
+/// Adds how far two trials differ in the gradient from pixel m to n, with sharing and without. What the picture
+/// itself differs by is in neither.
+void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n, PlanEvidence& found) {
+    const double shared = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
+    if (!std::isfinite(shared)) // refused, as a sample would be
+        return;
+    found.shared_noise += shared;
+    found.own_noise += glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
+}
+
+RenderSettings settings_of_pilot(RenderSettings settings) {
+    settings.seed ^= 0x7069'6c6f'7400'0000u;
+    return settings;
+}
+
+} // namespace
+
+Pilot::Pilot(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+             const ReusePlan& plan)
+    : settings_(settings_of_pilot(settings)), first_(scene, camera, size, settings_, plan, 0),
+      second_(scene, camera, size, settings_, plan, 1) {}
+
+PlanEvidence Pilot::explore(PixelRect cell, Worker& worker) const {
+    PlanEvidence found;
+    for_each_square(cell, set_distance, [&](PixelRect square) {
+        if ((square.x0 + square.y0) / set_distance % 2 != 0)
+            return; // a chequered pattern
+        const PixelRect all =
+            PixelRect{square.x0, square.y0, square.x0 + set_edge, square.y0 + set_edge}.clipped(first_.size);
+        const Trial a(first_, all, {cell.x0, cell.y0}, worker, found);
+        const Trial b(second_, all, {cell.x0, cell.y0}, worker, found);
+        const auto width = static_cast<std::size_t>(all.width());
+        for (std::size_t i = 0; i < a.own.size(); ++i) {
+            if ((i + 1) % width != 0)
+                compare(a, b, i, i + 1, found);
+            if (i + width < a.own.size())
+                compare(a, b, i, i + width, found);
+        }
+    });
+    return found;
+}
+
+} // namespace tessera

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "render/estimator/pass.h"
+
+namespace tessera {
+
+/// Tries before the first pass what sharing would bring G-PR. It takes two samples, so that their differences are
+/// noise and nothing of the picture, of sets of 3 x 3 pixels: of one in 32 pixels. That costs about as much as a
+/// sample of path tracing.
+class Pilot {
+public:
+    /// Keeps references, as Pass does; of the plan nothing is asked but its tiles.
+    Pilot(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+          const ReusePlan& plan);
+
+    /// What one cell of a plan is like.
+    PlanEvidence explore(PixelRect cell, Worker& worker) const;
+
+private:
+    RenderSettings settings_; ///< with a seed of its own, so that nothing of it is in any pass
+    Pass first_, second_;
+};
+
+} // namespace tessera
