@@ -137,6 +137,7 @@ ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const Rec
     add_layer(file, "survival", grey(maps.survival()));
     add_layer(file, "sharers", grey(maps.sharers));
     add_layer(file, "gain", grey(maps.gain));
+    add_layer(file, "samples", grey(maps.paths));
     return file;
 }
 

@@ -94,8 +94,8 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
         sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(Brightest) + sizeof(glm::dvec3) +
         (buffers.albedo ? sizeof(AlbedoPoints) + (buffers.means ? 5 : 4) * sizeof(glm::dvec3) : 0) +
         static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
-        (buffers.reuse ? sizeof(ReuseCounts) : 0) + (buffers.luminance ? sizeof(float) : 0) +
-        (buffers.lamp_edges ? 1 : 0);
+        (buffers.reuse ? sizeof(ReuseCounts) : 0) + (buffers.means ? sizeof(std::uint32_t) : 0) +
+        (buffers.luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * a_pixel;
 }
 
@@ -113,6 +113,8 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
         if (buffers.means)
             beside_ = Image<glm::dvec3>(width, height);
     }
+    if (buffers.means)
+        paths_ = Image<std::uint32_t>(width, height);
     if (buffers.reuse)
         reuse_ = Image<ReuseCounts>(width, height);
     if (buffers.luminance)
@@ -159,6 +161,8 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     }
     if (!reuse_.empty())
         reuse_(x, y) += sample.reuse;
+    if (!paths_.empty())
+        paths_(x, y) += static_cast<std::uint32_t>(sample.paths);
     primal_(x, y) += sample.primal;
     remember_if_brightest(x, y, sample);
     very_direct_(x, y) += sample.very_direct;
@@ -358,12 +362,34 @@ GradientImages Film::take_means(int passes) {
     return images;
 }
 
+ReuseMaps Film::reuse_maps(int passes) const {
+    ReuseMaps maps{reuse_, passes};
+    maps.paths = Image<float>(paths_.width(), paths_.height());
+    std::ranges::transform(paths_, maps.paths.begin(), [](std::uint32_t n) { return static_cast<float>(n); });
+    return maps;
+}
+
+Image<float> Film::noise(int passes) const {
+    constexpr double floor = 0.03; // of the mean
+    double sum = 0;
+    for (const Moments& m : primal_)
+        sum += static_cast<double>(luminance(Rgb(m.sum / double(passes))));
+    const double least = floor * sum / static_cast<double>(primal_.size());
+    Image<float> noise(width(), height());
+    std::transform(primal_.begin(), primal_.end(), noise.begin(), [&](const Moments& m) {
+        const double bright = static_cast<double>(std::max(luminance(Rgb(m.sum / double(passes))), 0.0f)) + least;
+        return bright > 0 ? static_cast<float>(std::sqrt(static_cast<double>(variance_of(m, passes))) / bright)
+                          : 0;
+    });
+    return noise;
+}
+
 Memory Film::memory() {
-    return {
-        memory_of(primal_),         memory_of(very_direct_),   memory_of(dx_),        memory_of(dy_),
-        memory_of(brightest_),      memory_of(albedo_),        memory_of(value_),     memory_of(sampled_albedo_),
-        memory_of(albedo_squares_), memory_of(albedo_values_), memory_of(beside_),    memory_of(parts_),
-        memory_of(projections_),    memory_of(reuse_),         memory_of(luminance_), memory_of(lamp_edges_)};
+    return {memory_of(primal_),         memory_of(very_direct_),   memory_of(dx_),     memory_of(dy_),
+            memory_of(brightest_),      memory_of(albedo_),        memory_of(value_),  memory_of(sampled_albedo_),
+            memory_of(albedo_squares_), memory_of(albedo_values_), memory_of(beside_), memory_of(paths_),
+            memory_of(parts_),          memory_of(projections_),   memory_of(reuse_),  memory_of(luminance_),
+            memory_of(lamp_edges_)};
 }
 
 } // namespace tessera

@@ -37,6 +37,7 @@ struct ReuseMaps {
     // What the plan has chosen for the next pass; empty where there are no tiles:
     Image<float> sharers{}; ///< pixels of the sampling set that a pixel is in; 1: it shares nothing
     Image<float> gain{};    ///< ReusePlan::gain
+    Image<float> paths{};   ///< base paths of its own that a pixel has taken in all passes; empty: one in each
 
     bool empty() const { return counts.empty(); }
 
@@ -71,6 +72,7 @@ struct PixelSample {
     /// Radiance less primal times albedo: other than 0 where the sample is the mean of several paths, whose light
     /// is not divided by one albedo.
     Rgb beside{0};
+    int paths = 1; ///< base paths of its own that it is the mean of
 };
 
 /// What a film keeps beside primal and very direct light.
@@ -81,7 +83,7 @@ struct FilmBuffers {
     bool luminance = false;  ///< for the plan, of the last pass
     bool lamp_edges = false; ///< of the lamps that the camera sees
     int parts = 0;           ///< of primal and gradients
-    bool means = false;      ///< samples may be means of several paths (PixelSample::beside)
+    bool means = false;      ///< samples may be means of several paths (PixelSample::beside), which are counted
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -139,8 +141,11 @@ public:
     /// means() at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
     /// means are never all there together. The film is then good for nothing more.
     GradientImages take_means(int passes);
+    /// How noisy the primal's mean over so many passes is for its brightness, at each pixel: its standard
+    /// deviation over its luminance and a little of the picture's mean one.
+    Image<float> noise(int passes) const;
     /// How sharing went over `passes` complete passes; empty where pixels share nothing.
-    ReuseMaps reuse_maps(int passes) const { return {reuse_, passes}; }
+    ReuseMaps reuse_maps(int passes) const;
     /// PixelSample::luminance of the last pass; empty where it is not kept.
     const Image<float>& path_luminance() const { return luminance_; }
     /// All that it has summed.
@@ -185,7 +190,8 @@ private:
     Image<Brightest> brightest_;
     Image<AlbedoPoints> albedo_;
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
-    Image<glm::dvec3> beside_;                                                  // what of v is not e a
+    Image<std::uint32_t> paths_; // of their own that pixels have taken
+    Image<glm::dvec3> beside_;   // what of v is not e a
     int parts_a_pixel_;
     Image<Part> parts_;        // those of a pixel side by side
     Image<float> projections_; // likewise

@@ -78,29 +78,30 @@ void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit
 
 /// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
 /// for each; of PT and G-PT those of the pixel. Pixels that share nothing have sets of their own, one
-/// for each of their paths. The path inspector goes this way.
+/// for each of their paths; and of several samples in a pass each has its sets. The path inspector goes this way.
 template <class Visit>
 void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
-    const auto visit_inner = [&](PixelRect inner, auto) { visit(inner); };
+    const int samples = pass.grid.samples(pass.block_at(p));
+    const auto visit_samples = [&](PixelRect inner, int paths = 1) {
+        for (set.number = 0; set.number < samples * paths; ++set.number)
+            visit(inner);
+    };
     switch (pass.settings.method) {
     case Method::pt:
         set.assign(pixel);
-        return visit(pixel);
+        return visit_samples(pixel);
     case Method::pr:
-        return for_each_pr_set(pass, tile, set, visit);
+        return for_each_pr_set(pass, tile, set, visit_samples);
     case Method::gpt:
-        return for_each_gpt_set(pass, p, set, visit_inner);
+        return for_each_gpt_set(pass, p, set, [&](PixelRect inner, auto) { visit_samples(inner); });
     case Method::gpr:
         return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
             if (paths_alone == 0)
-                return visit(inner);
+                return visit_samples(inner);
             for_each_square(inner, 1, [&](PixelRect alone) {
-                for (int path = 0; path < paths_alone; ++path) {
-                    set.assign(alone);
-                    set.number = path;
-                    visit(alone);
-                }
+                set.assign(alone);
+                visit_samples(alone, paths_alone);
             });
         });
     }

@@ -37,10 +37,10 @@ std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, 
 /// takes [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    const CameraSample from = pass.camera_sample({area.x0, area.y0});
+    const CameraSample from = pass.camera_sample({area.x0, area.y0}, worker.number);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, from, worker.path);
+            trace_pixel(pass, worker.tracer, x, y, from, worker.path, worker.number);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
@@ -50,7 +50,7 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 /// generalized path reusing [Bauszat 2017, 3.1].
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer, area, {area.x0, area.y0});
+    worker.base.trace(pass, worker.tracer, area, {area.x0, area.y0}, worker.number);
     for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
         share_light(pass, roulette_of(pass.settings), worker);
         for (int i = 0; i < worker.set.size(); ++i) {
@@ -65,7 +65,7 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0}, worker.number);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
@@ -117,7 +117,8 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
         MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
         const int paths = inner.contains(p) ? count : 1;
         mean.add(pass, worker.base.at(p.x, p.y), paths);
-        for (int number = 1; number < paths; ++number) {
+        for (int i = 1; i < paths; ++i) {
+            const int number = i * worker.samples + worker.number; // other ones than those of any other sample
             trace_pixel(pass, worker.tracer, p.x, p.y, pass.camera_sample({inner.x0, inner.y0}, number),
                         worker.path, number);
             mean.add(pass, worker.path, paths);
@@ -127,7 +128,7 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
 
 /// Adds pixels that share nothing. Their gradients are mere differences of their means: then the means are all
 /// that a reconstruction finds. Only across the block's border, and to pixels that share, they are not quite.
-void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
+void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
             const MeanOfPaths& here = worker.base.mean(x, y);
@@ -137,6 +138,7 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker,
                 sample.dx = worker.base.mean(x + 1, y).coefficient - here.coefficient;
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
+            sample.paths = count;
             sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
             add_sample(pass, x, y, sample, worker, film);
         }
@@ -147,23 +149,21 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker,
 /// (c_n / a_n - c_m / a_m) / R, as what a pixel got from all paths is divided by one albedo.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0});
+    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0}, worker.number);
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect, int paths_alone) {
         if (paths_alone > 0)
             take_means(pass, inner, paths_alone, worker);
     });
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
         if (paths_alone > 0)
-            return add_alone(pass, inner, all, worker, film);
+            return add_alone(pass, inner, all, paths_alone, worker, film);
         share_light(pass, roulette_of(pass.settings), worker);
         worker.set.expand(film);
         add_tile(pass, inner, all, worker, film);
     });
 }
 
-} // namespace
-
-void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+void take_sample(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     switch (pass.settings.method) {
     case Method::pt:
         return render_pt(pass, block, worker, film);
@@ -174,6 +174,21 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
     case Method::gpr:
         return render_gpr(pass, block, worker, film);
     }
+}
+
+} // namespace
+
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    worker.samples = pass.grid.samples(block);
+    worker.means.begin(area, worker.samples);
+    for (worker.number = 0; worker.number < worker.samples; ++worker.number)
+        take_sample(pass, block, worker, film);
+    if (worker.samples == 1)
+        return;
+    worker.samples = 1;
+    for_each_square(area, 1,
+                    [&](PixelRect p) { add_sample(pass, p.x0, p.y0, worker.means.at(p.x0, p.y0), worker, film); });
 }
 
 } // namespace tessera

@@ -135,8 +135,8 @@ CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
             sample_disk({fraction(lens.x + path * std::sqrt(23.0)), fraction(lens.y + path * std::sqrt(29.0))})};
 }
 
-bool Pass::are_in_one_block(glm::ivec2 a, glm::ivec2 b) const {
-    return block_of(*this, a) == block_of(*this, b);
+PixelRect Pass::block_at(glm::ivec2 pixel) const {
+    return square_at(pixel, block_origin(*this), block_edge(settings));
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -265,7 +265,33 @@ void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, F
         }
 }
 
+void SampleMeans::begin(PixelRect area, int samples) {
+    area_ = area;
+    samples_ = samples;
+    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
+    means_.assign(samples > 1 ? pixels : 0,
+                  {Rgb(0), Rgb(0), Rgb(0), Rgb(0), Rgb(0), {}, -1, {}, {}, {}, Rgb(0), 0});
+}
+
+void SampleMeans::add(int x, int y, const PixelSample& sample) {
+    PixelSample& mean = means_[index(x, y)];
+    const float share = 1 / static_cast<float>(samples_);
+    const Rgb radiance =
+        mean.primal * mean.albedo + mean.beside + (sample.primal * sample.albedo + sample.beside) * share;
+    mean.primal += sample.primal * share;
+    mean.dx += sample.dx * share;
+    mean.dy += sample.dy * share;
+    mean.very_direct += sample.very_direct * share;
+    mean.albedo += sample.albedo * share;
+    mean.beside = radiance - mean.primal * mean.albedo;
+    mean.reuse += sample.reuse;
+    mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;
+    mean.paths += sample.paths;
+}
+
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
+    if (worker.samples > 1)
+        return worker.means.add(x, y, sample);
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
     for (int more = film.more_albedo_points(x, y); more > 0; --more)

@@ -91,7 +91,8 @@ public:
     /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
     /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
     CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
-    bool are_in_one_block(glm::ivec2 a, glm::ivec2 b) const;
+    /// The block that a pixel is in.
+    PixelRect block_at(glm::ivec2 pixel) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
@@ -164,6 +165,23 @@ private:
     std::vector<MeanOfPaths> means_;
 };
 
+/// Means of the samples that the pixels of a block take in one pass, where these are several.
+class SampleMeans {
+public:
+    void begin(PixelRect area, int samples);
+    void add(int x, int y, const PixelSample& sample);
+    const PixelSample& at(int x, int y) const { return means_[index(x, y)]; }
+
+private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
+    }
+
+    PixelRect area_{0, 0, 0, 0};
+    int samples_ = 1;
+    std::vector<PixelSample> means_;
+};
+
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
     Worker(const Scene& scene, const RenderSettings& settings)
@@ -181,6 +199,9 @@ struct Worker {
     BaseBlock base;
     BasePath path;
     SamplingSet set;
+    int number = 0;                                 ///< of the sample that is taken, of so many:
+    int samples = 1;                                ///< that the pixels of the block at hand take in this pass
+    SampleMeans means;                              ///< if these are several
     ArrivingLight own;                              ///< of one base path
     std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
 };
@@ -217,9 +238,10 @@ inline constexpr int projection_points = 4;
 /// Works out the projections of the block's pixels, before the first pass.
 void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film);
 
-/// Adds a sample to the film. Very direct light is cheap and its noise is shared with nobody: it is looked for
-/// with more rays at the edges of lamps. (Where these are is known before the first pass. Were it learnt from the
-/// passes, it would depend on where samples lie, and pixels with light from a mere speck would become too bright.)
+/// Adds a sample to the film, or to the means where it is one of several. Very direct light is cheap and its noise
+/// is shared with nobody: it is looked for with more rays at the edges of lamps. (Where these are is known before
+/// the first pass. Were it learnt from the passes, it would depend on where samples lie, and pixels with light
+/// from a mere speck would become too bright.)
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film);
 
 /// Whether base path k of worker.set is reused. Counted.

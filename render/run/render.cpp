@@ -9,6 +9,7 @@
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <span>
 #include <stdexcept>
@@ -21,10 +22,13 @@ namespace tessera {
 namespace {
 
 FilmBuffers buffers_of(const RenderSettings& s) {
-    return {has_gradients(s.method), is_demodulated(s),
-            s.method != Method::pt,  reuses_paths(s.method) && s.adapt_tile,
-            s.very_direct_grid > 1,  is_expanded(s) ? part_count(s.basis) : 0,
-            finds_gain_of_sharing(s)};
+    return {has_gradients(s.method),
+            is_demodulated(s),
+            s.method != Method::pt || is_adaptive(s),
+            reuses_paths(s.method) && s.adapt_tile,
+            s.very_direct_grid > 1,
+            is_expanded(s) ? part_count(s.basis) : 0,
+            finds_gain_of_sharing(s) || is_adaptive(s)};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -170,6 +174,8 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     plan_.learn(film_.path_luminance());
     ++spp_;
+    if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first && std::has_single_bit(unsigned(spp_)))
+        plan_.learn_noise(film_.noise(spp_));
     film_.ask_for_albedo(spp_);
     return true;
 }

@@ -94,6 +94,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
+    bool adaptive = false; ///< noisy blocks of pixels take more samples a pass (reuse_policy.h); not with parts
 
     bool operator==(const RenderSettings&) const = default;
 };
@@ -116,6 +117,11 @@ inline bool is_demodulated(const RenderSettings& s) {
 /// Whether it is measured in parts. (PR's picture needs no gradients, and so no parts.)
 inline bool is_expanded(const RenderSettings& s) {
     return has_gradients(s.method) && s.basis > Basis::albedo;
+}
+
+/// Whether some pixels take more samples a pass than others. (Of parts there are none but single samples.)
+inline bool is_adaptive(const RenderSettings& s) {
+    return s.adaptive && !is_expanded(s);
 }
 
 /// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.

@@ -187,8 +187,9 @@ TEST_F(CommandLine, RendersLayersSettingsAndStats) {
         EXPECT_EQ(layer.image.width(), 24);
         EXPECT_EQ(layer.image.height(), 16);
     }
-    for (const char* name : {"", "l1", "none", "primal", "coefficient", "coefficient_dx", "coefficient_dy",
-                             "direct", "mean_albedo", "reused", "failed", "survival", "sharers", "gain"})
+    for (const char* name :
+         {"", "l1", "none", "primal", "coefficient", "coefficient_dx", "coefficient_dy", "direct", "mean_albedo",
+          "reused", "failed", "survival", "sharers", "gain", "samples"})
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 
     const auto settings = nlohmann::json::parse(file.attributes.at("tessera:settings"));

@@ -3,11 +3,11 @@
 #include "render/estimator/reuse_policy.h"
 #include "tests/support/rooms.h"
 
-#include <utility>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

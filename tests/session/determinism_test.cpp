@@ -18,7 +18,7 @@ namespace tessera::test {
 namespace {
 
 constexpr glm::ivec2 size(53, 37);
-constexpr int passes = 3;
+constexpr int passes = 5; // the last one knows where adaptive renders are noisy
 
 std::shared_ptr<const Scene> scene() {
     for (const TestScene& t : all_test_scenes())
@@ -70,6 +70,8 @@ std::vector<Variant> variants() {
     add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
     add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
     add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
+    add("adaptive", Method::gpr, [](S& s) { s.adaptive = true; });
+    add("adaptive_pairs", Method::gpt, [](S& s) { s.adaptive = true; });
     add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
     return list;
 }

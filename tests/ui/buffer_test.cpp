@@ -25,8 +25,11 @@ Snapshot snapshot_of(Method method) {
     snapshot.settings.method = method;
     snapshot.images = images;
     if (method != Method::pt) // of two passes
-        snapshot.reuse = std::make_shared<ReuseMaps>(
-            ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}}, 2, Image<float>(4, 3, 49), Image<float>(4, 3, 2.5f)});
+        snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}},
+                                                               2,
+                                                               Image<float>(4, 3, 49),
+                                                               Image<float>(4, 3, 2.5f),
+                                                               Image<float>(4, 3, 9)});
     return snapshot;
 }
 
@@ -134,14 +137,17 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::survival), 0.75f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::sharers), 49);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::gain), 2.5f);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::samples), 9);
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
     EXPECT_EQ(picture_source(snapshot, Buffer::outcomes), snapshot.reuse);
-    for (Buffer map : {Buffer::reused, Buffer::outcomes, Buffer::survival, Buffer::sharers, Buffer::gain}) {
+    for (Buffer map :
+         {Buffer::reused, Buffer::outcomes, Buffer::survival, Buffer::sharers, Buffer::gain, Buffer::samples}) {
         EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
         EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
         EXPECT_TRUE(has_one_number(colour_map(map)));
     }
     EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::gain, {}).find("G-PR"), std::string::npos);
+    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::samples, {}).find("as many"), std::string::npos);
     EXPECT_NE(missing_text(nullptr, Method::gpt, Buffer::sharers, {}).find("no tiles"), std::string::npos);
 }
 

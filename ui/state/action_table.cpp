@@ -227,6 +227,8 @@ constexpr Action table[] = {
      ctrl_shift(Key::x), no_shortcut, show_buffer<Buffer::sharers>, shows_buffer<Buffer::sharers>},
     {"Buffer", "Gain of sharing", "Shows what sharing brings for its cost, in all panes.", ctrl_shift(Key::g),
      no_shortcut, show_buffer<Buffer::gain>, shows_buffer<Buffer::gain>},
+    {"Buffer", "Samples", "Shows how many paths of its own each pixel has taken, in all panes.",
+     ctrl_shift(Key::n), no_shortcut, show_buffer<Buffer::samples>, shows_buffer<Buffer::samples>},
     {"Buffer", "Next part", "Shows the next part of coefficients and gradients, or the whole after the last.",
      ctrl(Key::digit3), no_shortcut, next_part, nullptr},
 

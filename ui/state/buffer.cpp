@@ -164,6 +164,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return scratch = grey(snapshot.reuse->sharers);
     case Buffer::gain:
         return scratch = grey(snapshot.reuse->gain);
+    case Buffer::samples:
+        return scratch = grey(snapshot.reuse->paths);
     case Buffer::dx:
     case Buffer::dy:
     case Buffer::dx_variance:
@@ -207,7 +209,10 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
         return "A variance takes two passes";
-    if (family(buffer) == BufferFamily::reuse && method == Method::pt)
+    if (buffer == Buffer::samples && snapshot && !is_adaptive(snapshot->settings) &&
+        !finds_gain_of_sharing(snapshot->settings))
+        return "All pixels have taken as many: the passes";
+    if (family(buffer) == BufferFamily::reuse && method == Method::pt && buffer != Buffer::samples)
         return name + " shares no paths between pixels";
     if (buffer == Buffer::sharers && !reuses_paths(method))
         return name + " has no tiles";

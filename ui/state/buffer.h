@@ -21,7 +21,7 @@ enum class Buffer {
     primal_variance, dx_variance, dy_variance,
     coefficient, mean_albedo, sampled_albedo, covariance, projection,
     held,
-    sharers, gain
+    sharers, gain, samples
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -50,7 +50,8 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::projection,
                                          Buffer::held,
                                          Buffer::sharers,
-                                         Buffer::gain};
+                                         Buffer::gain,
+                                         Buffer::samples};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
 /// What a buffer is made of.

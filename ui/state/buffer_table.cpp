@@ -109,6 +109,10 @@ constexpr BufferInfo table[] = {
      "squares of 16 x 16 pixels, as found before the first pass (no unit). Where it is below 1, pixels share "
      "nothing; 0: nothing is known. Of G-PR whose tiles adapt.",
      Family::reuse, ColourMap::false_colour, "times", 1},
+    {Buffer::samples, "samples", "Samples",
+     "How many base paths of its own a pixel has taken in all passes: more than one in each where pixels share "
+     "nothing, and where an adaptive render found them noisy.",
+     Family::reuse, ColourMap::false_colour, "paths", 1},
 };
 
 } // namespace
