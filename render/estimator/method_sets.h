@@ -107,23 +107,4 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
     }
 }
 
-/// Of how many pixels the sampling set is that each pixel of the image has its light from; 1: it shares nothing.
-inline Image<float> sharers_of(const Pass& pass) {
-    Image<float> sharers(pass.size.x, pass.size.y, 1);
-    SamplingSet set;
-    for (const PixelRect& block : blocks_of(pass)) {
-        const auto note = [&](PixelRect inner, bool shares = true) {
-            for (glm::ivec2 p : set.pixels)
-                if (inner.contains(p) && shares)
-                    sharers(p.x, p.y) = static_cast<float>(set.size());
-        };
-        if (pass.settings.method == Method::gpr)
-            for_each_gpr_set(pass, block, set,
-                             [&](PixelRect inner, PixelRect, int alone) { note(inner, !alone); });
-        else
-            for_each_pr_set(pass, block, set, [&](PixelRect inner) { note(inner); });
-    }
-    return sharers;
-}
-
 } // namespace tessera

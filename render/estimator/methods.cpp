@@ -191,4 +191,22 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
                     [&](PixelRect p) { add_sample(pass, p.x0, p.y0, worker.means.at(p.x0, p.y0), worker, film); });
 }
 
+Image<float> sharers_of(const Pass& pass) {
+    Image<float> sharers(pass.size.x, pass.size.y, 1);
+    SamplingSet set;
+    for (const PixelRect& block : blocks_of(pass)) {
+        const auto note = [&](PixelRect inner, bool shares = true) {
+            for (glm::ivec2 p : set.pixels)
+                if (inner.contains(p) && shares)
+                    sharers(p.x, p.y) = static_cast<float>(set.size());
+        };
+        if (pass.settings.method == Method::gpr)
+            for_each_gpr_set(pass, block, set,
+                             [&](PixelRect inner, PixelRect, int alone) { note(inner, !alone); });
+        else
+            for_each_pr_set(pass, block, set, [&](PixelRect inner) { note(inner); });
+    }
+    return sharers;
+}
+
 } // namespace tessera

@@ -104,7 +104,9 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
     const std::uint64_t a_vertex =
         sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
-    return sizeof(Worker) + paths * (sizeof(BasePath) + vertices * a_vertex);
+    const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
+                              (is_adaptive(settings) ? sizeof(PixelSample) : 0);
+    return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex);
 }
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,

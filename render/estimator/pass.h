@@ -217,6 +217,10 @@ std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings);
 /// cut off at the image's border, nowhere else.
 void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film);
 
+/// Of how many pixels the sampling set is that each pixel of the image has its light from in a pass of PR or G-PR;
+/// 1: it shares nothing (methods.cpp).
+Image<float> sharers_of(const Pass& pass);
+
 /// Traces the path of one sample of this pass, from there in its pixel and on the lens. One that is not finite is
 /// refused, counted, and left empty: it would spoil all pixels that share it.
 /// @param number  of the path, as in Pass::camera_sample()

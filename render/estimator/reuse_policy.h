@@ -53,8 +53,8 @@ struct PlanEvidence {
 /// and in rooms alike.)
 ///
 /// It looks at the pilot and at earlier passes of the same render only: a choice by the light of the paths at
-/// hand, or of passes that a render begun anew will draw again, would be biased. So would be one that left passes
-/// as they are or gave them another weight by what was found in them: the pilot is no part of the picture.
+/// hand, or of passes that a render begun anew will draw again, would be biased. So would be a mean in which a
+/// pass counts for more or less by what was found in it: that is why the pilot is no part of the picture.
 class ReusePlan {
 public:
     ReusePlan(glm::ivec2 size, const RenderSettings& settings);

@@ -1,7 +1,6 @@
 #include "render/run/render.h"
 
 #include "render/estimator/basis.h"
-#include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 #include "render/estimator/pilot.h"
 #include "render/io/available_memory.h"
