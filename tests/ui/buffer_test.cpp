@@ -138,6 +138,8 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::sharers), 49);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::gain), 2.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::samples), 9);
+    EXPECT_EQ(legend_text(Buffer::gain, automatic_range(Buffer::gain, RgbImage(2, 2, Rgb(1e6f)))),
+              "gain: 0.1 .. 10 times  log scale");
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
     EXPECT_EQ(picture_source(snapshot, Buffer::outcomes), snapshot.reuse);
     for (Buffer map :

@@ -263,6 +263,8 @@ ValueRange variance_range(const RgbImage& image) {
 ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions) {
     if (family(buffer) == BufferFamily::variance)
         return variance_range(image);
+    if (buffer == Buffer::gain)
+        return {0.1f, 10, true}; // 1, where it is as well to share as not, is in the middle
     if (family(buffer) != BufferFamily::error)
         return {0, top_value(buffer, image), false};
     const float mean = companions.reference && companions.reference->mean > 0 ? companions.reference->mean : 1;
