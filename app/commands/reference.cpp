@@ -20,8 +20,10 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         "A reference is two independent renders of the scene, with two seeds, which become the layers half1 and "
         "half2, and their mean, the plain RGB. From the difference of the halves its own error is known: that of "
         "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
-        "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The header has the "
-        "scene's checksums, too, by which others refuse it for another scene.\n"
+        "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The layer doubt says "
+        "how far each pixel is to be trusted: its relative standard error, or 1 where a single sample makes more "
+        "than a quarter of it. The header has the scene's checksums, too, by which others refuse it for another "
+        "scene.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;
@@ -35,8 +37,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     add_method(command, recipe.settings.method);
     add_setting(command, spp_setting(recipe.spp, 2))
         ->description("samples a pixel, of both halves together; one more if odd");
-    add_norms(command, words.norms, "where there are gradients")
-        ->default_str(std::string(to_string(recipe.reconstruction.norm)));
+    add_norms(command, words.norms, "where there are gradients; of several, the one of least error")
+        ->default_str("l2,none");
     limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
           most_seconds)
         ->capture_default_str();
@@ -50,12 +52,8 @@ ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& 
         options.max_depth = options.recipe.settings.max_depth;
     if (command.count("--size"))
         options.size = words.size;
-    if (!words.norms.empty()) {
-        const std::vector<Norm> norms = parse_norms(words.norms);
-        if (norms.size() != 1)
-            throw BadInput(fmt::format("--recon {}: one", words.norms));
-        options.recipe.reconstruction.norm = norms.front();
-    }
+    if (!words.norms.empty())
+        options.recipe.norms = parse_norms(words.norms);
     return options;
 }
 
@@ -83,6 +81,10 @@ int run_reference(const ReferenceOptions& options) {
     const FloorFreeError error = error_of(*reference);
     fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", options.output.string(),
                error.relative_mse, error.standard_error);
+    if (const double share = untrusted_share(reference->doubt); share > 0)
+        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, or one sample "
+                   "makes more than a quarter of them (layer doubt)\n",
+                   100 * share, 100 * most_doubt);
     return exit_ok;
 }
 

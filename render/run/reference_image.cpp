@@ -3,6 +3,8 @@
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -30,6 +32,37 @@ RgbImage variance_of(const ReferenceImage& reference) {
     return variance;
 }
 
+Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& spikes) {
+    const int width = halves[0].width(), height = halves[0].height();
+    const auto mean_at = [&](int x, int y) { return 0.5f * (luminance(halves[0](x, y)) + luminance(halves[1](x, y))); };
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            sum += static_cast<double>(std::abs(mean_at(x, y)));
+    const auto least = static_cast<float>(0.01 * sum / static_cast<double>(halves[0].size()));
+    Image<float> doubt(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            float squares = 0, brightness = 0;
+            int count = 0;
+            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+                for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i, ++count) {
+                    const float error = 0.5f * luminance(halves[0](i, j) - halves[1](i, j));
+                    squares += error * error;
+                    brightness += std::abs(mean_at(i, j));
+                }
+            const float scale = brightness / static_cast<float>(count) + least;
+            const float error = std::sqrt(squares / static_cast<float>(count));
+            doubt(x, y) = std::max(scale > 0 ? error / scale : 0, spikes(x, y));
+        }
+    return doubt;
+}
+
+double untrusted_share(const Image<float>& doubt) {
+    const auto count = std::count_if(doubt.begin(), doubt.end(), [](float d) { return d > most_doubt; });
+    return doubt.empty() ? 0 : static_cast<double>(count) / static_cast<double>(doubt.size());
+}
+
 RgbImage mean_of(const RgbImage& a, const RgbImage& b) {
     RgbImage mean = a;
     for (std::size_t i = 0; i < mean.size(); ++i)
@@ -48,11 +81,14 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
     const FloorFreeError error = error_of(reference);
     const nlohmann::ordered_json about{{"seeds", reference.seeds},
                                        {"relmse", error.relative_mse},
-                                       {"relmse_standard_error", error.standard_error}};
+                                       {"relmse_standard_error", error.standard_error},
+                                       {"untrusted", untrusted_share(reference.doubt)}};
     ExrFile file{{{"", reference.mean}}, {}};
     for (std::size_t i = 0; i < 2; ++i)
         file.layers.push_back({half_names[i], reference.halves[i]});
     file.layers.push_back({"variance", variance_of(reference)});
+    if (!reference.doubt.empty())
+        file.layers.push_back({"doubt", grey(reference.doubt)});
     file.attributes = {{"tessera:version", TESSERA_VERSION},
                        {"tessera:settings", reference.settings},
                        {"tessera:camera", reference.camera},

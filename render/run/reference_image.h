@@ -25,6 +25,7 @@ struct ReferenceImage {
     std::string settings;                     ///< JSON: how it was made
     std::string camera = {};                  ///< JSON: from where (render/scene/camera.h)
     std::optional<SceneChecksums> scene = {}; ///< what it shows; empty: its file does not say
+    Image<float> doubt = {};                  ///< doubt_of() the halves; empty where it was read from a file
 };
 
 /// How far the mean is from the truth, by what the halves differ.
@@ -34,14 +35,26 @@ FloorFreeError error_of(const ReferenceImage& reference);
 /// the halves are independent, but has one degree of freedom: it says something only when blurred, or as a mean.
 RgbImage variance_of(const ReferenceImage& reference);
 
+/// A pixel of a reference with a doubt above this is not to be trusted yet.
+inline constexpr float most_doubt = 0.1f;
+
+/// How far each pixel of a reference is not to be trusted: the standard error of the mean over its brightness (and
+/// 1 % of the picture's), from what the halves differ by in the 3x3 pixels around; at least 1 where one sample alone
+/// makes more than a quarter of what a half found, since what such samples miss, both halves may have missed.
+/// @param spikes  1 where one does, else 0
+Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& spikes);
+
+/// The share of the pixels that are not to be trusted yet.
+double untrusted_share(const Image<float>& doubt);
+
 /// The mean of two images of one size.
 RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 
 /// A checksum of the halves' pixels.
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
-/// An EXR file: the mean as plain RGB, the layers half1, half2 and variance (see above), and in its header the
-/// mean's error and the scene's checksums. Throws std::runtime_error that names the file.
+/// An EXR file: the mean as plain RGB, the layers half1, half2, variance and doubt (see above), and in its header
+/// the mean's error, the share of untrusted pixels and the scene's checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
 /// Whether the file is one of these, as its header says: no pixels are read. Throws std::runtime_error that names

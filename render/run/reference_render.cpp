@@ -1,5 +1,6 @@
 #include "render/run/reference_render.h"
 
+#include "recon/spikes.h"
 #include "render/io/json_text.h"
 #include "render/run/checkpoint.h"
 #include "render/run/fitting_reconstruction.h"
@@ -7,10 +8,12 @@
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +23,33 @@ namespace tessera {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// The pictures of both halves, by the norm of a recipe that serves best.
+struct Halves {
+    std::array<RgbImage, 2> images;
+    Norm norm = Norm::none;
+    FloorFreeError error; ///< of their mean
+};
+
+/// @param images_of  of half 0, then of half 1, to be reconstructed
+template <class ImagesOf>
+Halves best_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
+    std::vector<Halves> candidates(recipe.norms.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+        const GradientImages images = images_of(i);
+        for (std::size_t n = 0; n < candidates.size(); ++n) {
+            ReconstructionSettings settings = recipe.reconstruction;
+            settings.norm = candidates[n].norm = recipe.norms[n];
+            Reconstructor reconstructor;
+            candidates[n].images[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
+        }
+    }
+    for (Halves& candidate : candidates)
+        candidate.error = measure_reference_error(candidate.images[0], candidate.images[1]);
+    return std::move(*std::min_element(candidates.begin(), candidates.end(), [](const Halves& a, const Halves& b) {
+        return a.error.relative_mse < b.error.relative_mse;
+    }));
+}
 
 Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
     RenderSettings settings = recipe.settings;
@@ -77,26 +107,32 @@ double ReferenceRender::seconds_left() const {
 }
 
 FloorFreeError ReferenceRender::error_so_far() const {
-    const auto image = [&](const Render& half) {
-        Reconstructor reconstructor;
-        return reconstruct_if_it_fits(reconstructor, half.images(), recipe_.reconstruction).image;
-    };
-    return measure_reference_error(image(halves_[0]), image(halves_[1]));
+    return best_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); }).error;
 }
 
 ReferenceImage ReferenceRender::finish() {
     ReferenceImage reference;
-    reference.settings =
-        to_text(settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), recipe_.reconstruction));
-    reference.camera = camera_json(subject_.camera);
-    reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
+    Image<float> spikes(recipe_.size.x, recipe_.size.y);
+    Halves best = best_halves(recipe_, [&](std::size_t i) {
+        GradientImages images = halves_[i].take_images();
+        const RgbImage held = held_light(images);
+        for (std::size_t p = 0; p < spikes.size(); ++p)
+            spikes.data()[p] = std::max(spikes.data()[p], is_black(held.data()[p]) ? 0.0f : 1.0f);
+        return images;
+    });
     for (std::size_t i = 0; i < 2; ++i) {
-        Reconstructor reconstructor;
-        reference.halves[i] =
-            reconstruct_if_it_fits(reconstructor, halves_[i].take_images(), recipe_.reconstruction).image;
+        reference.halves[i] = std::move(best.images[i]);
         reference.seeds[i] = halves_[i].settings().seed;
     }
     reference.mean = mean_of(reference.halves[0], reference.halves[1]);
+    reference.doubt = doubt_of(reference.halves, spikes);
+    ReconstructionSettings reconstruction = recipe_.reconstruction;
+    reconstruction.norm = best.norm;
+    auto settings = settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), reconstruction);
+    settings["recon"] = to_string(best.norm);
+    reference.settings = to_text(settings);
+    reference.camera = camera_json(subject_.camera);
+    reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
     write_reference(output_, reference);
     std::filesystem::remove(reference_checkpoint(output_)); // not before the picture is there
     return reference;

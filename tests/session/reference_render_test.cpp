@@ -9,11 +9,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <span>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -161,6 +164,58 @@ TEST_F(References, TheFileHasAVarianceForEachPixel) {
             relative += variance.data()[i][c] /
                         (static_cast<double>(whole.mean.data()[i][c]) * whole.mean.data()[i][c] + 0.001) / 3;
     EXPECT_NEAR(relative / static_cast<double>(variance.size()) / error_of(whole).relative_mse, 1, 1e-4);
+}
+
+/// Whatever is to be chosen from, the halves of the one of least error are those in the file, whose header names it.
+TEST_F(References, TakeTheNormOfLeastError) {
+    std::map<Norm, double> errors;
+    for (Norm norm : {Norm::l2, Norm::none}) {
+        recipe.norms = {norm};
+        errors[norm] = error_of(complete("one.exr")).relative_mse;
+    }
+    ASSERT_NE(errors[Norm::l2], errors[Norm::none]);
+    const Norm best = errors[Norm::l2] < errors[Norm::none] ? Norm::l2 : Norm::none;
+    for (const std::vector<Norm>& norms : {std::vector{Norm::l2, Norm::none}, std::vector{Norm::none, Norm::l2}}) {
+        recipe.norms = norms;
+        const ReferenceImage image = complete("best.exr");
+        EXPECT_EQ(error_of(image).relative_mse, errors[best]);
+        EXPECT_THAT(image.settings, HasSubstr(fmt::format("\"recon\":\"{}\"", to_string(best))));
+    }
+}
+
+/// What halves differ by, over the brightness around; and one where a sample alone says what there is.
+TEST(Doubt, IsTheErrorAroundOrASpike) {
+    std::array<RgbImage, 2> halves{RgbImage(9, 5, Rgb(0.98f)), RgbImage(9, 5, Rgb(0.98f))};
+    halves[0](2, 2) = Rgb(1.48f); // a difference of 0.5: an error of 0.25, in the 3x3 pixels around 0.25 / 3
+    Image<float> spikes(9, 5, 0);
+    spikes(7, 1) = 1;
+    const Image<float> doubt = doubt_of(halves, spikes);
+    EXPECT_NEAR(doubt(2, 2), 0.25 / 3 / (0.98 + 0.25 / 9 + 0.0098), 1e-4);
+    EXPECT_EQ(doubt(2, 2), doubt(1, 1));
+    EXPECT_EQ(doubt(4, 2), 0);
+    EXPECT_EQ(doubt(7, 1), 1);
+    EXPECT_DOUBLE_EQ(untrusted_share(doubt), 1 / 45.0);
+    EXPECT_EQ(doubt_of({RgbImage(2, 2, Rgb(0)), RgbImage(2, 2, Rgb(0))}, Image<float>(2, 2, 0))(1, 1), 0);
+}
+
+/// A lamp that is found only by hitting it, with a few samples: their pixels are known to say little.
+TEST_F(References, DoubtWhatRestsOnOneSample) {
+    SceneBuilder builder;
+    const int white = builder.diffuse(Rgb(0.7f));
+    builder.quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, white);
+    const int lamp = builder.light(Texture(Rgb(20)));
+    builder.quad({-0.2f, 1, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}, white, lamp);
+    builder.quad({-2, 0.5f, 2}, {4, 0, 0}, {0, 0, -4}, builder.glass(1.5f, true));
+    builder.camera({0, 0.3f, 1.9f}, {0, 0, 0}, 60);
+    scene = builder.build();
+    subject = {{}, scene, scene->camera()};
+    recipe.settings.max_depth = 6;
+    const ReferenceImage few = complete("few.exr");
+    EXPECT_GT(untrusted_share(few.doubt), 0.05);
+    const RgbImage* layer = nullptr;
+    const ExrFile written = read_exr(folder.path() / "few.exr");
+    ASSERT_NE(layer = find_layer(written, "doubt"), nullptr);
+    EXPECT_EQ((*layer)(3, 3).x, few.doubt(3, 3));
 }
 
 TEST_F(References, AnotherCameraIsAnotherPicture) {
