@@ -1,5 +1,6 @@
 #include "recon/reconstruct.h"
 
+#include "recon/bounds.h"
 #include "recon/demodulation.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
@@ -257,9 +258,12 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     Reconstruction result;
     if (settings.spikes == Spikes::consistent && can_limit(images)) {
         RgbImage held;
-        result = picture_of(limited(images, held, parallel_for), settings, parallel_for, watch);
+        const GradientImages limited_images = limited(images, held, parallel_for);
+        result = picture_of(limited_images, settings, parallel_for, watch);
         if (!result.image.empty())
             spread(held, result.image, parallel_for);
+        if (!result.image.empty() && can_bound(images))
+            keep_within_bounds(limited_images, result.image, parallel_for);
         const double all = sum_of(images.radiance());
         result.held_share = all > 0 ? sum_of(held) / all : 0;
     } else {

@@ -1,0 +1,143 @@
+// Bounds of a picture by what each pixel's own samples say.
+#include "recon/bounds.h"
+#include "recon/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr int width = 30, height = 20;
+
+/// Pixels of value 1 and variance 3 x 0.01, in tiles.
+GradientImages even_images() {
+    GradientImages images;
+    images.primal = RgbImage(width, height, Rgb(1));
+    images.dx = images.dy = images.very_direct = RgbImage(width, height, Rgb(0));
+    images.primal_variance = Image<float>(width, height, 0.01f);
+    images.dx_variance = images.dy_variance = Image<float>(width, height, 0.01f);
+    images.patch = 6;
+    return images;
+}
+
+RgbImage bounded(const GradientImages& images, float value) {
+    RgbImage image(width, height, Rgb(value));
+    keep_within_bounds(images, image, serial_for);
+    return image;
+}
+
+/// The sky behind a window whose bar is dark and sure of it: its pixels are held to that, the sky keeps its freedom.
+TEST(Bounds, DarkAmongDarkStaysDark) {
+    GradientImages images = even_images();
+    for (int y = 0; y < height; ++y)
+        for (int x = 10; x < 13; ++x) {
+            images.primal(x, y) = Rgb(0.001f);
+            images.primal_variance(x, y) = 1e-10f;
+        }
+    const RgbImage high = bounded(images, 1.15f);
+    EXPECT_LT(high(11, 9).r, 0.01f);
+    EXPECT_FLOAT_EQ(high(25, 9).r, 1.15f);
+    EXPECT_NEAR(bounded(images, 9)(25, 9).r, 1.2f, 1e-5f);
+    EXPECT_NEAR(bounded(images, -9)(25, 9).r, 0.8f, 1e-5f);
+}
+
+/// A pixel whose samples all happened to be black, among others that are not.
+TEST(Bounds, DarkByChanceIsNoKnowledge) {
+    GradientImages images = even_images();
+    images.primal(15, 10) = Rgb(0);
+    images.primal_variance(15, 10) = 0;
+    for (float& v : images.primal_variance)
+        v *= 25;
+    EXPECT_GT(bounded(images, 0.7f)(15, 10).r, 0.69f);
+}
+
+/// Pixels that have paths of their own alone are dark by chance as a rule, and what has no variance has no error.
+TEST(Bounds, AreThoseOfPixelsThatShare) {
+    GradientImages images = even_images();
+    EXPECT_TRUE(can_bound(images));
+    images.patch = 1;
+    EXPECT_FALSE(can_bound(images));
+    images = even_images();
+    images.primal_variance = {};
+    EXPECT_FALSE(can_bound(images));
+}
+
+/// Of light over albedo the error is that of both: what is known of light says little where albedos vary.
+TEST(Bounds, CountTheNoiseOfSampledAlbedos) {
+    GradientImages images = even_images();
+    Demodulation& d = images.demodulation;
+    d.value = RgbImage(width, height, Rgb(0.5f));
+    d.albedo = d.sampled_albedo = RgbImage(width, height, Rgb(0.5f));
+    d.sampled_variance = d.value_covariance = RgbImage(width, height, Rgb(0));
+    d.albedo_variance = d.sampled_share = d.unexplained_variance = Image<float>(width, height, 0.0f);
+    images.brightest.samples = 4;
+    EXPECT_NEAR(bounded(images, 2)(5, 5).r, 0.5f + 2 * 0.5f * 0.1f, 1e-5f);
+    d.sampled_variance = RgbImage(width, height, Rgb(0.09f));
+    EXPECT_NEAR(bounded(images, 2)(5, 5).r, 0.5f + 2 * std::sqrt(0.0025f + 0.09f / 4), 1e-5f);
+}
+
+TEST(Bounds, ArePlainNumbersWhateverTheVariances) {
+    GradientImages images = even_images();
+    images.primal_variance(3, 3) = 3e38f;
+    images.primal_variance(20, 3) = std::numeric_limits<float>::infinity();
+    for (int x = 0; x < width; ++x)
+        images.primal_variance(x, 15) = 0;
+    for (const Rgb& c : bounded(images, 5))
+        EXPECT_TRUE(is_finite(c));
+    GradientImages black = even_images();
+    black.primal = RgbImage(width, height, Rgb(0));
+    black.primal_variance = Image<float>(width, height, 0.0f);
+    EXPECT_LT(bounded(black, 5)(7, 7).r, 1e-14f);
+}
+
+TEST(Bounds, HaveTheSameBitsWithThreads) {
+    GradientImages images = even_images();
+    for (int i = 0; i < width * height; ++i)
+        images.primal_variance.data()[i] *= static_cast<float>(1 + i % 17);
+    RgbImage image(width, height, Rgb(1.7f));
+    keep_within_bounds(images, image, [](int count, const std::function<void(int)>& body) {
+        std::vector<std::jthread> threads;
+        for (int i = count - 1; i >= 0; --i)
+            threads.emplace_back(body, i);
+    });
+    const RgbImage alone = bounded(images, 1.7f);
+    EXPECT_TRUE(std::equal(alone.begin(), alone.end(), image.begin()));
+}
+
+/// The light that a spike's tile holds back is spread: over the floor, but not over a dark bar in front of it.
+TEST(Bounds, KeepSpreadLightOffWhatIsSureToBeDark) {
+    GradientImages images = even_images();
+    BrightestSamples& b = images.brightest;
+    b.samples = 8;
+    b.primal = RgbImage(width, height, Rgb(1.5f));
+    b.dx = b.dy = RgbImage(width, height, Rgb(0));
+    for (int y = 8; y < 12; ++y)
+        for (int x = 14; x < 18; ++x) {
+            b.primal(x, y) = Rgb(800);
+            images.primal(x, y) = Rgb(101);
+            images.primal_variance(x, y) = 3e4f;
+        }
+    for (int y = 0; y < height; ++y)
+        for (int x = 20; x < 25; ++x) {
+            images.primal(x, y) = b.primal(x, y) = Rgb(0.001f);
+            images.primal_variance(x, y) = 1e-12f;
+        }
+    const RgbImage kept = reconstruct(images, {.norm = Norm::none}).image;
+    images.patch = 1;
+    const RgbImage spread = reconstruct(images, {.norm = Norm::none}).image;
+    EXPECT_GT(spread(20, 10).r, 0.1f);
+    EXPECT_LT(kept(20, 10).r, 0.05f);
+    EXPECT_LT(kept(22, 10).r, 0.0011f);
+}
+
+} // namespace
+
+} // namespace tessera::test
