@@ -1,10 +1,11 @@
 #include "recon/bounds.h"
 
+#include "recon/demodulation.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
 
 namespace tessera {
 
@@ -61,32 +62,34 @@ Image<float> squared_errors(const Image<float>& variances, const ParallelFor& pa
     return own;
 }
 
-/// s of the radiance in each channel: with v = a e of every sample, that of e, and what the samples' own albedos vary
-/// by.
-Rgb standard_error(const GradientImages& images, float squared_error, int x, int y) {
-    const Demodulation& d = images.demodulation;
-    if (d.empty())
-        return Rgb(std::sqrt(squared_error));
-    const Rgb a = d.sampled_albedo(x, y), e = images.primal(x, y);
-    const auto samples = static_cast<float>(std::max(images.brightest.samples, 1));
-    return glm::sqrt(a * a * squared_error + e * e * d.sampled_variance(x, y) / samples);
-}
-
 } // namespace
 
 bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-void keep_within_bounds(const GradientImages& images, RgbImage& image, const ParallelFor& parallel_for) {
+RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for) {
     const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
-    const RgbImage& own = images.radiance();
-    parallel_for(image.height(), [&](int y) {
-        for (int x = 0; x < image.width(); ++x) {
-            const Rgb s = reach * standard_error(images, squares(x, y), x, y);
-            image(x, y) = glm::clamp(image(x, y), own(x, y) - s, own(x, y) + s);
+    RgbImage bounds = images.primal;
+    const bool is_demodulated = !images.demodulation.empty();
+    if (is_demodulated)
+        remodulate(images, false, bounds, parallel_for);
+    parallel_for(bounds.height(), [&](int y) {
+        for (int x = 0; x < bounds.width(); ++x) {
+            const Rgb albedo = is_demodulated ? images.demodulation.sampled_albedo(x, y) : Rgb(1);
+            bounds(x, y) = glm::max(bounds(x, y), Rgb(0)) + reach * std::sqrt(squares(x, y)) * albedo;
         }
     });
+    return bounds;
+}
+
+RgbImage take_excess(const RgbImage& bounds, RgbImage& image) {
+    RgbImage excess(image.width(), image.height());
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        excess.data()[i] = glm::max(image.data()[i] - bounds.data()[i], Rgb(0));
+        image.data()[i] -= excess.data()[i];
+    }
+    return excess;
 }
 
 } // namespace tessera

@@ -5,13 +5,13 @@
 
 namespace tessera {
 
-// What a pixel's own samples say of it. A solver gives a dark pixel beside a bright one some of the noise about, and
-// spikes that are held back are given to the pixels around (recon/spikes.h): little for a bright pixel, far too much
-// for the bar of a window in front of the sky. But where pixels share their paths, a dark pixel has seen what its
-// neighbours have seen, and knows that it is dark. So the picture is kept within
-//     P - 2 s <= I <= P + 2 s ,
-// where P is the pixel's own radiance and s its standard error. This is consistent, as s goes to 0 with the samples;
-// and the picture is not linear in them.
+// How bright a pixel may be, as far as its own samples know. A solver gives a dark pixel beside a bright one some of
+// the noise about, and spikes that are held back are given to the pixels around (recon/spikes.h): little for a bright
+// pixel, far too much for the bar of a window in front of the sky. But where pixels share their paths, a dark pixel has
+// seen what its neighbours have seen, and knows that it is dark. So the picture is kept below
+//     P + 2 s ,
+// where P is what the primal alone says, and s its standard error; what is above goes to the pixels around. This is
+// consistent, as s goes to 0 with the samples; and the picture is not linear in them.
 //
 // s^2 is the variance of P, or its geometric mean over the 5x5 pixels around, whichever is larger: a dark pixel
 // among dark ones is held to what it knows, one that is dark by chance among bright ones is not. An arithmetic mean
@@ -23,8 +23,10 @@ namespace tessera {
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// Keeps `image`, radiance without very direct light, within the bounds of `images`, whose spikes may be limited.
-/// Takes three floats a pixel, which is less than spread() takes and gives back before.
-void keep_within_bounds(const GradientImages& images, RgbImage& image, const ParallelFor& parallel_for);
+/// P + 2 s, radiance without very direct light.
+RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
+
+/// Takes what is above the bounds from the image, and returns it.
+RgbImage take_excess(const RgbImage& bounds, RgbImage& image);
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -149,12 +150,19 @@ namespace {
 /// pixel's own brightness would make spikes anew where few samples find light at all.
 constexpr int spread_radius = 6, guide_radius = 1;
 
-/// Where a pixel beyond the border has its light from: the picture goes on as in a mirror.
+/// A row with what is beyond its borders: the picture goes on as in a mirror.
+template <class Pixel>
+void mirror_row(const Pixel* row, int width, int reach, Pixel* out) {
+    for (int i = -reach; i < width + reach; ++i)
+        out[i + reach] = row[i < 0 ? -1 - i : i >= width ? 2 * width - 1 - i : i];
+}
+
 int mirrored(int i, int count) {
     return i < 0 ? -1 - i : i >= count ? 2 * count - 1 - i : i;
 }
 
-/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives.
+/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives. Sums are
+/// made anew for each pixel: running ones would leave the rounding of a bright pixel behind it.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     const int width = image.width(), height = image.height();
@@ -162,54 +170,65 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     Image<Pixel> other(width, height);
     for (int round = 0; round < 3; ++round) {
         parallel_for(height, [&](int y) {
-            for (int x = 0; x < width; ++x) {
-                Pixel sum(0);
-                for (int i = x - r_x; i <= x + r_x; ++i)
-                    sum += image(mirrored(i, width), y);
-                other(x, y) = sum / static_cast<float>(2 * r_x + 1);
-            }
+            std::vector<Pixel> padded(static_cast<std::size_t>(width + 2 * r_x));
+            mirror_row(image.row(y), width, r_x, padded.data());
+            Pixel* sums = other.row(y);
+            std::fill_n(sums, width, Pixel(0));
+            for (int i = 0; i <= 2 * r_x; ++i)
+                for (int x = 0; x < width; ++x)
+                    sums[x] += padded[static_cast<std::size_t>(x + i)];
+            for (int x = 0; x < width; ++x)
+                sums[x] /= static_cast<float>(2 * r_x + 1);
         });
         parallel_for(height, [&](int y) {
-            for (int x = 0; x < width; ++x)
-                image(x, y) = Pixel(0);
-            for (int j = y - r_y; j <= y + r_y; ++j)
+            Pixel* sums = image.row(y);
+            std::fill_n(sums, width, Pixel(0));
+            for (int j = y - r_y; j <= y + r_y; ++j) {
+                const Pixel* row = other.row(mirrored(j, height));
                 for (int x = 0; x < width; ++x)
-                    image(x, y) += other(x, mirrored(j, height)) / static_cast<float>(2 * r_y + 1);
+                    sums[x] += row[x];
+            }
+            for (int x = 0; x < width; ++x)
+                sums[x] /= static_cast<float>(2 * r_y + 1);
         });
     }
 }
 
 } // namespace
 
-/// With brightness s, what a pixel q holds goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
-void spread(const RgbImage& held, RgbImage& image, const ParallelFor& parallel_for) {
-    if (std::all_of(held.begin(), held.end(), [](Rgb c) { return c == Rgb(0); }))
-        return;
+LightSpreader::LightSpreader(const RgbImage& image, const ParallelFor& parallel_for)
+    : parallel_for_(parallel_for), brightness_(image.width(), image.height()) {
     double sum = 0;
     for (Rgb c : image)
         sum += std::max(0.0, static_cast<double>(luminance(c)));
-    // Where a whole neighbourhood is black, what is held is spread evenly; as in a picture that is black.
+    // Where a whole neighbourhood is black, light is spread evenly; as in a picture that is black.
     const auto least = sum > 0 ? static_cast<float>(1e-4 * sum / static_cast<double>(image.size())) : 1.0f;
-    Image<float> brightness(image.width(), image.height());
     for (std::size_t i = 0; i < image.size(); ++i)
-        brightness.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
-    blur(brightness, guide_radius, parallel_for);
-    Image<float> around = brightness;
-    blur(around, spread_radius, parallel_for);
-    RgbImage ratio = held;
+        brightness_.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
+    blur(brightness_, guide_radius, parallel_for);
+    around_ = brightness_;
+    blur(around_, spread_radius, parallel_for);
+}
+
+/// With brightness s, what a pixel q has goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
+void LightSpreader::spread(const RgbImage& light, RgbImage& image) const {
+    if (std::all_of(light.begin(), light.end(), [](Rgb c) { return c == Rgb(0); }))
+        return;
+    RgbImage ratio = light;
     for (std::size_t i = 0; i < image.size(); ++i)
-        ratio.data()[i] /= around.data()[i];
-    blur(ratio, spread_radius, parallel_for);
+        ratio.data()[i] /= around_.data()[i];
+    blur(ratio, spread_radius, parallel_for_);
     for (std::size_t i = 0; i < image.size(); ++i)
-        image.data()[i] += brightness.data()[i] * ratio.data()[i];
+        image.data()[i] += brightness_.data()[i] * ratio.data()[i];
 }
 
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
     const std::size_t copies = (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) + sizeof(Rgb) +
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
                                BrightestSamples::bytes_a_pixel;
-    const std::size_t held = sizeof(Rgb), spreading = 2 * (sizeof(Rgb) + sizeof(float));
-    return copies + held + spreading;
+    // Two images of light to be spread, one on its way, the bounds, and the spreader's own.
+    const std::size_t spreading = 4 * sizeof(Rgb) + 2 * sizeof(float);
+    return copies + spreading;
 }
 
 } // namespace tessera

@@ -30,14 +30,25 @@ bool can_limit(const GradientImages& images);
 /// @param held  becomes the radiance that is held back; black where there is nothing
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for);
 
-/// Gives what is held back to the pixels around, about 20 pixels wide, by the brightness about each. The image,
-/// radiance without very direct light, gains as much light as there is in `held`, but for rounding.
-void spread(const RgbImage& held, RgbImage& image, const ParallelFor& parallel_for);
+/// Gives light to the pixels around where it is, about 20 pixels wide, by the brightness about each.
+class LightSpreader {
+public:
+    /// By the brightness of `image`, radiance without very direct light.
+    LightSpreader(const RgbImage& image, const ParallelFor& parallel_for);
+
+    /// Adds as much light to the image as there is in `light`, but for rounding.
+    void spread(const RgbImage& light, RgbImage& image) const;
+
+private:
+    const ParallelFor& parallel_for_;
+    Image<float> brightness_; ///< about each pixel
+    Image<float> around_;     ///< the same, as wide as light is spread
+};
 
 /// The radiance that limited() holds back; black where it is not to be used.
 RgbImage held_light(const GradientImages& images);
 
-/// The memory that limited() and spread() take, a pixel.
+/// The memory that limited(), a LightSpreader and upper_bounds() (recon/bounds.h) take, a pixel.
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated);
 
 } // namespace tessera

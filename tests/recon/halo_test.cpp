@@ -52,7 +52,7 @@ TEST(Halo, TellsBlobsFromSpreadLight) {
     const Halo l2 = halo(Norm::l2, Spikes::off);
     EXPECT_GT(l2.energy, 0.3);
     EXPECT_GT(l2.peak, 1);
-    EXPECT_LT(halo(Norm::none, Spikes::consistent).peak, 0.3 * l2.peak);
+    EXPECT_LT(halo(Norm::none, Spikes::consistent).peak, 0.5 * l2.peak);
 }
 
 /// In the place of the brightest sample is the mean of the others, and variances are theirs.
