@@ -62,8 +62,12 @@ void sample_lights(const Tracer& tracer, int index, RayKind kind, BasePath& path
     for (int j = 0; j < path.light_samples(); ++j) {
         LightSample& drawn = lights[static_cast<std::size_t>(j)];
         Segment way;
-        if (draw_light(tracer, x, path.random, index, j, drawn, way) && tracer.occluded(way, kind))
+        if (!draw_light(tracer, x, path.random, index, j, drawn, way))
+            continue;
+        if (tracer.occluded(way, kind))
             drawn.brings = Rgb(0);
+        else
+            complete_light(tracer, drawn);
     }
 }
 

@@ -98,10 +98,18 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pix
 void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path);
 
 /// Emitter sampling: light sample `sample` (from 0) of vertex x_index, weighted against BSDF sampling, as if
-/// nothing were in the way. False: it brings nothing.
+/// nothing were in the way. False: it brings nothing. What the environment brings is left black, as its radiance
+/// is dear and much of it blocked: complete_light() looks it up.
 /// @param way  the stretch that must be free
 bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
                 LightSample& drawn, Segment& way);
+
+inline void complete_light(const Tracer& tracer, LightSample& drawn) {
+    if (drawn.light.kind != LightPoint::Kind::environment)
+        return;
+    tracer.scene.lights().complete(drawn.light);
+    drawn.brings = drawn.f_cos * drawn.light.radiance / drawn.pdf_sum;
+}
 
 /// Whether offsets can be joined at a scattering by connecting two points: its roughness is above the threshold.
 /// Decided alike for base and offset, or a shift would not be its own inverse.

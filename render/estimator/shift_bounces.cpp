@@ -102,6 +102,7 @@ void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
     Segment way;
     if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, sample, drawn, way))
         return fail(m, ShiftOutcome::no_light);
+    complete_light(tracer_, drawn);
     const int slot = light_->emitter_slot(i, sample);
     paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
     keep_bounce(m, {drawn.to_light, drawn.f_cos, drawn.pdf_w, 1}, false);

@@ -111,6 +111,32 @@ inline glm::vec2 sin_cos_quarter(float angle) {
     return {sine, cosine};
 }
 
+/// Sine and cosine of `turns` times 2 pi, for turns in [0, 1].
+inline glm::vec2 sin_cos_of_turns(float turns) {
+    const int quarter = static_cast<int>(4 * turns + 0.5f); // the nearest one
+    const glm::vec2 sc = sin_cos_quarter(pi / 2 * (4 * turns - static_cast<float>(quarter)));
+    const bool is_odd = quarter & 1;
+    const float sine = is_odd ? sc.y : sc.x, cosine = is_odd ? sc.x : sc.y;
+    return {quarter & 2 ? -sine : sine, (quarter + 1) & 2 ? -cosine : cosine};
+}
+
+/// atan2(y, x) within 3e-7, also where both are 0; several times quicker than the library's, and the same bits
+/// with all of these. The series is that of Moshier's Cephes, about 0 or about an eighth of a turn.
+inline float angle_of(float y, float x) {
+    const float ax = std::abs(x), ay = std::abs(y);
+    const float larger = std::max(ax, ay), smaller = std::min(ax, ay);
+    const bool is_far = smaller > 0.41421356f * larger; // tan(pi / 8)
+    const float above = is_far ? smaller - larger : smaller, below = is_far ? smaller + larger : larger;
+    const float t = below > 0 ? above / below : 0.0f;
+    const float t2 = t * t;
+    const float series =
+        t + t * t2 * (-0.333329491539f + t2 * (0.199777106478f + t2 * (-0.138776856032f + t2 * 0.0805374449538f)));
+    float angle = is_far ? series + pi / 4 : series;
+    angle = ay > ax ? pi / 2 - angle : angle;
+    angle = x < 0 ? pi - angle : angle;
+    return std::copysign(angle, y);
+}
+
 /// Uniform on the unit disk, by concentric rings [Shirley and Chiu 1997].
 inline glm::vec2 sample_disk(glm::vec2 u) {
     const float x = 2 * u.x - 1;
@@ -147,19 +173,27 @@ public:
     std::size_t size() const { return entries_.size(); }
     float probability(std::size_t i) const { return entries_[i].probability; }
 
+    struct Choice {
+        std::size_t index;
+        float probability;
+    };
+
     /// Chooses an entry with random numbers in [0, 1)^2. The threshold has one of its own: of one float, many
     /// entries would leave few bits for it.
-    std::size_t choose(glm::vec2 u) const {
+    Choice choose(glm::vec2 u) const {
         const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
         const std::size_t first = slot < entries_.size() ? slot : entries_.size() - 1;
-        return u.y < entries_[first].threshold ? first : entries_[first].alias;
+        const Entry& entry = entries_[first];
+        if (u.y < entry.threshold)
+            return {first, entry.probability};
+        return {entry.alias, entry.alias_probability};
     }
 
 private:
-    struct Entry {
-        float threshold; // below it this entry, else `alias`
+    struct alignas(16) Entry { // of a large table, a choice reads one line of memory
+        float threshold;       // below it this entry, else `alias`
         std::uint32_t alias;
-        float probability;
+        float probability, alias_probability;
     };
     std::vector<Entry> entries_;
 };
@@ -170,7 +204,7 @@ inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(wei
     std::vector<std::uint32_t> small, large;
     for (std::uint32_t i = 0; i < weights.size(); ++i) {
         share[i] = total > 0 ? weights[i] / total * static_cast<double>(weights.size()) : 0;
-        entries_[i] = {1, i, 0};
+        entries_[i] = {1, i, 0, 0};
         (share[i] < 1 ? small : large).push_back(i);
     }
     // A slot whose share is small gives the rest of its place to one whose share is large. What is left over at
@@ -196,6 +230,8 @@ inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(wei
     for (std::size_t i = 0; i < entries_.size(); ++i)
         entries_[i].probability =
             total > 0 ? static_cast<float>(kept[i] / static_cast<double>(entries_.size())) : 0;
+    for (Entry& entry : entries_)
+        entry.alias_probability = entries_[entry.alias].probability;
 }
 
 } // namespace tessera

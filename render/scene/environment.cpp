@@ -59,23 +59,12 @@ double share_above(double v) {
     return 0.5 - 0.5 * std::cos(3.14159265358979323846 * std::clamp(v, 0.0, 1.0));
 }
 
-/// The solid angle of one cell of a row, where the sphere is cut into `count` cells.
-double cell_solid_angle(int row, glm::ivec2 count) {
-    return 4 * 3.14159265358979323846 / count.x *
-           (share_above((row + 1.0) / count.y) - share_above(double(row) / count.y));
-}
-
 /// The solid angle of what is nearest to a pixel of a row.
 double pixel_solid_angle(const Bitmap& bitmap, int row) {
     const double steps = std::max(bitmap.height - 1, 1);
     const double below = bitmap.height == 1 ? 1 : share_above((row + 0.5) / steps);
     const double above = bitmap.height == 1 ? 0 : share_above((row - 0.5) / steps);
     return 4 * 3.14159265358979323846 / bitmap.width * (below - above);
-}
-
-glm::vec3 direction_at(float cosine, float phi) {
-    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f));
-    return {sine * std::sin(phi), cosine, -sine * std::cos(phi)};
 }
 
 } // namespace
@@ -88,9 +77,9 @@ glm::vec3 direction_of_map(glm::vec2 uv) {
 }
 
 glm::vec2 map_of_direction(glm::vec3 d) {
-    const float u = std::atan2(d.x, -d.z) * (0.5f * inv_pi);
-    // atan2 is exact at the poles, too, where acos is not.
-    return {u < 0 ? u + 1 : u, std::atan2(std::hypot(d.x, d.z), d.y) * inv_pi};
+    const float u = angle_of(d.x, -d.z) * (0.5f * inv_pi);
+    // By both coordinates it is exact at the poles, too, where acos is not.
+    return {u < 0 ? u + 1 : u, angle_of(std::sqrt(d.x * d.x + d.z * d.z), d.y) * inv_pi};
 }
 
 Environment::Environment(const EnvironmentDescription& description) : description_(description) {
@@ -108,7 +97,8 @@ Environment::Environment(const EnvironmentDescription& description) : descriptio
 
 void Environment::build_cells() {
     const Bitmap& bitmap = *description_.map->bitmap;
-    // Powers of two: a random number of 24 bits then chooses all cells alike.
+    // Powers of two: a random number of 24 bits then chooses all cells alike, and rows are found without a
+    // division.
     cell_count_ = {std::bit_floor(static_cast<unsigned>(std::min(most_cells.x, bitmap.width))),
                    std::bit_floor(static_cast<unsigned>(std::min(most_cells.y, bitmap.height)))};
     std::vector<double> weights(static_cast<std::size_t>(cell_count_.x) * static_cast<std::size_t>(cell_count_.y));
@@ -123,8 +113,13 @@ void Environment::build_cells() {
         }
     }
     cells_ = AliasTable(weights);
-    for (int row = 0; row < cell_count_.y; ++row)
-        row_solid_angle_.push_back(static_cast<float>(cell_solid_angle(row, cell_count_)));
+    column_bits_ = std::countr_zero(static_cast<unsigned>(cell_count_.x));
+    for (int row = 0; row < cell_count_.y; ++row) {
+        const double top = share_above(double(row) / cell_count_.y);
+        const double bottom = share_above((row + 1.0) / cell_count_.y);
+        rows_.push_back({static_cast<float>(1 - 2 * top), static_cast<float>(1 - 2 * bottom),
+                         static_cast<float>(cell_count_.x / (4 * 3.14159265358979323846 * (bottom - top)))});
+    }
 }
 
 glm::vec2 Environment::uv_of(glm::vec3 direction) const {
@@ -137,53 +132,76 @@ Rgb Environment::map_radiance(glm::vec2 uv) const {
     return description_.map->scale * bilinear(*description_.map->bitmap, uv);
 }
 
+float Environment::map_pdf_w(glm::vec2 uv) const {
+    if (!(map_flux_ > 0))
+        return 0;
+    const int column = std::min(static_cast<int>(uv.x * static_cast<float>(cell_count_.x)), cell_count_.x - 1);
+    const int row = std::min(static_cast<int>(uv.y * static_cast<float>(cell_count_.y)), cell_count_.y - 1);
+    const auto cell = static_cast<std::size_t>(row << column_bits_ | column);
+    return (1 - sun_share_) * cells_.probability(cell) * rows_[static_cast<std::size_t>(row)].density;
+}
+
+bool Environment::is_on_sun(glm::vec3 direction) const {
+    if (!description_.sun)
+        return false;
+    const glm::vec3 d = direction - description_.sun->direction;
+    return glm::dot(d, d) < sun_chord2_;
+}
+
+EnvironmentLight Environment::look_up(glm::vec3 direction) const {
+    EnvironmentLight light{Rgb(0), 0};
+    if (description_.map) {
+        const glm::vec2 uv = uv_of(direction);
+        light = {map_radiance(uv), map_pdf_w(uv)};
+    }
+    if (is_on_sun(direction)) {
+        light.radiance += description_.sun->radiance;
+        light.pdf_w += sun_pdf_w();
+    }
+    return light;
+}
+
 Rgb Environment::radiance(glm::vec3 direction) const {
     Rgb sum(0);
     if (description_.map)
         sum += map_radiance(uv_of(direction));
-    if (description_.sun) {
-        const glm::vec3 d = direction - description_.sun->direction;
-        if (glm::dot(d, d) < sun_chord2_)
-            sum += description_.sun->radiance;
-    }
+    if (is_on_sun(direction))
+        sum += description_.sun->radiance;
     return sum;
 }
 
 float Environment::pdf_w(glm::vec3 direction) const {
-    float pdf = 0;
-    if (map_flux_ > 0) {
-        const glm::vec2 uv = uv_of(direction);
-        const int column = std::min(static_cast<int>(uv.x * static_cast<float>(cell_count_.x)), cell_count_.x - 1);
-        const int row = std::min(static_cast<int>(uv.y * static_cast<float>(cell_count_.y)), cell_count_.y - 1);
-        const auto cell = static_cast<std::size_t>(row * cell_count_.x + column);
-        const float solid_angle = row_solid_angle_[static_cast<std::size_t>(row)];
-        pdf += (1 - sun_share_) * cells_.probability(cell) / solid_angle;
-    }
-    if (sun_share_ > 0) {
-        const glm::vec3 d = direction - description_.sun->direction;
-        if (glm::dot(d, d) < sun_chord2_)
-            pdf += sun_share_ / (pi * sun_chord2_);
-    }
-    return pdf;
+    const float of_map = map_flux_ > 0 ? map_pdf_w(uv_of(direction)) : 0;
+    return is_on_sun(direction) ? of_map + sun_pdf_w() : of_map;
 }
 
-glm::vec3 Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
-    if (u_position.x < sun_share_) {
-        u_position.x /= sun_share_;
-        // Uniform on the cap: its chord's square is uniform [0, chord^2], and 1 - chord^2 / 2 is the cosine.
-        const float chord2 = u_position.x * sun_chord2_;
-        const float sine = std::sqrt(std::max(chord2 * (1 - chord2 / 4), 0.0f));
-        const float phi = 2 * pi * u_position.y;
-        return Frame(description_.sun->direction)
-            .to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - chord2 / 2});
-    }
-    u_position.x = (u_position.x - sun_share_) / (1 - sun_share_);
-    const auto cell = static_cast<int>(cells_.choose(u_cell));
-    const int row = cell / cell_count_.x, column = cell % cell_count_.x;
-    const auto top = static_cast<float>(1 - 2 * share_above(double(row) / cell_count_.y));
-    const auto bottom = static_cast<float>(1 - 2 * share_above((row + 1.0) / cell_count_.y));
-    const float phi = 2 * pi * (static_cast<float>(column) + u_position.x) / static_cast<float>(cell_count_.x);
-    return glm::normalize(description_.map->to_world * direction_at(top + u_position.y * (bottom - top), phi));
+EnvironmentSample Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
+    if (u_position.x < sun_share_)
+        return sample_sun({u_position.x / sun_share_, u_position.y});
+    return sample_map(u_cell, {(u_position.x - sun_share_) / (1 - sun_share_), u_position.y});
+}
+
+EnvironmentSample Environment::sample_sun(glm::vec2 u) const {
+    // Uniform on the cap: its chord's square is uniform [0, chord^2], and 1 - chord^2 / 2 is the cosine.
+    const float chord2 = u.x * sun_chord2_;
+    const float sine = std::sqrt(std::max(chord2 * (1 - chord2 / 4), 0.0f));
+    const glm::vec2 around = sin_cos_of_turns(u.y);
+    const glm::vec3 direction =
+        Frame(description_.sun->direction).to_world({sine * around.y, sine * around.x, 1 - chord2 / 2});
+    return {direction, sun_pdf_w() + (map_flux_ > 0 ? map_pdf_w(uv_of(direction)) : 0)};
+}
+
+EnvironmentSample Environment::sample_map(glm::vec2 u_cell, glm::vec2 u_position) const {
+    const AliasTable::Choice cell = cells_.choose(u_cell);
+    const Row& row = rows_[cell.index >> column_bits_];
+    const auto column = static_cast<float>(cell.index & ((std::size_t{1} << column_bits_) - 1));
+    const float cosine = row.top + u_position.y * (row.bottom - row.top);
+    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f));
+    const glm::vec2 around = sin_cos_of_turns((column + u_position.x) / static_cast<float>(cell_count_.x));
+    const glm::vec3 direction =
+        glm::normalize(description_.map->to_world * glm::vec3(sine * around.x, cosine, -sine * around.y));
+    const float pdf_w = (1 - sun_share_) * cell.probability * row.density;
+    return {direction, is_on_sun(direction) ? pdf_w + sun_pdf_w() : pdf_w};
 }
 
 } // namespace tessera

@@ -44,6 +44,18 @@ struct EnvironmentDescription {
     bool empty() const { return !map && !sun; }
 };
 
+/// What arrives from a direction.
+struct EnvironmentLight {
+    Rgb radiance;
+    float pdf_w; ///< of Environment::sample(), per solid angle
+};
+
+/// A direction from which light may arrive.
+struct EnvironmentSample {
+    glm::vec3 direction; ///< unit, world
+    float pdf_w;
+};
+
 /// An environment, made ready for look-ups and for sampling by luminance.
 class Environment {
 public:
@@ -55,23 +67,38 @@ public:
     /// Density of sample(), per solid angle. Positive wherever radiance() is.
     float pdf_w(glm::vec3 direction) const;
 
-    /// A direction chosen with random numbers in [0, 1)^2: a cell of the map and a place in it, or on the sun.
-    glm::vec3 sample(glm::vec2 u_cell, glm::vec2 u_position) const;
+    /// radiance() and pdf_w() at once, which costs little more than either.
+    EnvironmentLight look_up(glm::vec3 direction) const;
+
+    /// A direction chosen with random numbers in [0, 1)^2: a cell of the map and a place in it, or on the sun. Its
+    /// density is that of pdf_w(), but for rounding at the edges of cells.
+    EnvironmentSample sample(glm::vec2 u_cell, glm::vec2 u_position) const;
 
     /// Integral of the luminance over all directions; 0: it is black.
     double flux() const { return map_flux_ + sun_flux_; }
 
 private:
     void build_cells();
-    Rgb map_radiance(glm::vec2 uv) const;
     glm::vec2 uv_of(glm::vec3 direction) const;
+    Rgb map_radiance(glm::vec2 uv) const;
+    float map_pdf_w(glm::vec2 uv) const;
+    bool is_on_sun(glm::vec3 direction) const;
+    float sun_pdf_w() const { return sun_share_ / (pi * sun_chord2_); }
+    EnvironmentSample sample_sun(glm::vec2 u) const;
+    EnvironmentSample sample_map(glm::vec2 u_cell, glm::vec2 u_position) const;
 
     EnvironmentDescription description_;
     glm::mat3 to_map_{1.0f};
-    // The map's sphere in cells of equal u and v; within a cell, directions are uniform by solid angle.
+    // The map's sphere in cells of equal u and v, powers of two; within a cell, directions are uniform by solid
+    // angle.
+    struct Row {
+        float top, bottom; // cosines
+        float density;     // of a direction in one of its cells
+    };
     glm::ivec2 cell_count_{0};
+    int column_bits_ = 0;
     AliasTable cells_;
-    std::vector<float> row_solid_angle_; // of a cell in each row
+    std::vector<Row> rows_;
     double map_flux_ = 0, sun_flux_ = 0;
     float sun_share_ = 0;  // probability that sample() takes the sun
     float sun_chord2_ = 0; // square of the distance from the centre to the edge of the disk, on the unit sphere

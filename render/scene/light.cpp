@@ -129,15 +129,17 @@ LightPoint LightTable::sample_other(const Source& source, const Random& random, 
         const DirectionalLight& light = directionals_[chosen->index];
         return {Kind::directional, light.to_light, glm::vec3(0), light.irradiance, chosen->probability};
     }
-    return environment_toward(environment_->sample(random.draw_2d(vertex, Draw::emitter_cell),
-                                                   random.draw_2d(vertex, Draw::emitter_position)));
+    const EnvironmentSample drawn = environment_->sample(random.draw_2d(vertex, Draw::emitter_cell),
+                                                         random.draw_2d(vertex, Draw::emitter_position));
+    return {Kind::environment, drawn.direction, glm::vec3(0), Rgb(0), environment_probability_ * drawn.pdf_w};
 }
 
 LightPoint LightTable::environment_toward(glm::vec3 direction) const {
     LightPoint light{LightPoint::Kind::environment, direction, glm::vec3(0), Rgb(0), 0};
     if (environment_ && glm::dot(direction, direction) > 0.5f) { // not for what is no direction
-        light.radiance = environment_->radiance(direction);
-        light.pdf = environment_probability_ * environment_->pdf_w(direction);
+        const EnvironmentLight arriving = environment_->look_up(direction);
+        light.radiance = arriving.radiance;
+        light.pdf = environment_probability_ * arriving.pdf_w;
     }
     return light;
 }

@@ -125,9 +125,11 @@ public:
     std::size_t size() const { return sources_.size(); } ///< emitting triangles and other lights
 
     /// Chooses a point of a light with the numbers of a path's vertex. False: it surely sends no light to the
-    /// receiver. Not for an empty table. (In place: this is where paths spend their time.)
+    /// receiver. Not for an empty table. Of the environment the radiance is left black, as it is dear, and most
+    /// directions turn out to be blocked: complete() looks it up. (In place: this is where paths spend their
+    /// time.)
     bool sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const {
-        const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter))];
+        const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter)).index];
         const auto* triangle = std::get_if<LightTriangle>(&source);
         if (!triangle)
             point = sample_other(source, random, vertex);
@@ -136,6 +138,12 @@ public:
         else
             return false;
         return true;
+    }
+
+    /// Looks up the radiance that sample() has left out.
+    void complete(LightPoint& point) const {
+        if (point.kind == LightPoint::Kind::environment)
+            point.radiance = environment_->radiance(point.position);
     }
 
     /// LightPoint::pdf at any point of an area light.

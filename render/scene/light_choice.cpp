@@ -72,6 +72,7 @@ Brought sample_group(const Scene& scene, const LightTable& table, const Receiver
     LightPoint light;
     if (!table.sample(at.position, random, number, light))
         return {};
+    table.complete(light);
     const std::optional<LightRay> ray = light.seen_from(at.position);
     const float cos = ray ? glm::dot(ray->direction, at.normal) : 0;
     if (!(cos > 0) || !(ray->pdf_w > 0))

@@ -73,12 +73,15 @@ TEST_P(Environments, SamplesFollowThePdf) {
     // Means of smooth functions over samples and, by their pdf, over the sphere.
     constexpr int samples = 400000;
     glm::dvec3 mean(0), expected(0);
+    int elsewhere = 0;
     for (int i = 0; i < samples; ++i) {
-        const glm::vec3 d = environment.sample(random(), random());
-        ASSERT_NEAR(glm::length(d), 1, 1e-5f);
-        ASSERT_GT(environment.pdf_w(d), 0);
-        mean += glm::dvec3(d) / double(samples);
+        const EnvironmentSample s = environment.sample(random(), random());
+        ASSERT_NEAR(glm::length(s.direction), 1, 1e-5f);
+        ASSERT_GT(s.pdf_w, 0);
+        elsewhere += std::abs(environment.pdf_w(s.direction) / s.pdf_w - 1) > 1e-5f;
+        mean += glm::dvec3(s.direction) / double(samples);
     }
+    EXPECT_LT(elsewhere, samples / 1000); // rounding, at the edges of cells
     constexpr int steps = 2000;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
@@ -112,8 +115,32 @@ std::vector<std::pair<const char*, std::function<EnvironmentDescription()>>> kin
             {"sun_and_map", [] { return with_sun(uneven(24, 13), 0.2f); }}};
 }
 
+TEST_P(Environments, BothAtOnceAreWhatEachIsAlone) {
+    for (int i = 0; i < 100000; ++i) {
+        const glm::vec3 d = i % 2 ? uniform_direction(random()) : environment.sample(random(), random()).direction;
+        const EnvironmentLight light = environment.look_up(d);
+        ASSERT_EQ(light.radiance, environment.radiance(d));
+        ASSERT_EQ(light.pdf_w, environment.pdf_w(d));
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(kinds, Environments, testing::ValuesIn(kinds()),
                          [](const auto& p) { return p.param.first; });
+
+TEST(Angles, AreTheLibrarys) {
+    for (int i = 0; i <= 4096; ++i) {
+        const float turns = static_cast<float>(i) / 4096;
+        const double angle = 2 * 3.14159265358979323846 * turns;
+        const glm::vec2 sc = sin_cos_of_turns(turns);
+        ASSERT_NEAR(sc.x, std::sin(angle), 1e-6);
+        ASSERT_NEAR(sc.y, std::cos(angle), 1e-6);
+        for (const float radius : {1e-12f, 1.0f, 1e12f})
+            ASSERT_NEAR(angle_of(radius * sc.x, radius * sc.y), std::atan2(sc.x, sc.y), 4e-7);
+    }
+    EXPECT_EQ(angle_of(0, 0), 0);
+    EXPECT_EQ(angle_of(0, 1), 0);
+    EXPECT_FLOAT_EQ(angle_of(0, -1), pi);
+}
 
 TEST(Environment, MapIsOrientedAsMitsubas) {
     // u = atan2(x, -z) / 2 pi: the left edge of the picture is -z, a quarter to the right is +x; v = 0 is +y.

@@ -23,7 +23,7 @@ TEST(AliasTable, ChoosesInProportionToTheWeights) {
     constexpr int steps = 1200;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j)
-            share[table.choose((glm::vec2(i, j) + 0.5f) / float(steps))] += 1.0 / (steps * steps);
+            share[table.choose((glm::vec2(i, j) + 0.5f) / float(steps)).index] += 1.0 / (steps * steps);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         EXPECT_NEAR(share[i], weights[i] / 8.001, 1e-3);
         EXPECT_NEAR(table.probability(i), weights[i] / 8.001, 1e-7); // thresholds have 24 bits
@@ -34,7 +34,7 @@ TEST(AliasTable, SaysWhatItDoesForTinyWeights) {
     const AliasTable table(std::vector<double>{1, 1e-9});
     int tiny = 0;
     for (int i = 0; i < 1 << 24; ++i)
-        tiny += table.choose({0.75f, static_cast<float>(i) * 0x1p-24f}) == 1;
+        tiny += table.choose({0.75f, static_cast<float>(i) * 0x1p-24f}).index == 1;
     EXPECT_FLOAT_EQ(table.probability(1), static_cast<float>(tiny) * 0x1p-25f);
     EXPECT_GE(tiny, 1);
 }
@@ -71,6 +71,7 @@ TEST(LightTable, EverySampleIsWeighedByItsPdf) {
         LightPoint light;
         if (!scene->lights().sample(receiver, Random(3, 1, static_cast<std::uint32_t>(i)), 0, light))
             continue;
+        scene->lights().complete(light);
         const auto seen = light.seen_from(receiver);
         if (!seen)
             continue;
@@ -170,6 +171,7 @@ TEST(LightChoice, FactorsDoNotChangeTheMean) {
             LightPoint point;
             if (!table.sample({0.2f, 0.1f, 0.3f}, Random(7, static_cast<std::uint32_t>(i), 0), 0, point))
                 continue;
+            table.complete(point);
             if (const auto ray = point.seen_from({0.2f, 0.1f, 0.3f}); ray && ray->direction.y > 0)
                 sum += luminance(ray->radiance) * ray->direction.y / ray->pdf_w;
         }

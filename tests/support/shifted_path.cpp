@@ -155,7 +155,10 @@ private:
         const bool connectable = is_connectable(base_[end_.vertex].vertex);
         if (!connectable && settings_.shift == ShiftKind::replay_reconnection) {
             Segment way;
-            return draw_light(tracer_, y, base_.random, end_.vertex + 1, end_.sample, drawn, way);
+            if (!draw_light(tracer_, y, base_.random, end_.vertex + 1, end_.sample, drawn, way))
+                return false;
+            complete_light(tracer_, drawn);
+            return true;
         }
         drawn.light = x.light;
         if (!connectable && x.light.can_be_hit()) {
