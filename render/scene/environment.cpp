@@ -16,8 +16,8 @@ namespace tessera {
 
 namespace {
 
-/// Cells a map is sampled by at most; more would cost memory and cache, and bring little.
-constexpr glm::ivec2 most_cells(1024, 512);
+/// Cells a map is sampled by at most: as wide as the sun. More would be beyond a core's own cache, and bring little.
+constexpr glm::ivec2 most_cells(512, 256);
 
 /// The pixel at column x, which runs around, and row y, which ends at the poles.
 Rgb pixel(const Bitmap& bitmap, int x, int y) {
