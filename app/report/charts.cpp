@@ -12,6 +12,19 @@ namespace tessera {
 
 namespace {
 
+/// Dashes tell the norm; markers tell the values of variations from the first-th on.
+LineLook look_of(const ExperimentOptions& options, const Result& result, std::size_t first) {
+    const PictureSettings& s = result.setup.settings;
+    std::ptrdiff_t marker = 0;
+    for (std::size_t i = first; i < options.variations.size(); ++i) {
+        const std::vector<std::string>& values = options.variations[i].values;
+        const auto found = std::find(values.begin(), values.end(), result.setup.values[i]);
+        const std::ptrdiff_t place = found == values.end() ? 0 : found - values.begin();
+        marker = marker * static_cast<std::ptrdiff_t>(values.size()) + place;
+    }
+    return {s.render.method, s.reconstruction.norm, static_cast<int>(marker)};
+}
+
 ChartPlot plot_of(const ExperimentOptions& options, const SceneCurves& scene, const char* x_label,
                   double (*x)(const Result&)) {
     const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
@@ -23,7 +36,7 @@ ChartPlot plot_of(const ExperimentOptions& options, const SceneCurves& scene, co
                    {}};
     for (const Curve& curve : scene.curves) {
         const double slope = slope_of(curve);
-        ChartSeries series{curve_label(options, curve), {}, false};
+        ChartSeries series{curve_label(options, curve), {}, false, false, look_of(options, last_of(curve), 0)};
         if (std::isfinite(slope))
             series.label += fmt::format(" (slope {:.2f})", slope);
         for (const Result& r : curve)
@@ -59,7 +72,7 @@ Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCu
     ChartPlot plot{
         "triangles", "millions of samples a CPU second", ChartAxis::Scale::log, ChartAxis::Scale::log, {}, {}};
     for (Method method : all_methods) {
-        ChartSeries series{std::string(short_name(method)), {}, false};
+        ChartSeries series{std::string(short_name(method)), {}, false, false, {method, Norm::weighted, 0}};
         for (const SceneCurves& scene : scenes)
             if (const Curve* curve = best_curve(scene, method)) {
                 const Result& r = last_of(*curve);
@@ -157,6 +170,7 @@ ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& r
                                       ? std::string(short_name(result.setup.settings.render.method))
                                       : result.setup.values.front();
         ChartSeries& series = series_named(plot.series, line_label(options, result));
+        series.look = look_of(options, result, 1);
         series.is_level = value.empty();
         series.points.push_back(point_of(x.at(value), result));
     }

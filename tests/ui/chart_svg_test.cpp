@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -179,6 +181,26 @@ TEST(Chart, PointsAndBarsLieInTheFrame) {
         EXPECT_GT(std::stod(point), last);
         last = std::stod(point);
     }
+}
+
+TEST(Chart, EveryMethodAndNormHasALookOfItsOwn) {
+    std::vector<ChartSeries> lines;
+    for (Method method : all_methods)
+        for (Norm norm : all_norms)
+            for (int marker = 0; marker < (has_gradients(method) || norm == Norm::none ? 2 : 0); ++marker)
+                lines.push_back({std::to_string(lines.size()), {{1, 1}, {2, 1}}, false, true, {method, norm, marker}});
+    ASSERT_GT(lines.size(), 20u);
+    const pugi::xml_document document = parse(to_svg({"t", {{"x", "y", Scale::log, Scale::log, {}, lines}}}));
+    std::set<std::string> strokes;
+    std::set<std::pair<std::string, std::string>> dashes;
+    for (const pugi::xml_node& line : document.document_element().children("polyline")) {
+        strokes.insert(line.attribute("stroke").value());
+        dashes.emplace(line.attribute("stroke").value(), line.attribute("stroke-dasharray").value());
+    }
+    EXPECT_EQ(strokes.size(), std::size(all_methods)) << "a colour a method";
+    EXPECT_EQ(dashes.size(), 2 + 2 * all_norms.size()) << "dashes for norms, of methods that have any";
+    EXPECT_GT(count(document, "circle"), 0);
+    EXPECT_EQ(count(document, "circle") + 2, count(document, "rect")) << "ground and frame, and the second markers";
 }
 
 TEST(Chart, NamesStandAtTheirPlaces) {

@@ -56,8 +56,9 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     EXPECT_EQ(csv.find("weighted,0.2,1,16"), std::string::npos) << csv;
     const Chart chart = viewer_chart(state());
     ASSERT_EQ(chart.plots.at(0).series.size(), 3u);
-    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, weighted");
-    EXPECT_EQ(chart.plots[0].series[2].label, "2  G-PR, l1");
+    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, weighted, alpha 0.2");
+    EXPECT_EQ(chart.plots[0].series[2].label, "2  G-PR, L1, alpha 0.3");
+    EXPECT_NE(chart.plots[0].series[1].look, chart.plots[0].series[2].look);
     EXPECT_EQ(line_colours(state()).size(), 3u);
     type(Key::h);
     frames(2);
@@ -76,7 +77,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     // Until another method's pictures have been measured, the points are still the old one's.
     state().panes[1].settings.render.method = Method::pr;
     EXPECT_EQ(chart_csv(state()).find("2,pr,"), std::string::npos);
-    EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label, "2  G-PR, weighted");
+    EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label.rfind("2  G-PR, weighted", 0), 0u);
 }
 
 TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {

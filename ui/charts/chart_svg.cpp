@@ -1,4 +1,5 @@
 #include "ui/charts/chart.h"
+#include "ui/gl/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 // All sizes are in pixels.
 constexpr double frame_width = 400, frame_height = 300;
 constexpr double left_room = 78, right_room = 22, bottom_room = 66, title_height = 46;
-constexpr double key_line = 22, key_sample = 34, letter_width = 7.2;
+constexpr double key_line = 22, key_sample = 46, letter_width = 7.2;
 
 /// Okabe and Ito's: told apart by those who do not see red or green, too.
 constexpr std::string_view colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -26,8 +27,10 @@ public:
     explicit SvgWriter(const Chart& chart) : chart_(chart) {
         for (const ChartPlot& plot : chart.plots)
             for (const ChartSeries& series : plot.series)
-                if (std::find(labels_.begin(), labels_.end(), series.label) == labels_.end())
+                if (std::find(labels_.begin(), labels_.end(), series.label) == labels_.end()) {
                     labels_.push_back(series.label);
+                    styles_.push_back(style_of(series, labels_.size() - 1));
+                }
     }
 
     std::string write() {
@@ -53,6 +56,13 @@ public:
     }
 
 private:
+    /// How a line is drawn.
+    struct Style {
+        std::string color;
+        std::string dashes; // an attribute, or empty
+        int marker = 0;
+        bool is_level = false; // without markers
+    };
     struct Frame {
         double left;
         ChartAxes axes;
@@ -117,12 +127,12 @@ private:
     }
 
     void draw_series(const ChartSeries& series, const Frame& f) {
-        const std::size_t index = index_of(series.label);
+        const Style& style = styles_[index_of(series.label)];
         std::vector<ChartPoint> points = series.points;
         if (series.is_level) {
             points.resize(std::min<std::size_t>(points.size(), 1));
             if (!points.empty() && f.axes.y.has(points[0].y))
-                draw_sample(f.left, f.left + frame_width, f.at_y(points[0].y), index, true);
+                draw_sample(f.left, f.left + frame_width, f.at_y(points[0].y), style);
             return;
         }
         points.erase(std::remove_if(points.begin(), points.end(), [&](const auto& p) { return !f.axes.has(p); }),
@@ -131,11 +141,12 @@ private:
         std::string path;
         for (const ChartPoint& p : points)
             path += fmt::format("{:.6g},{:.6g} ", f.at_x(p.x), f.at_y(p.y));
-        add(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"/>)", path, color(index));
+        add(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"{}/>)", path, style.color,
+            style.dashes);
         for (const ChartPoint& p : points) {
-            draw_error(p, f, color(index));
+            draw_error(p, f, style.color);
             if (!series.is_dense || &p == &points.back())
-                draw_marker(f.at_x(p.x), f.at_y(p.y), index);
+                draw_marker(f.at_x(p.x), f.at_y(p.y), style);
         }
     }
 
@@ -152,15 +163,16 @@ private:
             line(x - 4, bottom, x + 4, bottom, stroke, faint);
     }
 
-    void draw_marker(double x, double y, std::size_t index) {
+    void draw_marker(double x, double y, const Style& style) {
         constexpr double r = 4;
-        const std::string_view fill = color(index);
-        if (index % 4 == 0)
+        const std::string_view fill = style.color;
+        const int marker = style.marker % line_markers;
+        if (marker == 0)
             add(R"(<circle cx="{:.6g}" cy="{:.6g}" r="{:g}" fill="{}"/>)", x, y, r, fill);
-        else if (index % 4 == 1)
+        else if (marker == 1)
             add(R"(<rect x="{:.6g}" y="{:.6g}" width="{:g}" height="{:g}" fill="{}"/>)", x - r, y - r, 2 * r,
                 2 * r, fill);
-        else if (index % 4 == 2)
+        else if (marker == 2)
             add(R"(<path d="M{:.6g},{:.6g} l{:g},{:g} h{:g} z" fill="{}"/>)", x, y - 1.3 * r, 1.2 * r, 2.2 * r,
                 -2.4 * r, fill);
         else
@@ -168,11 +180,10 @@ private:
                 1.4 * r, 1.4 * r, -1.4 * r, 1.4 * r, -1.4 * r, -1.4 * r, fill);
     }
 
-    void draw_sample(double x1, double x2, double y, std::size_t index, bool is_level) {
-        line(x1, y, x2, y, color(index),
-             is_level ? R"(stroke-width="2" stroke-dasharray="7 5")" : R"(stroke-width="2")");
-        if (!is_level)
-            draw_marker((x1 + x2) / 2, y, index);
+    void draw_sample(double x1, double x2, double y, const Style& style) {
+        line(x1, y, x2, y, style.color, fmt::format(R"(stroke-width="2"{})", style.dashes));
+        if (!style.is_level)
+            draw_marker((x1 + x2) / 2, y, style);
     }
 
     double key_width() const {
@@ -187,19 +198,11 @@ private:
         return std::clamp(fit, 1, std::max(1, static_cast<int>(labels_.size())));
     }
 
-    bool is_level(const std::string& label) const {
-        for (const ChartPlot& plot : chart_.plots)
-            for (const ChartSeries& series : plot.series)
-                if (series.label == label)
-                    return series.is_level;
-        return false;
-    }
-
     void draw_key(double top, int columns) {
         for (std::size_t i = 0; i < labels_.size(); ++i) {
             const double x = left_room + key_width() * static_cast<double>(i % static_cast<std::size_t>(columns));
             const double y = top + key_line * (static_cast<double>(i / static_cast<std::size_t>(columns)) + 0.5);
-            draw_sample(x, x + key_sample, y, i, is_level(labels_[i]));
+            draw_sample(x, x + key_sample, y, styles_[i]);
             text(x + key_sample + 8, y + 4.5, "start", labels_[i]);
         }
     }
@@ -208,10 +211,26 @@ private:
         return static_cast<std::size_t>(std::find(labels_.begin(), labels_.end(), label) - labels_.begin());
     }
 
-    static std::string_view color(std::size_t index) { return colors[index % std::size(colors)]; }
+    /// The style of a line whose label is the index-th.
+    static Style style_of(const ChartSeries& series, std::size_t index) {
+        Style style{std::string(colors[index % std::size(colors)]), "", static_cast<int>(index), series.is_level};
+        if (!series.look.method) {
+            style.dashes = series.is_level ? R"( stroke-dasharray="7 5")" : "";
+            return style;
+        }
+        const ImU32 ink = method_ink(*series.look.method);
+        style.color = fmt::format("#{:02x}{:02x}{:02x}", ink >> IM_COL32_R_SHIFT & 255,
+                                  ink >> IM_COL32_G_SHIFT & 255, ink >> IM_COL32_B_SHIFT & 255);
+        style.marker = series.look.marker;
+        for (float length : dashes_of(series.look)) // in widths of the line, which is of two pixels
+            style.dashes += fmt::format("{}{:g}", style.dashes.empty() ? R"( stroke-dasharray=")" : " ", 2 * length);
+        style.dashes += style.dashes.empty() ? "" : "\"";
+        return style;
+    }
 
     const Chart& chart_;
     std::vector<std::string> labels_;
+    std::vector<Style> styles_; // by label
     std::string out_;
 };
 

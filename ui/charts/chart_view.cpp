@@ -95,9 +95,10 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
             points.push_back({x_of(p.x, frame, axes), y_of(p.y, frame, axes)});
             draw_bar(p, frame, axes, with_alpha(colours[i], 0.45f));
         }
-        list.AddPolyline(points.data(), static_cast<int>(points.size()), colours[i], 0, std::max(font / 8, 1.0f));
+        const LineLook& look = plot.series[i].look;
+        draw_dashed(points, dashes_of(look), colours[i], std::max(font / 8, 1.0f));
         if (!points.empty())
-            list.AddCircleFilled(points.back(), font * 0.2f, colours[i]);
+            draw_marker(points.back(), look.marker, font * 0.22f, colours[i]);
     }
 }
 

@@ -46,7 +46,7 @@ std::string chart_caveat(const ViewerState& state);
 /// The panes, by place, whose pictures have shifted paths.
 std::vector<std::size_t> shifting_panes(const ViewerState& state);
 
-/// "2  G-PR".
+/// "2  G-PR", or with what tells it from other panes: "2  G-PR, tile 6".
 std::string pane_name(const ViewerState& state, std::size_t pane);
 
 /// The colours of the lines in each plot of viewer_chart, in their order.

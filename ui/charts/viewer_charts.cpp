@@ -3,6 +3,7 @@
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
 #include "ui/state/inspected.h"
+#include "ui/state/pane_labels.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
@@ -50,18 +51,14 @@ struct PaneLine {
     std::size_t age; // lines of the pane that are newer
 };
 
-/// The name of one of the pane's lines: as much of its reconstruction as tells it from the others.
-std::string curve_name(std::size_t pane, const ErrorCurve& curve, const std::vector<ErrorCurve>& all) {
-    std::string name = method_name(pane, curve.method);
-    const auto norms = std::count_if(all.begin(), all.end(), [&](const ErrorCurve& other) {
-        return other.reconstruction.norm == curve.reconstruction.norm;
-    });
-    if (all.size() > 1)
-        name += fmt::format(", {}", to_string(curve.reconstruction.norm));
-    if (norms > 1)
-        name += fmt::format(" {:.3g}{}", curve.reconstruction.alpha,
-                            curve.reconstruction.joint_colour ? "" : " by channel");
-    return name;
+/// What the pictures of a line were made with.
+PaneSettings settings_of(const ViewerState& state, const PaneLine& line) {
+    PaneSettings settings = state.panes[line.pane].settings;
+    if (line.curve) {
+        settings.render.method = line.curve->method;
+        settings.reconstruction = line.curve->reconstruction;
+    }
+    return settings;
 }
 
 std::vector<PaneLine> error_lines(const ViewerState& state) {
@@ -69,18 +66,32 @@ std::vector<PaneLine> error_lines(const ViewerState& state) {
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
         for (std::size_t c = 0; c < curves.size(); ++c)
-            lines.push_back({i, &curves[c], curve_name(i, curves[c], curves), curves.size() - 1 - c});
+            lines.push_back({i, &curves[c], "", curves.size() - 1 - c});
         if (curves.empty())
-            lines.push_back({i, nullptr, pane_name(state, i), 0});
+            lines.push_back({i, nullptr, "", 0});
     }
+    std::vector<PaneSettings> all;
+    for (const PaneLine& line : lines)
+        all.push_back(settings_of(state, line));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        lines[i].name = fmt::format("{}  {}", lines[i].pane + 1, picture_label(all[i], all));
     return lines;
+}
+
+/// Dashes tell the norm; markers tell panes of one method apart.
+LineLook look_of(const ViewerState& state, const PaneLine& line) {
+    const PaneSettings settings = settings_of(state, line);
+    int alike = 0;
+    for (std::size_t i = 0; i < line.pane; ++i)
+        alike += method_of(state, i) == method_of(state, line.pane);
+    return {settings.render.method, settings.reconstruction.norm, alike};
 }
 
 ChartPlot error_plot(const ViewerState& state) {
     const bool is_error = state.layout.chart_kind == ChartKind::error;
     ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
     for (const PaneLine& line : error_lines(state)) {
-        ChartSeries series{line.name, {}, false, true};
+        ChartSeries series{line.name, {}, false, true, look_of(state, line)};
         if (line.curve)
             for (const ErrorPoint& p : line.curve->points())
                 series.points.push_back(
@@ -103,7 +114,7 @@ ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
     return plot;
 }
 
-/// The colour, made darker on a light ground, where words are written in it.
+/// A colour of a shift's outcome, made darker on a light ground, where words are written in it.
 ImU32 readable(ImU32 colour, Theme theme) {
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(colour);
     const float share = theme == Theme::light ? 0.72f : 1.0f;
@@ -112,9 +123,11 @@ ImU32 readable(ImU32 colour, Theme theme) {
 
 /// Panes with one method are told apart by their brightness.
 ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
-    ImVec4 c = ImGui::ColorConvertU32ToFloat4(method_colour(method_of(state, pane)));
+    const Method method = method_of(state, pane);
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(state.layout.theme == Theme::light ? method_ink(method)
+                                                                                : method_colour(method));
     for (std::size_t i = 0; i < pane; ++i)
-        if (method_of(state, i) == method_of(state, pane))
+        if (method_of(state, i) == method)
             c.w *= 0.6f;
     return ImGui::ColorConvertFloat4ToU32(c);
 }
@@ -129,7 +142,7 @@ ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
 } // namespace
 
 std::string pane_name(const ViewerState& state, std::size_t pane) {
-    return method_name(pane, method_of(state, pane));
+    return fmt::format("{}  {}", pane + 1, pane_label(state, static_cast<int>(pane)));
 }
 
 std::string chart_caveat(const ViewerState& state) {
@@ -190,7 +203,7 @@ std::vector<ImU32> line_colours(const ViewerState& state) {
             colours.push_back(readable(outcome_colour(outcome), state.layout.theme));
     else
         for (const PaneLine& line : error_lines(state))
-            colours.push_back(readable(line_colour(state, line), state.layout.theme));
+            colours.push_back(line_colour(state, line));
     return colours;
 }
 

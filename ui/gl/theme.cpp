@@ -208,6 +208,20 @@ ImU32 method_colour(Method method) {
     return colours::text;
 }
 
+ImU32 method_ink(Method method) {
+    switch (method) {
+    case Method::pt:
+        return IM_COL32(52, 96, 190, 255);
+    case Method::pr:
+        return IM_COL32(194, 116, 8, 255);
+    case Method::gpt:
+        return IM_COL32(158, 62, 188, 255);
+    case Method::gpr:
+        return IM_COL32(0, 140, 116, 255);
+    }
+    return colours::text;
+}
+
 ImU32 with_alpha(ImU32 colour, float alpha) {
     const auto bits = static_cast<ImU32>(std::clamp(alpha, 0.0f, 1.0f) * 255);
     return (colour & ~IM_COL32_A_MASK) | (bits << IM_COL32_A_SHIFT);

@@ -46,8 +46,9 @@ inline constexpr ImU32 overlay_line = IM_COL32(58, 61, 70, 255);
 inline constexpr ImU32 overlay_accent = IM_COL32(64, 196, 178, 255);
 } // namespace colours
 
-/// The colour that stands for a method wherever methods are compared.
+/// The colour that stands for a method wherever methods are compared: for dark grounds, and as ink on light ones.
 ImU32 method_colour(Method method);
+ImU32 method_ink(Method method);
 
 /// The colour with another opacity, in [0, 1].
 ImU32 with_alpha(ImU32 colour, float alpha);

@@ -20,10 +20,10 @@ struct PaneTools {
     ViewerState& state;
 };
 
-/// The strip above a pane's picture: method and buffer.
-void draw_pane_header(const std::string& id, Controls& controls, PaneState& pane);
+/// The strip above a pane's picture: its method, with what tells it from the other panes, and buffer.
+void draw_pane_header(int index, Controls& controls, ViewerState& state);
 
-/// The text of the line below a picture: method, why it rests, samples a pixel, seconds, rays a second,
+/// The text of the line below a picture: method, what tells it from the other panes, why it rests, samples a pixel, seconds, rays a second,
 /// reconstruction with its solver's steps and time, or one that is under way for long.
 std::string status_text(const ViewerState& state, int pane);
 

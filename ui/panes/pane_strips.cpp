@@ -4,6 +4,7 @@
 #include "ui/gl/tone.h"
 #include "ui/panes/pane_parts.h"
 #include "ui/state/inspected.h"
+#include "ui/state/pane_labels.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +40,9 @@ const std::vector<ChoiceItem>& buffer_items() {
 
 } // namespace
 
-void draw_pane_header(const std::string& id, Controls& controls, PaneState& pane) {
+void draw_pane_header(int index, Controls& controls, ViewerState& state) {
+    PaneState& pane = state.panes[static_cast<std::size_t>(index)];
+    const std::string id = "pane" + std::to_string(index);
     const float font = ImGui::GetFontSize();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
@@ -52,9 +55,10 @@ void draw_pane_header(const std::string& id, Controls& controls, PaneState& pane
     const float method_width = std::max(std::min(font * 19, (room - spacing) * 0.58f), 1.0f);
     const float buffer_width = std::max(std::min(font * 11, room - spacing - method_width), 1.0f);
     int method = static_cast<int>(pane.settings.render.method);
-    if (controls.bare_choice((id + ".method").c_str(),
-                             method_items()[static_cast<std::size_t>(method)].label.c_str(), method_items(),
-                             method, method_width, "How this pane's light paths are sampled (M)."))
+    const std::string label = pane_label(state, index);
+    const bool has_more = label != paper_name(pane.settings.render.method);
+    const std::string& shown = has_more ? label : method_items()[static_cast<std::size_t>(method)].label;
+    if (controls.bare_choice((id + ".method").c_str(), shown.c_str(), method_items(), method, method_width, "How this pane's light paths are sampled (M)."))
         pane.settings.render.method = all_methods[method];
     ImGui::SameLine();
     int buffer = static_cast<int>(pane.settings.buffer);
@@ -118,7 +122,7 @@ std::string under_way_text(const ReconstructionUnderWay& now) {
 
 std::string status_text(const ViewerState& state, int index) {
     const PaneState& pane = state.panes[static_cast<std::size_t>(index)];
-    std::string line(paper_name(pane.settings.render.method));
+    std::string line = pane_label(state, index);
     const bool reconstructs_long = state.reconstructs_long(pane);
     const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
     // What it does comes first: a narrow pane cuts the end off.

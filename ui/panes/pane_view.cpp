@@ -64,7 +64,7 @@ void PaneView::take_input(int index, const ScreenRect& where, PaneTools& tools) 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::Begin(id.c_str(), nullptr, pane_flags);
     ImGui::PopStyleVar();
-    draw_pane_header(id, tools.controls, tools.state.panes[static_cast<std::size_t>(index)]);
+    draw_pane_header(index, tools.controls, tools.state);
     frame_ = place_picture(index, id, tools);
     use_mouse(index, frame_, tools);
     ImGui::End();

@@ -1,5 +1,7 @@
 #include "ui/panes/showing.h"
 
+#include "ui/state/pane_labels.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -62,7 +64,7 @@ const PaneImage& image_of(int pane, const PaneImages& images) {
 std::string name(const ViewerState& state, int pane) {
     if (pane == the_reference)
         return "Reference";
-    return std::to_string(pane + 1) + "  " + std::string(paper_name(settings(state, pane).render.method));
+    return std::to_string(pane + 1) + "  " + pane_label(state, pane);
 }
 
 std::string missing_text(int pane, const ViewerState& state) {

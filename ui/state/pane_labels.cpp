@@ -1,0 +1,73 @@
+#include "ui/state/pane_labels.h"
+
+#include "render/settings/settings_table.h"
+#include "ui/state/buffer.h"
+
+#include <cctype>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+namespace tessera {
+
+namespace {
+
+/// All that makes the picture, but the method, which is no difference: it is named first.
+std::vector<Setting> picture_settings(PaneSettings& pane) {
+    std::vector<Setting> all = settings_of(pane.render);
+    const bool has_choice = has_gradients(pane.render.method);
+    for (Setting& setting : settings_of(pane.reconstruction)) {
+        setting.matters = setting.matters && (has_choice || setting.id == "spikes");
+        all.push_back(setting);
+    }
+    all.push_back(seed_setting(pane.render.seed));
+    return all;
+}
+
+/// "Max depth" as it stands within a sentence; "RR delta" stays.
+std::string lower(std::string_view label) {
+    std::string text(label);
+    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])))
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+/// "tile 6", "L1", "roulette absolute".
+std::string in_short(const Setting& setting) {
+    const auto* one = std::get_if<Setting::OneOf>(&setting.kind);
+    const std::string value =
+        one ? std::string(one->choices[static_cast<std::size_t>(one->get())].label) : setting.text();
+    return setting.id == "norm" ? value : lower(setting.label) + " " + value;
+}
+
+} // namespace
+
+std::string differences(const PaneSettings& settings, std::span<const PaneSettings> others) {
+    PaneSettings own = settings;
+    const std::vector<Setting> mine = picture_settings(own);
+    std::vector<bool> tells(mine.size());
+    for (PaneSettings other : others) {
+        const std::vector<Setting> theirs = picture_settings(other);
+        for (std::size_t i = 0; i < mine.size(); ++i)
+            tells[i] = tells[i] || (mine[i].matters && theirs[i].matters && mine[i].text() != theirs[i].text());
+    }
+    std::string text;
+    for (std::size_t i = 0; i < mine.size(); ++i)
+        if (tells[i])
+            text += (text.empty() ? "" : ", ") + in_short(mine[i]);
+    return text;
+}
+
+std::string picture_label(const PaneSettings& settings, std::span<const PaneSettings> others) {
+    const std::string more = differences(settings, others);
+    return std::string(paper_name(settings.render.method)) + (more.empty() ? "" : ", " + more);
+}
+
+std::string pane_label(const Document& document, int pane) {
+    std::vector<PaneSettings> all;
+    for (const PaneState& each : document.panes)
+        all.push_back(each.settings);
+    return picture_label(all[static_cast<std::size_t>(pane)], all);
+}
+
+} // namespace tessera
