@@ -101,6 +101,15 @@ double sigmas(double probability) {
     return inverse([](double z) { return std::erfc(z / std::sqrt(2.0)); }, probability, 37);
 }
 
+/// Drops the points that only some of the seeds have reached, whose first pass was over in time: their mean is of
+/// other seeds than that of the next.
+static void drop_partial(Curve& curve) {
+    std::size_t most = 0;
+    for (const Result& result : curve)
+        most = std::max(most, result.runs.size());
+    std::erase_if(curve, [&](const Result& result) { return result.runs.size() < most; });
+}
+
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
     std::vector<SceneCurves> scenes;
     const auto goes_on = [](const std::vector<Curve>& curves, const Setup& setup) {
@@ -115,6 +124,9 @@ std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
             curves.emplace_back();
         curves.back().push_back(result);
     }
+    for (SceneCurves& scene : scenes)
+        for (Curve& curve : scene.curves)
+            drop_partial(curve);
     return scenes;
 }
 

@@ -39,7 +39,8 @@ struct SceneCurves {
     std::vector<Curve> curves; ///< in the order of their setups
 };
 
-/// The results, in the order of their scenes and setups, as curves.
+/// The results, in the order of their scenes and setups, as curves, which have the points that all of their seeds
+/// have reached.
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results);
 
 /// The exponent b of error ~ (CPU seconds)^b of the certain results (recon/metrics.h): -1 for methods without

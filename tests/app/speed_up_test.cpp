@@ -45,6 +45,20 @@ TEST(SpeedUp, IsTheRatioOfTimesAtEqualError) {
     EXPECT_NEAR(speed_up(curve(1, 1.1, 6), curve(8, 1, 6)).factor, 1.0 / 8, 1e-9);
 }
 
+TEST(Curves, HaveThePointsThatAllSeedsReach) {
+    Curve all = curve(1, 1, 4, 5);
+    for (Result& result : all)
+        result.scene = "room";
+    all[0].runs.resize(1); // the first pass of the others took longer
+    all[1].runs.resize(4);
+    const auto scenes = curves_by_scene(all);
+    ASSERT_EQ(scenes.size(), 1u);
+    ASSERT_EQ(scenes[0].curves.size(), 1u);
+    ASSERT_EQ(scenes[0].curves[0].size(), 2u);
+    for (const Result& result : scenes[0].curves[0])
+        EXPECT_EQ(result.runs.size(), 5u);
+}
+
 TEST(SpeedUp, IsABoundWhereCurvesDoNotMeet) {
     const SpeedUp fast = speed_up(curve(1000, 1, 3), curve(1, 1, 3));
     EXPECT_EQ(fast.kind, SpeedUp::Kind::at_least);
