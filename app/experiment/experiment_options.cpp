@@ -19,7 +19,8 @@ void add_effort(CLI::App& command, ExperimentWords& words) {
 }
 
 void add_references(CLI::App& command, ExperimentOptions& options) {
-    command.add_option("--reference", options.references, "folder of the references")->required();
+    options.references = "references";
+    command.add_option("--reference", options.references, "folder of the references")->capture_default_str();
     Setting spp = spp_setting(options.recipe.spp, 2);
     spp.id = "reference_spp";
     add_setting(command, spp)->description("samples a pixel of references that are missing");
@@ -99,7 +100,6 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
     options.effort = {1, Effort::Unit::cpu_seconds};
     options.seeds = 20;
     options.output = "report";
-    options.references = "references";
     options.recipe.spp = 8192;
     CLI::App& command = *app.add_subcommand(
         "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
@@ -112,7 +112,6 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
     command.get_option("scenes")->required(false)->description(
         "Mitsuba scenes, XML (default: assets/stability), with <!-- fails: what and why --> and <!-- vary: NAME = "
         "VALUE, VALUE -->");
-    command.get_option("--reference")->required(false)->default_str("references");
     command.get_option("--output")->required(false)->default_str("report");
     for (const char* other : {"--max-depth", "--vary"})
         command.remove_option(command.get_option(other));

@@ -83,7 +83,11 @@ struct StabilityScene {
 std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
 /// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at
-/// hand, of the program's, or of one that either lies in. Throws BadInput where there are none.
+/// hand, of the program's, or of one that either lies in. Where there are none, those within the program, which are
+/// written to $XDG_CACHE_HOME/tessera/stability (else ~/.cache). Throws std::exception where that cannot be done.
 std::vector<std::filesystem::path> built_in_stability_scenes();
+
+/// Writes the scenes within the program, and what they are made of, to a folder.
+void unpack_stability_scenes(const std::filesystem::path& folder);
 
 } // namespace tessera

@@ -1,10 +1,14 @@
+#include "app/cli/embedded_file.h"
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
+#include "embedded/stability_files.h"
+#include "render/io/files.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -96,7 +100,24 @@ std::optional<fs::path> stability_folder(const fs::path& from) {
     }
 }
 
+/// Where programs keep what they can make anew, as the XDG specification says.
+fs::path cache_folder() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    if (cache && *cache == '/')
+        return fs::path(cache) / "tessera";
+    return (home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path()) / "tessera";
+}
+
 } // namespace
+
+void unpack_stability_scenes(const fs::path& folder) {
+    for (const EmbeddedFile& file : stability_files) {
+        const fs::path path = folder / file.name;
+        fs::create_directories(path.parent_path());
+        write_text(path, file.text());
+    }
+}
 
 std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files) {
     std::vector<StabilityScene> scenes;
@@ -119,13 +140,14 @@ std::vector<fs::path> built_in_stability_scenes() {
     auto folder = stability_folder(fs::current_path());
     if (!folder)
         folder = stability_folder(fs::read_symlink("/proc/self/exe", ignored).parent_path());
+    if (!folder) {
+        folder = cache_folder() / "stability";
+        unpack_stability_scenes(*folder);
+    }
     std::vector<fs::path> files;
-    if (folder)
-        for (const fs::directory_entry& entry : fs::directory_iterator(*folder))
-            if (entry.path().extension() == ".xml")
-                files.push_back(entry.path());
-    if (files.empty())
-        throw BadInput("there are no scenes of the program's own (assets/stability) about: name some");
+    for (const fs::directory_entry& entry : fs::directory_iterator(*folder))
+        if (entry.path().extension() == ".xml")
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }

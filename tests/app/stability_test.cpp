@@ -2,6 +2,7 @@
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
+#include "render/io/files.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/scene.h"
 #include "tests/app/program.h"
@@ -11,14 +12,32 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string>
 
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace tessera::test {
+
+TEST(StabilityScenes, LieWithinTheProgramToo) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("tessera-unpacked-" + std::to_string(getpid()));
+    const fs::path own = fs::path(TESSERA_SOURCE_DIR) / "assets/stability";
+    unpack_stability_scenes(folder);
+    std::size_t files = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(own)) {
+        if (!entry.is_regular_file())
+            continue;
+        ++files;
+        EXPECT_EQ(read_bytes(folder / fs::relative(entry.path(), own)), read_bytes(entry.path())) << entry.path();
+    }
+    EXPECT_GT(files, 20u);
+    fs::remove_all(folder);
+}
 
 namespace {
 
