@@ -129,12 +129,12 @@ struct Picture {
     RgbImage image;
 };
 
-/// "relMSE 0.012, 96 spp, 60.1 CPU s": of the run that made the picture.
+/// "seed 1: relMSE 0.012<br>96 spp, 60.1 CPU s": of the run that made the picture.
 std::string figures_of(const Result& result, std::uint64_t seed) {
     for (const Measurement& m : result.runs)
         if (m.seed == seed)
-            return fmt::format("relMSE {:.3g}, {} spp, {:.3g} CPU s", m.floor_free.relative_mse, m.spp,
-                               m.cpu_seconds);
+            return fmt::format("seed {}: relMSE {:.3g}<br>{} spp, {:.3g} CPU s", seed, m.floor_free.relative_mse,
+                               m.spp, m.cpu_seconds);
     return "";
 }
 
@@ -166,9 +166,11 @@ const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurv
 
 /// The whole reference with frames around the crops.
 std::string overview(const RgbImage& reference, float exposure, const std::vector<PixelRect>& rects) {
-    std::string html = fmt::format(R"(<div style="position:relative; width:{}px">)", reference.width());
-    html += inline_image(reference, exposure, R"(alt="the reference")");
-    html += fmt::format(R"(<svg style="position:absolute; left:0; top:0" width="{0}" height="{1}">)",
+    std::string html = fmt::format(R"(<div style="position:relative; width:{}px; max-width:100%">)",
+                                   reference.width());
+    html += inline_image(reference, exposure, R"(alt="the reference" style="width:100%; height:auto; display:block")");
+    html += fmt::format(R"(<svg style="position:absolute; left:0; top:0; width:100%; height:100%" )"
+                        R"(viewBox="0 0 {0} {1}">)",
                         reference.width(), reference.height());
     for (PixelRect r : rects)
         html += fmt::format(
@@ -179,7 +181,7 @@ std::string overview(const RgbImage& reference, float exposure, const std::vecto
 
 std::string captioned(const RgbImage& image, float exposure, const std::string& caption) {
     constexpr int shown = 200; // pixels of the page
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+    return fmt::format("<figure style=\"width:{0}px\">{1}<figcaption>{2}</figcaption></figure>\n", shown,
                        inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)),
                        caption);
 }
@@ -202,14 +204,17 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     const float exposure = usual_exposure(truth);
     std::string html = fmt::format(
         "<h3>At equal time</h3>\n<p class=\"note\">The two squares where the pictures below err most, all of them "
-        "together. Exposure {:+.1f} stops, sRGB; seed {}.</p>\n",
+        "together, each at an exposure that shows it. Exposure of the whole {:+.1f} stops, sRGB. These are pictures "
+        "of seed {}, and so are the figures below them; the table has means over all seeds.</p>\n",
         exposure, experiment.options().settings.render.seed);
     html += overview(truth, exposure, rects);
     for (PixelRect rect : rects) {
+        const RgbImage true_crop = crop(truth, rect);
+        const float shown = std::min(exposure, usual_exposure(true_crop)); // bright corners are not to burn out
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
-        html += captioned(crop(truth, rect), exposure, "<b>reference</b>");
+        html += captioned(true_crop, shown, fmt::format("<b>reference</b><br>exposure {:+.1f}", shown));
         for (const Picture& picture : pictures)
-            html += captioned(crop(picture.image, rect), exposure, picture.caption);
+            html += captioned(crop(picture.image, rect), shown, picture.caption);
         html += "</div>\n";
     }
     return html;
