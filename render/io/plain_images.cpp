@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -74,11 +76,12 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
     try {
         const std::vector<char> bytes = encode_png(size, rgb);
         TemporaryFile temporary(path);
-        std::ofstream out;
-        out.exceptions(std::ios::failbit | std::ios::badbit);
-        out.open(temporary.path(), std::ios::binary);
+        errno = 0;
+        std::ofstream out(temporary.path(), std::ios::binary);
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
+        if (!out)
+            throw std::runtime_error(errno != 0 ? std::strerror(errno) : "the disk takes no more");
         temporary.commit();
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot write " + path.string() + ": " + message_of(error));

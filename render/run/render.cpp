@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -139,7 +140,7 @@ bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop) {
     return true;
 }
 
-bool Render::pass(ThreadPool& pool, std::stop_token stop) {
+bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* share) {
     const auto start = std::chrono::steady_clock::now();
     const auto done_before = std::ranges::count(done_blocks_, 1);
     if (spp_ == 0)
@@ -152,12 +153,15 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop) {
     Workers workers(*this, pool, stop);
     if (!is_begun && !look_first(pass, blocks, workers))
         return false;
+    std::atomic<std::ptrdiff_t> count = done_before;
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
         if (is_done)
             return; // before the pass was stopped
         render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
         is_done = 1;
+        if (share)
+            *share = static_cast<float>(++count) / static_cast<float>(blocks.size());
     });
     const auto done = std::ranges::count(done_blocks_, 1);
     if (done == done_before)

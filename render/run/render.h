@@ -5,6 +5,7 @@
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <stop_token>
@@ -29,7 +30,8 @@ public:
     /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
     /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
     /// picture. Throws OutOfMemory where the first has none for its threads.
-    bool pass(ThreadPool& pool, std::stop_token stop = {});
+    /// @param share  is told, from the pool's threads, which share of the blocks is done; null: nobody wants to know
+    bool pass(ThreadPool& pool, std::stop_token stop = {}, std::atomic<float>* share = nullptr);
 
     int spp() const { return spp_; }
     double seconds() const { return seconds_; }         ///< wall time of all passes, those stopped among them

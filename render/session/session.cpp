@@ -51,12 +51,44 @@ std::uint64_t Session::submit(int pane_index, RenderRequest request) {
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
         pane.end_work();
         std::swap(pane.request, request);
+        pane.followed = -1;
         pane.generation = generation = ++generation_;
         pane.failed = false;
+        pane.failure.clear();
+        pane.pass_share = 0;
         pane.steps = 0;
     }
     render_wake_.notify_one();
     return generation;
+}
+
+std::uint64_t Session::follow(int pane_index, int other_index) {
+    RenderRequest request; // what is large is given up without the lock
+    std::shared_ptr<const Snapshot> latest;
+    std::uint64_t generation;
+    {
+        const std::lock_guard lock(mutex_);
+        Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
+        const Pane& other = *panes_[static_cast<std::size_t>(other_index)];
+        pane.end_work();
+        std::swap(pane.request, request);
+        pane.followed = other_index;
+        pane.generation = generation = other.generation;
+        if (other.latest && other.latest->generation == generation) {
+            auto copy = std::make_shared<Snapshot>(*other.latest);
+            copy->reconstruction.reset();
+            latest = pane.take(copy);
+        }
+    }
+    render_wake_.notify_one(); // its own render is to be freed
+    reconstruct_wake_.notify_one();
+    return generation;
+}
+
+/// The pane that renders what a pane shows: itself, or the one that it follows. Needs the lock.
+const Session::Pane& Session::rendering(int pane) const {
+    const int followed = panes_[static_cast<std::size_t>(pane)]->followed;
+    return *panes_[static_cast<std::size_t>(followed < 0 ? pane : followed)];
 }
 
 void Session::withdraw(int pane_index) {
@@ -70,6 +102,7 @@ void Session::withdraw(int pane_index) {
         std::swap(pane.request, request);
         std::swap(pane.latest, latest);
         std::swap(pane.reconstructed, reconstructed);
+        pane.followed = -1;
         pane.generation = ++generation_; // what is still being made of the old request is dropped
     }
     render_wake_.notify_one();
@@ -147,7 +180,17 @@ std::shared_ptr<const Snapshot> Session::latest(int pane) const {
 
 bool Session::has_failed(int pane) const {
     const std::lock_guard lock(mutex_);
-    return panes_[static_cast<std::size_t>(pane)]->failed;
+    return rendering(pane).failed;
+}
+
+std::string Session::failure(int pane) const {
+    const std::lock_guard lock(mutex_);
+    return rendering(pane).failure;
+}
+
+float Session::pass_share(int pane) const {
+    const std::lock_guard lock(mutex_);
+    return rendering(pane).pass_share;
 }
 
 std::vector<std::string> Session::take_messages() {
@@ -241,14 +284,14 @@ void Session::render_pass(Pane& pane, std::stop_token session_stop) {
             pane.published_spp = 0;
             return; // the other panes' previews come first, and there may be a pause
         }
-        if (!pane.render->pass(pool_, stop))
+        if (!pane.render->pass(pool_, stop, &pane.pass_share))
             return;
         count_step(pane, generation);
         if (pane.published_spp == 0 || Clock::now() - pane.published_at >= publish_interval)
             publish_passes(pane);
     } catch (const std::exception& error) {
         pane.render_generation = 0;
-        give_up(pane, generation);
+        give_up(pane, generation, message_of(error));
         report(fmt::format("{}, seed {}: {}", short_name(request.settings.method), request.settings.seed,
                            message_of(error)));
     }
@@ -264,10 +307,12 @@ void Session::report(std::string message) {
 }
 
 /// Leaves the pane at rest until its next request.
-void Session::give_up(Pane& pane, std::uint64_t generation) {
+void Session::give_up(Pane& pane, std::uint64_t generation, const std::string& why) {
     const std::lock_guard lock(mutex_);
-    if (pane.generation == generation)
-        pane.failed = true;
+    if (pane.generation != generation)
+        return;
+    pane.failed = true;
+    pane.failure = why;
 }
 
 /// Counts that one of the steps asked for, if there are any, is done.

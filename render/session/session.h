@@ -59,6 +59,10 @@ public:
     /// first preview. Returns the generation that snapshots of this request will carry.
     std::uint64_t submit(int pane, RenderRequest request);
 
+    /// Lets a pane show the passes of another, which renders, with a reconstruction of its own: it renders nothing
+    /// itself until it is submitted. To be called anew after a submit of the other. Returns the other's generation.
+    std::uint64_t follow(int pane, int other);
+
     /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
     void withdraw(int pane);
 
@@ -83,6 +87,11 @@ public:
 
     /// Whether the render of the pane's request went wrong (there is a message): nothing more will come of it.
     bool has_failed(int pane) const;
+    /// Why it did; empty: it has not.
+    std::string failure(int pane) const;
+
+    /// The share of the blocks of pixels that the pane's pass under way has done, or its last one had, [0, 1].
+    float pass_share(int pane) const;
 
     /// Messages of errors in workers since the last call (what, with pixel, sample and seed where there is one).
     std::vector<std::string> take_messages();
@@ -91,6 +100,8 @@ private:
     struct Pane;
     void render_loop(std::stop_token stop);
     void reconstruct_loop(std::stop_token stop);
+    const Pane& rendering(int pane) const;
+    void hand_on(const Pane& pane);
     Pane* next_pane();
     std::unique_ptr<Render> withdrawn_render();
     Pane* unpublished_pane();
@@ -99,7 +110,7 @@ private:
     void report(std::string message);
     void preview(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
     double preview_budget() const;
-    void give_up(Pane& pane, std::uint64_t generation);
+    void give_up(Pane& pane, std::uint64_t generation, const std::string& why);
     void count_step(Pane& pane, std::uint64_t generation);
     static std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor);
     void publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot);

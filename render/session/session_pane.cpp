@@ -77,8 +77,20 @@ std::shared_ptr<Snapshot> Session::snapshot_of(const Render& render, std::uint64
     return snapshot;
 }
 
-/// Makes the snapshot the pane's latest. One without a reconstruction gets that of the render's snapshot before,
-/// until there is a newer one.
+/// Gives the pane's latest snapshot to those that show its passes, each of which reconstructs it anew. Needs the
+/// lock.
+void Session::hand_on(const Pane& pane) {
+    for (const auto& other : panes_) {
+        if (other->followed < 0 || panes_[static_cast<std::size_t>(other->followed)].get() != &pane ||
+            (other->generation != pane.latest->generation && !pane.latest->coarse()))
+            continue;
+        auto copy = std::make_shared<Snapshot>(*pane.latest);
+        copy->reconstruction.reset();
+        other->take(copy);
+    }
+}
+
+/// Makes the snapshot the pane's latest.
 void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
     std::shared_ptr<const Snapshot> latest = snapshot; // the one before takes its place, and goes without the lock
     std::shared_ptr<const GradientImages> reconstructed;
@@ -89,13 +101,9 @@ void Session::publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot) {
         if (snapshot->reconstruction) {
             reconstructed = std::exchange(pane.reconstructed, snapshot->images);
             pane.reconstructed_with = snapshot->reconstructed_with;
-        } else if (pane.latest && pane.latest->generation == snapshot->generation && !pane.latest->coarse()) {
-            snapshot->reconstruction = pane.latest->reconstruction;
-            snapshot->reconstructed_with = pane.latest->reconstructed_with;
-            snapshot->reconstruction_spp = pane.latest->reconstruction_spp;
-            snapshot->reconstruction_seconds = pane.latest->reconstruction_seconds;
         }
-        std::swap(pane.latest, latest);
+        latest = pane.take(snapshot);
+        hand_on(pane);
     }
     tell(); // first: the other thread may take this one's core
     reconstruct_wake_.notify_one();

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include <glm/vec2.hpp>
 
@@ -62,11 +64,13 @@ struct Session::Pane {
     // Guarded by Session::mutex_.
     RenderRequest request;
     std::uint64_t generation = 0; // 0: nothing asked for yet
+    int followed = -1;            // the pane whose passes it shows, without a request of its own; -1: none
     ReconstructionSettings reconstruction;
     std::shared_ptr<const Snapshot> latest;
     std::stop_source stop;       // ends work on the present generation
     std::stop_source solve_stop; // ends its reconstruction with the present settings
     bool failed = false;         // nothing more to do for this generation
+    std::string failure;         // why
     int steps = 0;               // passes to do whatever the pace says
 
     // What the newest reconstruction was made from.
@@ -76,6 +80,8 @@ struct Session::Pane {
     std::chrono::steady_clock::time_point solving_since;
     std::atomic<float> solving_share = 0;         // of its steps; needs no lock
     std::weak_ptr<const GradientImages> given_up; // nothing is to be made from these
+
+    std::atomic<float> pass_share = 0; // of its blocks that are done; needs no lock
 
     // Used by the render thread alone.
     Previews previews;
@@ -112,6 +118,19 @@ struct Session::Pane {
     }
 
     bool has_unseen_passes() const { return render && !is_fresh() && published_spp < render->spp(); }
+
+    /// Takes a snapshot of passes. One without a reconstruction gets that of the same render's snapshot before,
+    /// until there is a newer one. Returns what was there before.
+    std::shared_ptr<const Snapshot> take(const std::shared_ptr<Snapshot>& snapshot) {
+        if (!snapshot->reconstruction && latest && latest->generation == snapshot->generation &&
+            !latest->coarse()) {
+            snapshot->reconstruction = latest->reconstruction;
+            snapshot->reconstructed_with = latest->reconstructed_with;
+            snapshot->reconstruction_spp = latest->reconstruction_spp;
+            snapshot->reconstruction_seconds = latest->reconstruction_seconds;
+        }
+        return std::exchange(latest, snapshot);
+    }
 
     // Used by the reconstruction thread alone: where the solver stands, and with what.
     Reconstructor reconstructor;
