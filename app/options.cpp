@@ -3,6 +3,7 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/experiment/experiment.h"
+#include "render/io/files.h"
 #include "ui/viewer/script.h"
 
 #include <algorithm>
@@ -226,8 +227,11 @@ int run_command_line(int argc, char** argv) {
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
     add_scene(info, info_words, true);
+    std::vector<const char*> words(argv, argv + argc);
+    if (argc > 1 && extension_of(argv[1]) == ".xml") // a scene alone is to be looked at
+        words.insert(words.begin() + 1, "view");
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }

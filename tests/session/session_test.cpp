@@ -347,6 +347,30 @@ TEST(Session, APassThatCannotBeShownIsNoEndOfTheRender) {
     EXPECT_NE(messages[0].find("is not shown"), std::string::npos) << messages[0];
 }
 
+TEST(Session, APaneThatFollowsAnotherReconstructsItsPassesByItself) {
+    Session session(3, 2);
+    session.set_pace(until(4));
+    session.set_reconstruction(0, {Norm::l2, 0.2f});
+    session.set_reconstruction(1, {Norm::l1, 0.2f});
+    const std::uint64_t generation = session.submit(0, request(Method::gpr, {64, 48}));
+    EXPECT_EQ(session.follow(1, 0), generation);
+    const auto has_all = [&](int pane, Norm norm) {
+        const auto s = session.latest(pane);
+        return s && !s->coarse() && s->spp == 4 && s->reconstruction_spp == 4 && s->reconstructed_with.norm == norm;
+    };
+    ASSERT_TRUE(eventually([&] { return has_all(0, Norm::l2) && has_all(1, Norm::l1); }));
+    EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "one render";
+    EXPECT_EQ(session.follow(2, 0), generation); // late: it gets what is there
+    EXPECT_TRUE(eventually([&] { return session.latest(2) && session.latest(2)->reconstruction_spp == 4; }));
+    const std::uint64_t next = session.submit(0, request(Method::pt, {64, 48}));
+    EXPECT_EQ(session.latest(1)->generation, generation) << "until it follows anew, it shows what it had";
+    EXPECT_EQ(session.follow(1, 0), next);
+    EXPECT_TRUE(eventually([&] { return session.latest(1)->generation == next && session.latest(1)->spp == 4; }));
+    session.submit(1, request(Method::gpt, {64, 48})); // on its own again
+    EXPECT_TRUE(eventually([&] { return session.latest(1)->settings.method == Method::gpt; }));
+    EXPECT_TRUE(session.take_messages().empty());
+}
+
 TEST(Session, ReconstructionSettingsRenderNothing) {
     Session session(1, 2);
     session.set_pace(until(2));

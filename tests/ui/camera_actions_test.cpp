@@ -33,17 +33,20 @@ struct CameraActions : testing::Test, ViewerHarness {
     TemporaryFolder folder, elsewhere;
 };
 
-TEST_F(CameraActions, SavesBesideTheScene) {
+TEST_F(CameraActions, SavesInTheCurrentFolderAndWritesOverNothing) {
     type(Key::k);
     finish_saving();
-    const fs::path file = folder.path() / "room-camera.json";
+    const fs::path file = elsewhere.path() / "room-camera.json";
+    EXPECT_FALSE(fs::exists(folder.path() / "room-camera.json")) << "the scene's folder is not the user's desk";
     EXPECT_TRUE(read_camera(file) == state().camera.camera());
     EXPECT_NE(newest().find(file.string()), std::string::npos) << newest();
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
+    const Camera first = state().camera.camera();
     state().camera.dolly(0.5f);
     type(Key::k);
     finish_saving();
-    EXPECT_TRUE(read_camera(file) == state().camera.camera());
+    EXPECT_TRUE(read_camera(file) == first);
+    EXPECT_TRUE(read_camera(elsewhere.path() / "room-camera-2.json") == state().camera.camera());
     EXPECT_FALSE(state().wishes.save_camera);
 }
 
@@ -54,20 +57,16 @@ TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {
     EXPECT_TRUE(read_camera(elsewhere.path() / "tessera-camera.json") == state().camera.camera());
 }
 
-TEST_F(CameraActions, SavesInTheCurrentFolderIfThatOfTheSceneIsNoMore) {
-    const fs::path gone = folder.path() / "gone/room.xml";
-    EXPECT_EQ(store_camera(gone, {}).string(), (fs::current_path() / "room-camera.json").string());
-}
-
 TEST_F(CameraActions, SayWhyNothingCouldBeSaved) {
-    // A folder of that name can be replaced nowhere.
-    fs::create_directories(folder.path() / "room-camera.json/x");
-    fs::create_directories(elsewhere.path() / "room-camera.json/x");
+    const fs::path gone = fs::current_path() / "gone";
+    fs::create_directory(gone);
+    fs::current_path(gone);
+    fs::remove(gone);
     type(Key::k);
     finish_saving();
     ASSERT_FALSE(state().messages.empty());
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
-    EXPECT_NE(newest().find("room-camera.json"), std::string::npos) << newest();
+    fs::current_path(elsewhere.path());
 }
 
 TEST_F(CameraActions, CopiesXmlForASensor) {

@@ -85,7 +85,7 @@ TEST_F(CountersView, PathTracingHasNoMaps) {
 
 TEST_F(CountersView, NoLegendWhereThereIsNoRoom) {
     type(Key::digit5);
-    resize({420, 300});
+    resize({360, 200});
     EXPECT_FALSE(has("pane1.legend"));
     EXPECT_TRUE(has("pane1.picture"));
 }

@@ -23,6 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int samples = 3; // at which panes rest
 
+/// A change that can be taken back.
+void note_two_exposures(ViewerState& s) {
+    s.history = {};
+    s.history.note(s, false);
+    s.tone.exposure = 2;
+    s.history.note(s, false);
+}
+
 /// What must be so before an action, as it would change nothing otherwise.
 const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Reconstruction",
@@ -44,6 +52,13 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Reset camera",
      [](ViewerState& s) {
          s.camera.orbit({40, 10}, 100);
+     }},
+    {"Automatic exposure", [](ViewerState& s) { s.tone.exposure = 5; }},
+    {"Undo", [](ViewerState& s) { note_two_exposures(s); }},
+    {"Redo",
+     [](ViewerState& s) {
+         note_two_exposures(s);
+         s.history.undo(s);
      }},
     {"Hold slow motion", [](ViewerState& s) { s.set_slow_motion(true); }},
     {"Next base path", [](ViewerState& s) { s.set_slow_motion(true); }},
@@ -130,6 +145,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
                             s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
                             s.layout.sample_form.show, s.reference_making.show, s.inspector.active);
+        text += fmt::format("palette {}, pane norms {}\n", s.layout.show_palette, s.panes.size());
         const SlowMotion& motion = s.slow_motion;
         text += fmt::format("slow motion {}, held {}, at {}", motion.active, motion.held,
                             motion.held ? static_cast<float>(motion.current) + motion.arrived : 0);

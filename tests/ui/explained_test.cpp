@@ -57,7 +57,6 @@ TEST_F(Explained, EveryControlHasATooltip) {
     EXPECT_TRUE(has("scene_name"));
     state().layout.show_help = state().layout.show_messages = false;
     frames(2);
-    click("more");
     EXPECT_EQ(silent(), Silent());
     for (const char* menu : {"File", "Render", "Buffer", "View", "Panes", "Camera", "Help"}) {
         click("menu " + std::string(menu));

@@ -1,5 +1,6 @@
 // The line below a picture.
 
+#include "tests/ui/viewer_harness.h"
 #include "ui/panes/pane_parts.h"
 
 #include <memory>
@@ -13,7 +14,15 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     ViewerState state;
     PaneState& pane = state.panes.emplace_back();
     pane.settings.render.method = Method::gpr;
+    EXPECT_EQ(status_text(state, 0), "G-PR   no scene");
+    state.loading = "reading";
+    EXPECT_EQ(status_text(state, 0), "G-PR   waiting for the scene");
+    state.loading.clear();
+    state.scene = test::viewer_scene();
     EXPECT_EQ(status_text(state, 0), "G-PR   starting");
+    pane.generation = 3;
+    pane.pass_share = 0.371f;
+    EXPECT_EQ(status_text(state, 0), "G-PR   first pass 37 %");
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = pane.generation = 4;
     snapshot->spp = 12;
@@ -49,6 +58,7 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
 
 TEST(PaneStatus, TellsWhichPaneCatchesUp) {
     ViewerState state;
+    state.scene = test::viewer_scene();
     state.panes.resize(3);
     const auto had = [&](std::size_t pane, int spp, double seconds) {
         auto snapshot = std::make_shared<Snapshot>();
@@ -60,20 +70,20 @@ TEST(PaneStatus, TellsWhichPaneCatchesUp) {
     had(0, 900, 600);
     had(1, 40, 190);
     had(2, 800, 599);
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (3:10 of 10:00)");
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (3:10 of 10:00; R: all anew)");
     EXPECT_EQ(waiting_text(state, 1), "");
-    EXPECT_EQ(waiting_text(state, 2), "waiting for pane 2 (3:10 of 9:59)");
+    EXPECT_EQ(waiting_text(state, 2), "waiting for pane 2 (3:10 of 9:59; R: all anew)");
     EXPECT_NE(status_text(state, 0).find("waiting for pane 2"), std::string::npos);
     state.panes[1].generation = 8; // a new request: it has had nothing
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (0:00 of 10:00)");
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (0:00 of 10:00; R: all anew)");
     state.pace.equal = Pace::Equal::spp;
     had(1, 40, 190);
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (40 of 900 spp)");
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (40 of 900 spp; R: all anew)");
     state.pace.spp_limit = 40; // nobody waits for one that rests
     EXPECT_EQ(waiting_text(state, 0), "");
     state.pace.spp_limit = 0;
     state.panes[1].failed = true;
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 3 (800 of 900 spp)");
+    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 3 (800 of 900 spp; R: all anew)");
     state.paused = true;
     EXPECT_EQ(waiting_text(state, 0), "");
 }

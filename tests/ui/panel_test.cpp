@@ -90,6 +90,8 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
 }
 
 TEST_F(PanelTest, SeldomChangedSettingsAreFoldedAway) {
+    state().layout.open_sections = Layout().open_sections;
+    frames(2);
     EXPECT_FALSE(has("light_samples"));
     click("more");
     click_at("light_samples", 0.99f);

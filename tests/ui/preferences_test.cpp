@@ -283,6 +283,27 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
     EXPECT_TRUE(read_preferences(options.preferences, note).recent_scenes.empty());
 }
 
+TEST(Remembered, PanesThatWereAskedForOnceAreNotTheNextLayout) {
+    CurrentFolder folder;
+    ViewerOptions options = remembering_in(folder);
+    std::string note;
+    { ViewerHarness h({900, 600}, 1, options); }
+    EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
+    options.panes.resize(1); // -m gpr
+    options.panes_as_remembered = false;
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.frames(2);
+    }
+    EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
+    {
+        ViewerHarness h({900, 600}, 1, options);
+        h.state().set_pane_count(4); // by hand
+        h.frames(2);
+    }
+    EXPECT_EQ(read_preferences(options.preferences, note).panes, 4);
+}
+
 TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);

@@ -101,7 +101,7 @@ TEST(RefusedSamples, OpenOneAfterTheOther) {
     ASSERT_EQ(samples.size(), FirstRefused::most);
     samples.resize(3);
     for (const std::size_t i : {0u, 1u, 2u, 0u}) { // and round again
-        h.state().layout.show_messages = true;     // the inspector takes their place
+        h.state().layout.show_messages = true;
         h.frames(2);
         const SampleChoice sample = h.state().messages[0].samples[i];
         h.save("refused-" + std::to_string(i) + ".png");

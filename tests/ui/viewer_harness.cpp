@@ -41,6 +41,7 @@ SceneOrigin scene_in(const std::filesystem::path& file) {
 
 ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options, int threads)
     : context(size), gui(scale), scale_(scale), session(most_panes, threads), viewer(session, std::move(options)) {
+    state().layout.open_sections = ~0u; // every control is there
 }
 
 void ViewerHarness::frame(float seconds) {

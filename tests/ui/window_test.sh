@@ -31,6 +31,23 @@ click pane0.method
 wait_for '^control pane0.method/gpr ' "$from"
 click pane0.method/gpr
 wait_for '^pane 0 method gpr$' "$from"
+
+# the keys of an open list are its own
+from=$(next_line)
+click pane0.method
+wait_for '^control pane0.method/gpr ' "$from"
+xdotool key Up sleep 0.3 key Return
+wait_for '^pane 0 method gpt$' "$from"
+click pane0.method
+xdotool sleep 0.3 key Down sleep 0.3 key Escape
+sleep 0.5
+tail -n "+$from" "$log" | grep -qE '^camera ' && fail "an arrow of an open list turns the camera"
+tail -n "+$from" "$log" | grep -qE '^pane 0 method gpr$' && fail "Esc takes what it should leave"
+from=$(next_line)
+click pane0.method
+wait_for '^control pane0.method/gpr ' "$from"
+click pane0.method/gpr
+wait_for '^pane 0 method gpr$' "$from"
 wait_for '^pane 0 generation ' "$from"
 wait_for '^pane 0 spp [1-9]' "$from"
 look method

@@ -103,38 +103,6 @@ bool Controls::bare_choice(const char* id, const char* shown, std::span<const Ch
     return changed;
 }
 
-bool Controls::slider(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
-    label(label_text);
-    const bool changed =
-        ImGui::SliderInt(hidden_label(id).c_str(), &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
-    if (changed)
-        value = std::clamp(value, least, most);
-    place(id, help);
-    return changed;
-}
-
-bool Controls::slider(const char* id, const char* label_text, float& value, float least, float most,
-                      const char* format, const char* help) {
-    label(label_text);
-    const float before = value;
-    if (ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp))
-        keep_within(value, before, least, most);
-    place(id, help);
-    return value != before;
-}
-
-bool Controls::log_slider(const char* id, const char* label_text, float& value, float least, float most,
-                          const char* help) {
-    label(label_text);
-    const float before = value;
-    if (ImGui::SliderFloat(hidden_label(id).c_str(), &value, least, most,
-                           least == 0 && value == 0 ? "off" : "%.3g",
-                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
-        keep_within(value, before, least, most);
-    place(id, help);
-    return value != before;
-}
-
 /// What is to be shown in a control that is typed into: the draft, while there is one.
 template <class Value>
 const Value& Controls::draft_of(const char* id, const Value& value) const {
@@ -157,6 +125,53 @@ bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Valu
         draft_id_.clear(); // left as it was
     }
     return false;
+}
+
+/// Takes what the slider just drawn has made of the draft: at once while it is dragged, and what is typed (Ctrl +
+/// click) as a number's is. Tells whether the value has changed.
+template <class Value>
+bool Controls::took_slider(const char* id, const char* help, const Value& draft, bool changed, Value& value) {
+    const bool typed = ImGui::GetIO().WantTextInput || draft_id_ == id;
+    bool taken = false;
+    if (typed)
+        taken = take_draft(id, draft, false, value);
+    else if (changed)
+        taken = draft != std::exchange(value, draft);
+    place(id, help);
+    return taken;
+}
+
+bool Controls::slider(const char* id, const char* label_text, int& value, int least, int most, const char* help) {
+    label(label_text);
+    int draft = draft_of(id, value);
+    const bool changed =
+        ImGui::SliderInt(hidden_label(id).c_str(), &draft, least, most, "%d", ImGuiSliderFlags_AlwaysClamp);
+    if (changed)
+        draft = std::clamp(draft, least, most);
+    return took_slider(id, help, draft, changed, value);
+}
+
+bool Controls::slider(const char* id, const char* label_text, float& value, float least, float most,
+                      const char* format, const char* help) {
+    label(label_text);
+    float draft = draft_of(id, value);
+    const bool changed =
+        ImGui::SliderFloat(hidden_label(id).c_str(), &draft, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+    if (changed)
+        keep_within(draft, value, least, most);
+    return took_slider(id, help, draft, changed, value);
+}
+
+bool Controls::log_slider(const char* id, const char* label_text, float& value, float least, float most,
+                          const char* help) {
+    label(label_text);
+    float draft = draft_of(id, value);
+    const bool changed = ImGui::SliderFloat(hidden_label(id).c_str(), &draft, least, most,
+                                            least == 0 && draft == 0 ? "off" : "%.3g",
+                                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    if (changed)
+        keep_within(draft, value, least, most);
+    return took_slider(id, help, draft, changed, value);
 }
 
 /// The ImGuiDataType of the value.

@@ -95,6 +95,8 @@ private:
     template <class Value>
     bool take_draft(const char* id, const Value& draft, bool at_once, Value& value);
     template <class Value>
+    bool took_slider(const char* id, const char* help, const Value& draft, bool changed, Value& value);
+    template <class Value>
     bool typed_number(const char* id, const char* label, Value& value, Value least, Value most, const char* help);
 
     std::map<std::string, ControlRect, std::less<>> rects_;
@@ -107,7 +109,7 @@ private:
 
     // What is being typed: the value itself changes when that is taken.
     std::string draft_id_;
-    std::variant<int, double, std::uint64_t, std::string> draft_;
+    std::variant<int, float, double, std::uint64_t, std::string> draft_;
 };
 
 /// A heading in a panel, with a line.

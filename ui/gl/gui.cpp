@@ -1,9 +1,11 @@
 #include "ui/gl/gui.h"
 
+#include "recon/enumeration.h"
 #include "ui/gl/theme.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <stdexcept>
 
 #include <glad/gl.h>
@@ -69,10 +71,50 @@ void send_modifiers(bool ctrl, bool shift) {
 #endif
 
 namespace {
+
+std::deque<ListStep> list_steps;
+bool step_is_down = false; // between two steps, it is let go for a frame
+
+#if IMGUI_VERSION_NUM >= 18700
+
+void hold(ListStep step, bool down) {
+    constexpr ImGuiKey keys[] = {ImGuiKey_GamepadDpadLeft, ImGuiKey_GamepadDpadRight, ImGuiKey_GamepadDpadUp,
+                                 ImGuiKey_GamepadDpadDown, ImGuiKey_GamepadFaceDown,  ImGuiKey_GamepadFaceRight};
+    ImGui::GetIO().AddKeyEvent(entry_of(keys, step), down);
+}
+
+#else
+
+void hold(ListStep step, bool down) { // each frame clears it
+    constexpr int inputs[] = {ImGuiNavInput_DpadLeft, ImGuiNavInput_DpadRight, ImGuiNavInput_DpadUp,
+                              ImGuiNavInput_DpadDown, ImGuiNavInput_Activate,  ImGuiNavInput_Cancel};
+    ImGui::GetIO().NavInputs[entry_of(inputs, step)] = down ? 1.0f : 0.0f;
+}
+
+#endif
+
+/// What is to be done before a frame.
+void do_list_step() {
+    if (list_steps.empty())
+        return;
+    hold(list_steps.front(), !step_is_down);
+    if (step_is_down)
+        list_steps.pop_front();
+    step_is_down = !step_is_down;
+}
+
 float sane_scale(float scale) {
     return scale > 0 ? std::clamp(scale, 0.5f, 4.0f) : 1.0f;
 }
 } // namespace
+
+void send_list_step(ListStep step) {
+    list_steps.push_back(step);
+}
+
+bool list_steps_pending() {
+    return !list_steps.empty();
+}
 
 Gui::Gui(float scale) : scale_(sane_scale(scale)) {
     IMGUI_CHECKVERSION();
@@ -113,6 +155,10 @@ void Gui::begin_frame(glm::vec2 size, float pixels_a_unit, float seconds) {
 
 void Gui::begin_window_frame() {
     ImGui_ImplOpenGL3_NewFrame();
+    // Steps in lists come as a gamepad's: keys are not read from Dear ImGui. The window's backend forgets it each time.
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
+    do_list_step();
     ImGui::NewFrame();
 }
 

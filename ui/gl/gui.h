@@ -25,6 +25,13 @@ void set_press_positions(const std::array<glm::vec2, 3>& by_button);
 void send_mouse_position(ImVec2 position);
 void send_mouse_button(ImGuiMouseButton button, bool down);
 void send_mouse_wheel(float up);
+/// A step within an open list or menu.
+enum class ListStep { left, right, up, down, take, close };
+/// Steps come one after the other, each with a frame of its own: Dear ImGui looks at what is held when one begins.
+void send_list_step(ListStep step);
+/// Whether steps are still to come, so that frames are due.
+bool list_steps_pending();
+
 void send_modifiers(bool ctrl, bool shift);
 
 /// Dear ImGui on the current OpenGL context, without a window: one context, its fonts, and its OpenGL backend.

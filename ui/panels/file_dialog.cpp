@@ -194,6 +194,8 @@ void FileDialog::enter() {
         set_text(with_slash(path));
     else if (fs::is_regular_file(path, ignored))
         chosen_ = path;
+    else
+        wants_focus_ = wants_cursor_last_ = true; // it is to be typed on
 }
 
 void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {

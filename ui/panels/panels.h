@@ -33,6 +33,9 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
 /// What the render on show in the active pane has counted.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
+/// Why there is no scene, and what can be done about it; over the pictures.
+void draw_no_scene(const ScreenRect& where, Controls& controls, ViewerState& state);
+
 /// What a reference is to be made of, or how far its making is; over everything.
 void draw_reference_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
 
@@ -48,6 +51,23 @@ void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
 /// What is being loaded and how far that is, over the pictures, and a button to give it up.
 void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
                   const LoadProgress::State& progress, double seconds);
+
+/// What was said last, over the lower edge of the pictures, until its time is over.
+void draw_toast(const ScreenRect& where, Controls& controls, ViewerState& state);
+
+/// The list of all commands, to be found by words; over everything.
+class CommandPalette {
+public:
+    /// Draws it while state.layout.show_palette. What is chosen is done.
+    void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
+
+private:
+    void draw_list(Controls& controls, ViewerState& state);
+
+    std::array<char, 128> text_{};
+    int chosen_ = 0, seen_ = 0; // of what was found; where the list was scrolled to
+    bool was_shown_ = false;
+};
 
 /// One number of a render's counters, ready to be shown.
 struct Statistic {

@@ -4,10 +4,16 @@
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
 #include "ui/settings/settings_file.h"
+#include "ui/state/presets.h"
 #include "ui/state/words.h"
 
+#include <algorithm>
+#include <cfloat>
 #include <cstddef>
+#include <iterator>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -17,14 +23,68 @@ namespace tessera {
 
 namespace {
 
-/// Draws the settings that are rare, or those that are not. What makes no difference as the others are is left
-/// out.
-bool draw_settings(Controls& controls, const std::vector<Setting>& settings, bool rare = false) {
+/// What the panel begins with; all else is for experts.
+bool is_essential(const Setting& setting) {
+    static constexpr std::string_view ids[] = {"tile", "roulette", "rr_scale", "rr_delta", "norm", "alpha", "max_depth"};
+    return std::find(std::begin(ids), std::end(ids), setting.id) != std::end(ids);
+}
+
+/// Draws a setting, with a mark where it is not as `usual`: a right click brings that back. Of what has no `usual`,
+/// draws the setting alone.
+bool draw_marked(Controls& controls, Setting setting, const std::optional<std::string>& usual, const Preset& preset) {
+    if (!usual || *usual == setting.text())
+        return draw_setting(controls, setting);
+    const std::string help = std::string(setting.help) + "\n\n" + std::string(preset.label) + " has " + *usual +
+                             ": a right click brings that back.";
+    setting.help = help;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float font = ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x - font * 0.32f, at.y + ImGui::GetFrameHeight() * 0.5f},
+                                                font * 0.17f, colours::accent);
+    const bool changed = draw_setting(controls, setting);
+    if (!ImGui::IsItemHovered() || !ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+        return changed;
+    setting.set_text(*usual);
+    return true;
+}
+
+/// The value that the preset has for a setting; empty: it has none of its own.
+std::optional<std::string> usual_value(const Setting& setting, const ViewerState& state, const Preset& preset) {
+    PaneSettings usual = state.active().settings;
+    apply(preset, usual);
+    for (const Setting& other : shared_settings_of(usual))
+        if (other.id == setting.id)
+            return other.text();
+    return {};
+}
+
+/// Draws the essential settings, or the others. What makes no difference as the others are is left out, but for
+/// alpha, so that what follows does not jump between norms.
+bool draw_settings(Controls& controls, const ViewerState& state, const std::vector<Setting>& settings, bool essential) {
+    const Preset& preset = presets()[static_cast<std::size_t>(state.preset)];
     bool changed = false;
-    for (const Setting& setting : settings)
-        if (setting.is_rare == rare && setting.matters)
-            changed |= draw_setting(controls, setting);
+    for (const Setting& setting : settings) {
+        if (is_essential(setting) != essential || (!setting.matters && setting.id != "alpha"))
+            continue;
+        ImGui::BeginDisabled(!setting.matters);
+        changed |= draw_marked(controls, setting, usual_value(setting, state, preset), preset);
+        ImGui::EndDisabled();
+    }
     return changed;
+}
+
+/// A heading that folds its section away. True: it is open.
+bool begin_section(Controls& controls, ViewerState& state, PanelSection section, const char* id, const char* title,
+                   const char* help) {
+    ImGui::Spacing();
+    ImGui::PushFont(bold_font());
+    ImGui::SetNextItemOpen(state.layout.is_open(section));
+    const bool open = ImGui::TreeNodeEx(title, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    ImGui::PopFont();
+    controls.place(id, help);
+    if (open != state.layout.is_open(section))
+        state.layout.fold(section);
+    return open;
 }
 
 /// The render settings of the active pane. When all panes have them, each matters that does for one of the
@@ -38,19 +98,6 @@ std::vector<Setting> render_settings(ViewerState& state) {
             settings[i].matters = settings[i].matters || others[i].matters;
     }
     return settings;
-}
-
-bool draw_reconstruction_settings(Controls& controls, ReconstructionSettings& settings) {
-    bool changed = false;
-    for (const Setting& setting : settings_of(settings)) {
-        const bool stays = setting.id == "alpha"; // so that what follows does not jump between norms
-        if (!setting.matters && !stays)
-            continue;
-        ImGui::BeginDisabled(!setting.matters);
-        changed |= draw_setting(controls, setting);
-        ImGui::EndDisabled();
-    }
-    return changed;
 }
 
 void draw_size_settings(Controls& controls, ViewerState& state) {
@@ -72,6 +119,9 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
                        "What fits the panes as they are: taken when the camera moves, or all of them "
                        "are restarted (R).");
     }
+    const std::string reset = std::string(icons().camera) + (*icons().camera ? "  " : "") + "Reset camera";
+    if (controls.button("reset_camera", reset.c_str(), "Back to the camera of the scene file (Home)."))
+        state.camera.go_home();
 }
 
 void draw_run_buttons(Controls& controls, ViewerState& state) {
@@ -142,7 +192,9 @@ void draw_reference_settings(Controls& controls, ViewerState& state) {
 }
 
 void draw_display_settings(Controls& controls, ViewerState& state) {
-    draw_settings(controls, settings_of(state.tone));
+    for (const Setting& setting : settings_of(state.tone))
+        if (setting.matters && setting.id != "exposure")
+            draw_setting(controls, setting);
     controls.toggle(
         "mark_negative", "Mark negative", state.mark_negative,
         "Pixels with a negative red, green or blue are blue (U). NaN is always magenta, infinity cyan.");
@@ -154,41 +206,74 @@ void draw_display_settings(Controls& controls, ViewerState& state) {
         "zoom in with Ctrl + wheel.");
 }
 
-void draw_contents(Controls& controls, ViewerState& state) {
-    draw_run_buttons(controls, state);
-    draw_settings(controls, settings_of(state.pace));
+void draw_preset(Controls& controls, ViewerState& state) {
+    static const std::vector<ChoiceItem> items = [] {
+        std::vector<ChoiceItem> list;
+        for (const Preset& preset : presets())
+            list.push_back({std::string(preset.id), std::string(preset.label), std::string(preset.help)});
+        return list;
+    }();
+    const Preset& held_against = presets()[static_cast<std::size_t>(state.preset)];
+    const bool is_pure = preset_of(state.active().settings) == state.preset;
+    const std::string shown = std::string(held_against.label) + (is_pure ? "" : ", changed");
+    int index = state.preset;
+    controls.label("Preset");
+    if (controls.bare_choice("preset", shown.c_str(), items, index, -FLT_MIN,
+                             "Settings that belong together, for the active pane, or for all that have the same. Marked "
+                             "is what differs from them. Chosen again, it takes all changes back.") ||
+        (index == state.preset && !is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
+        state.preset = index;
+        apply(presets()[static_cast<std::size_t>(index)], state.active().settings);
+        state.share_settings();
+    }
+}
 
-    heading("Method");
+void draw_method_section(Controls& controls, ViewerState& state) {
+    draw_preset(controls, state);
     if (controls.toggle(
             "linked", "Same for all", state.linked,
             "All panes have these settings, and differ only in method and buffer. Otherwise these are the "
             "active pane's (click one).") &&
         state.linked)
         state.share_settings();
-    bool changed = draw_settings(controls, render_settings(state));
-    const bool more = ImGui::TreeNodeEx("More", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-    controls.place("more", "What is seldom changed.");
-    if (more)
-        changed |= draw_settings(controls, render_settings(state), true);
-    heading("Reconstruction");
-    changed |= draw_reconstruction_settings(controls, state.active().settings.reconstruction);
+    bool changed = draw_settings(controls, state, render_settings(state), true);
+    changed |= draw_settings(controls, state, settings_of(state.active().settings.reconstruction), true);
+    for (const Setting& setting : settings_of(state.tone))
+        if (setting.id == "exposure")
+            draw_setting(controls, setting);
     if (changed)
         state.share_settings();
+}
 
-    heading("Display");
-    draw_display_settings(controls, state);
-    if (state.compared_with(state.active_pane) != state.active_pane) {
-        heading("Compare");
+void draw_expert_section(Controls& controls, ViewerState& state) {
+    bool changed = draw_settings(controls, state, render_settings(state), false);
+    changed |= draw_settings(controls, state, settings_of(state.active().settings.reconstruction), false);
+    if (changed)
+        state.share_settings();
+}
+
+void draw_contents(Controls& controls, ViewerState& state) {
+    using Section = PanelSection;
+    draw_run_buttons(controls, state);
+    if (begin_section(controls, state, Section::method, "section.method", "Method", "What is seldom left alone."))
+        draw_method_section(controls, state);
+    if (begin_section(controls, state, Section::display, "section.display", "Display", "How pictures are seen."))
+        draw_display_settings(controls, state);
+    if (state.compared_with(state.active_pane) != state.active_pane &&
+        begin_section(controls, state, Section::compare, "section.compare", "Compare", "One pane against another."))
         draw_comparison_settings(controls, state);
-    }
-    heading("Reference");
-    draw_reference_settings(controls, state);
-    heading("Size");
-    draw_size_settings(controls, state);
-    heading("Camera");
-    const std::string reset = std::string(icons().camera) + (*icons().camera ? "  " : "") + "Reset camera";
-    if (controls.button("reset_camera", reset.c_str(), "Back to the camera of the scene file (Home)."))
-        state.camera.go_home();
+    if (begin_section(controls, state, Section::reference, "section.reference", "Reference",
+                      "What errors are measured against."))
+        draw_reference_settings(controls, state);
+    if (begin_section(controls, state, Section::size, "section.size", "Size and camera",
+                      "How many pixels are rendered, and from where."))
+        draw_size_settings(controls, state);
+    if (begin_section(controls, state, Section::limits, "section.limits", "Limits",
+                      "When panes rest, and how they share the cores."))
+        for (const Setting& setting : settings_of(state.pace))
+            draw_setting(controls, setting);
+    if (begin_section(controls, state, Section::expert, "more", "Expert", "All other settings of the method."))
+        draw_expert_section(controls, state);
 }
 
 } // namespace

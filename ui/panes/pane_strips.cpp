@@ -38,6 +38,42 @@ const std::vector<ChoiceItem>& buffer_items() {
     return items;
 }
 
+/// The width of what a pane's header has beside method and buffer; 0: nothing.
+float extras_width(const PaneSettings& settings) {
+    const float font = ImGui::GetFontSize(), spacing = ImGui::GetStyle().ItemSpacing.x;
+    return (reuses_paths(settings.render.method) ? font * 5.5f + spacing : 0) +
+           (has_gradients(settings.render.method) ? font * 7 + spacing : 0);
+}
+
+/// Draws a pane's own tile and norm. A choice here is for this pane alone: the panes are then no longer the same.
+void draw_extras(const std::string& id, Controls& controls, ViewerState& state, PaneState& pane) {
+    static const std::vector<ChoiceItem> tiles = [] {
+        std::vector<ChoiceItem> list;
+        for (int edge = 1; edge <= most_tile; ++edge)
+            list.push_back({std::to_string(edge), "tile " + std::to_string(edge), "Pixels that share their paths, along an edge."});
+        return list;
+    }();
+    static const std::vector<ChoiceItem> norms = choice_items(norm_choices());
+    const float font = ImGui::GetFontSize();
+    bool changed = false;
+    if (reuses_paths(pane.settings.render.method)) {
+        int tile = pane.settings.render.tile - 1;
+        ImGui::SameLine();
+        changed |= controls.bare_choice((id + ".tile").c_str(), tiles[static_cast<std::size_t>(tile)].label.c_str(),
+                                        tiles, tile, font * 5.5f, "Edge of this pane's tiles, pixels.");
+        pane.settings.render.tile = tile + 1;
+    }
+    if (has_gradients(pane.settings.render.method)) {
+        int norm = static_cast<int>(pane.settings.reconstruction.norm);
+        ImGui::SameLine();
+        changed |= controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(),
+                                        norms, norm, font * 7, "How this pane's picture is reconstructed.");
+        pane.settings.reconstruction.norm = all_norms[static_cast<std::size_t>(norm)];
+    }
+    if (changed && state.panes.size() > 1)
+        state.linked = false;
+}
+
 } // namespace
 
 void draw_pane_header(int index, Controls& controls, ViewerState& state) {
@@ -50,8 +86,10 @@ void draw_pane_header(int index, Controls& controls, ViewerState& state) {
                                               method_colour(pane.settings.render.method), font * 0.15f);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + font * 0.7f);
 
-    const float room = ImGui::GetContentRegionAvail().x;
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float extras = extras_width(pane.settings), whole = ImGui::GetContentRegionAvail().x;
+    const bool has_extras = extras > 0 && whole > extras + font * 24;
+    const float room = whole - (has_extras ? extras + spacing : 0);
     const float method_width = std::max(std::min(font * 19, (room - spacing) * 0.58f), 1.0f);
     const float buffer_width = std::max(std::min(font * 11, room - spacing - method_width), 1.0f);
     int method = static_cast<int>(pane.settings.render.method);
@@ -66,6 +104,8 @@ void draw_pane_header(int index, Controls& controls, ViewerState& state) {
                              buffer_items()[static_cast<std::size_t>(buffer)].label.c_str(), buffer_items(),
                              buffer, buffer_width, "What this pane shows (1 to 9, Shift+0 to 9: all panes)."))
         pane.settings.buffer = all_buffers[buffer];
+    if (has_extras)
+        draw_extras(id, controls, state, pane);
 }
 
 namespace {
@@ -126,10 +166,14 @@ std::string status_text(const ViewerState& state, int index) {
     const bool reconstructs_long = state.reconstructs_long(pane);
     const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
     // What it does comes first: a narrow pane cuts the end off.
+    if (!state.scene)
+        return line + (state.loading.empty() ? "   no scene" : "   waiting for the scene");
     if (pane.failed)
         line += "   failed: see the messages (F2)";
     else if (state.paused)
         line += "   paused";
+    else if (is_in_long_first_pass(pane))
+        line += "   first pass " + std::to_string(static_cast<int>(100 * pane.pass_share)) + " %";
     else if (!is_answered)
         line += "   starting";
     else if (is_done(*pane.snapshot, state.pace))
@@ -181,7 +225,7 @@ std::string waiting_text(const ViewerState& state, int pane) {
         return by_time ? minutes(amount) : std::to_string(static_cast<int>(amount));
     };
     return "waiting for pane " + std::to_string(last - state.panes.begin() + 1) + " (" + text(had(*last)) +
-           " of " + text(own) + (by_time ? ")" : " spp)");
+           " of " + text(own) + (by_time ? "" : " spp") + "; R: all anew)";
 }
 
 std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about) {

@@ -1,6 +1,7 @@
 #include "ui/panes/pane_view.h"
 
 #include "render/inspect/inspection.h"
+#include "render/scene/scene.h"
 #include "ui/gl/gui.h"
 #include "ui/gl/theme.h"
 #include "ui/inside/inside.h"
@@ -36,6 +37,24 @@ void draw_notice(const ScreenRect& where, const std::string& text) {
 std::array<ScreenRect, 2> side_rects(const PictureFrame& frame, const ViewerState& state) {
     const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.layout.wipe));
     return {{{frame.rect.min, {middle, frame.rect.max.y}}, {{middle, frame.rect.min.y}, frame.rect.max}}};
+}
+
+/// What is to be said in the place of a picture; empty: there is one.
+std::string notice_of(const Showing& showing, const PaneTools& tools) {
+    const ViewerState& state = tools.state;
+    if (const std::string missing = missing_text(showing, state); !missing.empty() || !state.scene)
+        return missing;
+    if (showing.pane == the_reference)
+        return "";
+    const PaneState& pane = state.panes[static_cast<std::size_t>(showing.pane)];
+    if (pane.failed)
+        return "The render failed: " + pane.failure + "\n\nAnother size, setting or scene starts it anew, and so does R.";
+    const bool is_done = pane.snapshot && pane.snapshot->generation == pane.generation && !pane.snapshot->coarse();
+    if (!is_done || showing.subtrahend >= 0 || !tools.images[static_cast<std::size_t>(showing.pane)].is_black())
+        return "";
+    if (state.scene->triangle_count() == 0)
+        return "The scene is empty: nothing in it has a surface.";
+    return "The camera sees no light.\n\nHome: back to the camera of the file; Shift+2: what it sees, without light";
 }
 
 std::string pane_id(int index) {
@@ -127,8 +146,10 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
     }
     PaneMouse mouse = read_mouse(frame);
     const Grip hold = ImGui::IsItemActive() ? grip_ : grip_at(index, frame, tools);
-    if (!hold.is_camera() && ImGui::IsItemHovered())
+    if (ImGui::IsItemHovered() && !hold.is_camera())
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    else if (ImGui::IsItemHovered() && (state.inspector.active || state.slow_motion.active))
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand); // a click chooses, and does not move the camera
     if (ImGui::IsItemActive() && !grip_.is_camera()) {
         drag(frame, state);
         mouse.left = mouse.middle = mouse.right = false; // the wheel still works
@@ -210,21 +231,22 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
     if (!shows_slow_motion(index, state)) // which has numbers of its own
         draw_pixel_numbers(frame, index, state, tools.images);
     draw_comparison(frame, id, index, state, tools.controls);
-    draw_missing(index, frame, state);
+    draw_missing(index, frame, tools);
     legends_.draw(frame, id, index, tools);
+    draw_mode(frame, id, tools);
     if (state.magnifier)
         draw_magnifier_at_cursor(index, frame, tools);
     draw_active_frame(index, frame, state);
 }
 
-/// Why there is no picture, on each side of a wipe's line.
-void PaneView::draw_missing(int index, const PictureFrame& frame, const ViewerState& state) {
-    const Sides sides = sides_of(state, index);
+/// Why there is no picture, or nothing on it, on each side of a wipe's line.
+void PaneView::draw_missing(int index, const PictureFrame& frame, const PaneTools& tools) {
+    const Sides sides = sides_of(tools.state, index);
     if (!sides.divided())
-        return draw_notice(frame.rect, missing_text(sides.left, state));
-    const auto rects = side_rects(frame, state);
-    draw_notice(rects[0], missing_text(sides.left, state));
-    draw_notice(rects[1], missing_text(sides.right, state));
+        return draw_notice(frame.rect, notice_of(sides.left, tools));
+    const auto rects = side_rects(frame, tools.state);
+    draw_notice(rects[0], notice_of(sides.left, tools));
+    draw_notice(rects[1], notice_of(sides.right, tools));
 }
 
 /// Draws who shares light with whom, on each side of a wipe's line.
@@ -252,6 +274,25 @@ void PaneView::draw_active_frame(int index, const PictureFrame& frame, const Vie
     const ScreenRect& rect = frame.rect;
     if (index == state.active_pane && state.panes.size() > 1 && !state.layout.alone)
         ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
+}
+
+/// What the mouse's left button does here instead of moving the camera.
+void PaneView::draw_mode(const PictureFrame& frame, const std::string& id, PaneTools& tools) {
+    const ViewerState& state = tools.state;
+    if (!state.inspector.active && !state.slow_motion.active)
+        return;
+    const std::string text = state.slow_motion.active ? "Slow motion: click on a tile (J or Esc ends it)"
+                                                      : "Path inspector: click on a pixel (I or Esc ends it)";
+    const float pad = std::floor(ImGui::GetFontSize() * 0.4f);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    if (size.x + 4 * pad > frame.rect.size().x || size.y + 4 * pad > frame.rect.size().y)
+        return;
+    const ImVec2 min(frame.rect.min.x + pad, frame.rect.min.y + pad);
+    const ImVec2 max(min.x + size.x + 2 * pad, min.y + size.y + pad);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
+    list.AddText({min.x + pad, min.y + pad * 0.5f}, colours::overlay_accent, text.c_str());
+    tools.controls.place_rect((id + ".mode").c_str(), {min.x, min.y}, {max.x, max.y});
 }
 
 void PaneView::draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools) {

@@ -35,9 +35,10 @@ private:
     void drag(const PictureFrame& frame, ViewerState& state) const;
     void draw_renditions(int index, const PictureFrame& frame, PaneTools& tools);
     void draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools);
-    static void draw_missing(int index, const PictureFrame& frame, const ViewerState& state);
+    static void draw_missing(int index, const PictureFrame& frame, const PaneTools& tools);
     static void draw_shared(int index, const PictureFrame& frame, const ViewerState& state);
     static void draw_active_frame(int index, const PictureFrame& frame, const ViewerState& state);
+    static void draw_mode(const PictureFrame& frame, const std::string& id, PaneTools& tools);
     void draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools);
 
     Canvas canvas_;

@@ -3,7 +3,10 @@
 #include "ui/state/pane_labels.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -34,6 +37,8 @@ void PaneImage::take(const Snapshot* snapshot, Buffer buffer, const Companions& 
     buffer_ = buffer;
     pixels_ = &picture(from, buffer, scratch_, companions);
     texture_.show(*pixels_);
+    is_black_ = (buffer == Buffer::reconstruction || buffer == Buffer::primal) && !pixels_->empty() &&
+                std::all_of(pixels_->begin(), pixels_->end(), [](const Rgb& p) { return p == Rgb(0); });
     colours_.show(own_colours(from, buffer));
     outcomes_ = buffer == Buffer::outcomes ? from.reuse : nullptr;
     const RangeKey wanted{from.generation, coarse_, buffer, companion_};
@@ -127,6 +132,25 @@ CanvasView colours_of(const Showing& showing, const ViewerState& state, const Pa
     view.coarse = image_of(showing.pane, images).coarse();
     view.mark_negative = state.mark_negative;
     return view;
+}
+
+std::optional<float> exposure_of(const Showing& showing, const PaneImages& images) {
+    constexpr float share_below = 0.95f, brightness = 0.8f;
+    const RgbImage& image = image_of(showing.pane, images).pixels();
+    std::vector<float> values;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const glm::vec2 place((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width()),
+                                  (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height()));
+            const float value = std::abs(luminance(value_at(showing, images, place).value_or(Rgb(0))));
+            if (std::isfinite(value) && value > 0)
+                values.push_back(value);
+        }
+    if (values.empty())
+        return std::nullopt;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share_below * static_cast<float>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return std::log2(brightness / *at);
 }
 
 ShowingTextures textures_of(const Showing& showing, const PaneImages& images) {

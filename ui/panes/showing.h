@@ -33,6 +33,8 @@ public:
     /// that one can see the numbers fall.
     const ValueRange& range() const { return range_; }
     int uploads() const { return texture_.serial(); }
+    /// Whether it is a picture of light without any.
+    bool is_black() const { return is_black_; }
 
     /// The value at a place given as fractions of the image, which must not be empty.
     const Rgb& at(glm::vec2 place) const;
@@ -48,6 +50,7 @@ private:
     ImageTexture texture_, colours_;
     std::shared_ptr<const ReuseMaps> outcomes_; // of an image of these
     bool coarse_ = false;
+    bool is_black_ = false;
 
     /// What a range is found for.
     struct RangeKey {
@@ -92,6 +95,10 @@ ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& i
 
 /// How the part is coloured: a canvas view without its place.
 CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images);
+
+/// The exposure, in stops, that brings all but the brightest of what is shown, or the largest of differences and
+/// gradients, to below white. Empty: there is nothing to see.
+std::optional<float> exposure_of(const Showing& showing, const PaneImages& images);
 
 /// What a canvas draws for the part.
 struct ShowingTextures {

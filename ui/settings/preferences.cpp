@@ -52,6 +52,7 @@ Preferences parse(const std::string& text, const std::string& name) {
     p.panel_width =
         std::clamp(json.value("panel_width", p.panel_width), Layout::least_panel_width, Layout::most_panel_width);
     p.show_panel = json.value("panel", p.show_panel);
+    p.open_sections = json.value("open_sections", p.open_sections);
     p.show_statistics = json.value("statistics", p.show_statistics);
     p.show_charts = json.value("charts", p.show_charts);
     p.recent_scenes = json.value("recent_scenes", p.recent_scenes);
@@ -107,6 +108,7 @@ void write_preferences(const fs::path& file, const Preferences& p) {
                       {"text_factor", p.text_factor},
                       {"panel_width", p.panel_width},
                       {"panel", p.show_panel},
+                      {"open_sections", p.open_sections},
                       {"statistics", p.show_statistics},
                       {"charts", p.show_charts},
                       {"recent_scenes", p.recent_scenes}};

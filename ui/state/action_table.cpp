@@ -1,105 +1,8 @@
-#include "render/inspect/inspection.h"
 #include "ui/state/actions.h"
-#include "ui/state/words.h"
 
-#include <cmath>
 #include <iterator>
-#include <memory>
 
 namespace tessera {
-
-void set_buffer(ViewerState& state, Buffer buffer) {
-    for (PaneState& pane : state.panes)
-        pane.settings.buffer = buffer;
-}
-
-void step_method(ViewerState& state, int step) {
-    constexpr int count = static_cast<int>(std::size(all_methods));
-    Method& method = state.active().settings.render.method;
-    method = all_methods[(static_cast<int>(method) + step + count) % count];
-}
-
-void step_tile(ViewerState& state, int step) {
-    int& tile = state.active().settings.render.tile;
-    tile = std::clamp(tile + step, 1, 16);
-    state.share_settings();
-}
-
-void next_part(ViewerState& state) {
-    int parts = 0;
-    for (const PaneState& pane : state.panes)
-        if (pane.snapshot && pane.snapshot->images)
-            parts = std::max(parts, static_cast<int>(pane.snapshot->images->parts.size()));
-    const std::shared_ptr<const int>& shown = state.companions.part;
-    const int next = shown ? *shown + 1 : 0;
-    state.companions.part = next < parts ? std::make_shared<const int>(next) : nullptr;
-}
-
-void step_exposure(ViewerState& state, float stops) {
-    state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
-}
-
-void next_pane(ViewerState& state) {
-    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
-}
-
-void next_grid(ViewerState& state) {
-    const std::size_t count = state.panes.size();
-    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
-}
-
-void step_pass(ViewerState& state) {
-    state.paused = true;
-    ++state.wishes.steps;
-}
-
-void step_ui_scale(ViewerState& state, float by) {
-    state.layout.set_ui_scale(std::round(state.layout.ui_scale() * 4) / 4 + by);
-}
-
-void next_tone(ViewerState& state) {
-    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
-}
-
-void toggle_charts(ViewerState& state) {
-    state.layout.show_charts = !state.layout.show_charts;
-    state.layout.large_charts = state.layout.large_charts && state.layout.show_charts;
-}
-
-void toggle_inspector(ViewerState& state) {
-    state.set_inspector(!state.inspector.active);
-}
-
-void open_sample_form(ViewerState& state) {
-    SampleForm& form = state.layout.sample_form;
-    form.seed = state.active().settings.render.seed;
-    if (const auto& sample = state.inspector.sample) {
-        form.pixel = sample->pixel;
-        if (const auto& inspection = state.inspector.inspection)
-            form.pass = inspection->pass;
-        form.pass = sample->pass.value_or(form.pass);
-        if (sample->origin)
-            form.seed = sample->origin->settings.seed;
-    }
-    form.show = true;
-}
-
-void toggle_slow_motion(ViewerState& state) {
-    state.set_slow_motion(!state.slow_motion.active);
-}
-
-void next_tile(ViewerState& state) {
-    SlowMotion& slow = state.slow_motion;
-    if (slow.tile)
-        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
-}
-
-void toggle_comparison(ViewerState& state, Comparison::Kind kind) {
-    if (state.compared_with(state.active_pane) == state.active_pane)
-        state.set_pane_count(2);
-    Comparison::Kind& own = state.active().settings.comparison.kind;
-    own = own == kind ? Comparison::Kind::off : kind;
-}
 
 namespace {
 
@@ -155,6 +58,14 @@ constexpr Action table[] = {
      key(Key::z), no_shortcut, [](State& s) { s.wishes.save_charts = true; }, nullptr},
     {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.wishes.quit = true; },
      nullptr},
+
+    {"Edit", "Undo", "Takes back the last change of settings, panes, exposure or camera.", ctrl(Key::z), no_shortcut,
+     [](State& s) { s.history.undo(s); }, nullptr},
+    {"Edit", "Redo", "Makes again what was taken back.", ctrl_shift(Key::z), ctrl(Key::y),
+     [](State& s) { s.history.redo(s); }, nullptr},
+    {"Edit", "Find a command ...", "The list of all commands, to be found by words.", ctrl_shift(Key::p), no_shortcut,
+     [](State& s) { s.layout.show_palette = !s.layout.show_palette; },
+     [](const State& s) { return s.layout.show_palette; }},
 
     {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
      [](State& s) { s.paused = !s.paused; }, [](const State& s) { return s.paused; }},
@@ -238,6 +149,10 @@ constexpr Action table[] = {
      [](State& s) { step_exposure(s, -0.5f); }, nullptr},
     {"View", "Reset exposure", "Exposure back to 0 stops.", key(Key::digit0), no_shortcut,
      [](State& s) { s.tone.exposure = 0; }, nullptr},
+    {"View", "Automatic exposure",
+     "The exposure that shows the active pane's picture, its gradients or the difference; of false colours, the "
+     "range.",
+     key(Key::f6), no_shortcut, [](State& s) { s.wishes.auto_exposure = true; }, nullptr},
     {"View", "Next tone curve", "sRGB, gamma or filmic: how radiance becomes brightness.", key(Key::y),
      no_shortcut, next_tone, nullptr},
     {"View", "Mark negative values",
@@ -299,11 +214,15 @@ constexpr Action table[] = {
 
     {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
      has_panes<1>},
-    {"Panes", "Two panes", "Renders two panes, beside each other.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
+    {"Panes", "Two panes", "Renders two panes, as their pictures are larger.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
      has_panes<2>},
-    {"Panes", "Four panes", "Renders four panes, two by two.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
+    {"Panes", "Four panes", "Renders four panes: PT and PR above G-PT and G-PR.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
      has_panes<4>},
     {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
+    {"Panes", "Compare reconstructions",
+     "One render in four panes: its primal, and the pictures that L2, L1 and the weighted norm make of the same "
+     "samples.",
+     shift(Key::g), no_shortcut, compare_reconstructions, nullptr},
     {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},
     {"Panes", "Only the active pane", "Gives it all the room; the others go on rendering.", key(Key::o),
      no_shortcut, [](State& s) { s.layout.alone = !s.layout.alone; },
@@ -319,8 +238,8 @@ constexpr Action table[] = {
     {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
      [](State& s) { s.camera.go_home(); }, nullptr},
     {"Camera", "Save camera",
-     "Writes the camera to NAME-camera.json beside the scene file, else in the current folder; to be read by "
-     "--camera.",
+     "Writes the camera to NAME-camera.json in the current folder; to be read by --camera, or dropped on the "
+     "window.",
      key(Key::k), no_shortcut, [](State& s) { s.wishes.save_camera = true; }, nullptr},
     {"Camera", "Copy camera as XML",
      "Puts what stands for the camera in a Mitsuba <sensor>, such as fov and to_world, on the clipboard.",

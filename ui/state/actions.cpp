@@ -22,8 +22,9 @@ std::string name(Key key) {
         return std::string(1, static_cast<char>('0' + place(key) - place(Key::digit0)));
     if (key >= Key::f1 && key <= Key::f12)
         return "F" + std::to_string(1 + place(key) - place(Key::f1));
-    static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift"};
-    static_assert(names.size() == static_cast<std::size_t>(place(Key::shift) - place(Key::left) + 1));
+    static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift",
+                                         "Return"};
+    static_assert(names.size() == static_cast<std::size_t>(place(Key::enter) - place(Key::left) + 1));
     const int index = place(key) - place(Key::left);
     return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
 }
@@ -141,15 +142,22 @@ bool counts_in_text(const Shortcut& typed) {
 
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
-                     state.layout.show_help || state.layout.large_charts || state.reference_making.show ||
+                     state.layout.show_help || state.layout.show_palette || state.layout.large_charts || state.reference_making.show ||
                      state.layout.sample_form.show || state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
+    const bool is_busy = loads || state.reference_read ||
+                         std::any_of(state.panes.begin(), state.panes.end(),
+                                     [&](const PaneState& pane) { return state.reconstructs_long(pane); });
+    if (!any && !is_busy) { // the last that it ends
+        state.set_inspector(false);
+        state.set_slow_motion(false);
+    }
     state.wishes.cancel_scene = state.wishes.cancel_scene || (!any && loads);
     state.wishes.cancel_reference = state.wishes.cancel_reference || (!any && !loads && state.reference_read);
     state.wishes.give_up_reconstructions =
         state.wishes.give_up_reconstructions || (!any && !loads && !state.reference_read);
-    state.layout.show_help = false;
+    state.layout.show_help = state.layout.show_palette = false;
     state.layout.large_charts = false;
     state.reference_making.show = state.layout.sample_form.show = false;
     state.layout.choosing.reset();
@@ -165,6 +173,8 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
     for (const Shortcut& shortcut : typed) {
         if (entering_text && !counts_in_text(shortcut))
             continue;
+        if (entering_text && (shortcut.key == Key::z || shortcut.key == Key::y) && shortcut.ctrl)
+            continue; // the text's own
         for (const Action* action : called_by(shortcut))
             action->run(state);
     }

@@ -18,7 +18,7 @@ enum class Key : std::uint8_t {
     none,
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
     digit0, digit1, digit2, digit3, digit4, digit5, digit6, digit7, digit8, digit9,
-    left, right, up, down, home, space, tab, escape, shift,
+    left, right, up, down, home, space, tab, escape, shift, enter,
     f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
     count
 };
@@ -108,6 +108,8 @@ void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
 /// From the whole of coefficients to their first part, and so on through all that some pane has.
 void next_part(ViewerState& state);
+/// Four panes of the active one's samples: the primal, and what L2, L1 and the weighted norm make of them.
+void compare_reconstructions(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);
 void step_ui_scale(ViewerState& state, float by);

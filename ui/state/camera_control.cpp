@@ -1,10 +1,10 @@
 #include "ui/state/camera_control.h"
 
 #include "render/scene/camera.h"
+#include "ui/state/file_names.h"
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <string>
 
 #include <glm/common.hpp>
@@ -168,20 +168,9 @@ void CameraControl::move(glm::vec3 by) {
 std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera) {
     namespace fs = std::filesystem;
     const std::string stem = scene_file.empty() ? "tessera" : scene_file.stem().string();
-    const fs::path name = stem + "-camera.json";
-    const fs::path here = fs::current_path() / name;
-    if (!scene_file.empty()) {
-        const fs::path beside = fs::absolute(scene_file).parent_path() / name;
-        try {
-            write_camera(beside, camera);
-            return beside;
-        } catch (const std::exception&) {
-            if (beside == here)
-                throw; // there is no second place
-        }
-    }
-    write_camera(here, camera);
-    return here;
+    const fs::path file = free_name(fs::current_path() / (stem + "-camera"), ".json");
+    write_camera(file, camera);
+    return file;
 }
 
 } // namespace tessera

@@ -62,9 +62,9 @@ private:
     glm::vec3 up_{0, 1, 0};
 };
 
-/// Writes the camera to NAME-camera.json beside the scene file NAME.xml, or in the current folder where that
-/// cannot be done, or where there is no scene file (empty). Returns the file written, in full; throws
-/// std::exception that names it.
+/// Writes the camera to NAME-camera.json in the current folder, of a scene file NAME.xml (empty: tessera), or to
+/// NAME-camera-2.json if that is there, and so on. Returns the file written, in full; throws std::exception that
+/// names it.
 std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera);
 
 } // namespace tessera

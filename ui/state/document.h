@@ -49,7 +49,7 @@ struct PaneSettings {
     bool operator==(const PaneSettings&) const = default;
 };
 
-/// What so many panes start with: PT, G-PT, PR and G-PR, or fewer of them.
+/// What so many panes start with: PT, PR, G-PT and G-PR, or the last alone, with PT before it, and with G-PT.
 std::vector<PaneSettings> default_panes(int count);
 
 struct PaneState {
@@ -59,8 +59,13 @@ struct PaneState {
     glm::ivec2 canvas_size{0};                              ///< pixels of the place for its picture, as last drawn
     std::optional<ReconstructionUnderWay> reconstructing{}; ///< of its newest picture; empty: none is under way
     bool failed = false; ///< its render went wrong: nothing more will come of the request
+    std::string failure{}; ///< of a failed one: why
+    float pass_share = 0; ///< of the pass under way that is done, [0, 1]
     int slot = 0; ///< the session's pane that renders it: no other has it, and it keeps it wherever it is shown
 };
+
+/// Whether the pane's first pass is so long that its progress is worth telling.
+bool is_in_long_first_pass(const PaneState& pane);
 
 /// What charts show of a pane.
 struct PaneChart {
@@ -103,6 +108,12 @@ struct Message {
     std::size_t next_sample = 0;         ///< of these: the one that its button opens
 };
 
+/// Why there is no scene although one was asked for.
+struct SceneProblem {
+    std::string text; ///< empty: there is one, or it is on its way
+    bool is_error = true; ///< or it was given up
+};
+
 /// What is worked on: a scene, the panes that render it, how their pictures are seen, and what is known of them.
 struct Document {
     std::shared_ptr<const Scene> scene; ///< null while the first is loading
@@ -110,6 +121,7 @@ struct Document {
     SceneSource scene_source;               ///< without a file: it is in none
     int scenes_shown = 0;                   ///< so far, reloaded ones counted again
     std::string loading;                    ///< what of the next scene is being loaded; empty: none is
+    SceneProblem scene_problem;             ///< the last one's, while there is no scene
     std::vector<std::string> recent_scenes; ///< files, the newest first
 
     Companions companions;               ///< what some buffers need
@@ -119,6 +131,7 @@ struct Document {
     std::vector<PaneState> panes;          ///< 1, 2 or 4 (3 work as well); all of them render
     std::vector<PaneSettings> spare_panes; ///< settings of panes taken away, the last one first
     int active_pane = 0;
+    int preset = 0;                           ///< of presets(): what settings are held against
     bool linked = true;                       ///< all panes share their settings, but for method and buffer
     std::array<PaneChart, most_panes> charts; ///< by slot: see chart_of
     bool histograms_due = false;              ///< those of some pictures are still being measured
@@ -146,7 +159,7 @@ struct Document {
     const PaneState& active() const { return panes[static_cast<std::size_t>(active_pane)]; }
 
     /// Adds panes, with the settings of those taken away or a method that no pane has yet, or takes the last away;
-    /// the active one stays. `count` of 1 to most_panes.
+    /// the active one stays. `count` of 1 to most_panes. Four methods lie as a table: PT and PR above G-PT and G-PR.
     void set_pane_count(int count);
 
     /// The pane that the session's slot renders; null: none is.

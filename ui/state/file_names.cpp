@@ -72,8 +72,11 @@ std::vector<FileEntry> list_folder(const fs::path& folder, std::string_view exte
     return entries;
 }
 
-TypedPath typed_path(const std::string& text) {
+TypedPath typed_path(const std::string& whole) {
     std::error_code ignored; // a current folder that is gone has no name
+    // A path that was put behind a folder ("/tmp//home/x.xml", "/tmp/~/x.xml") is meant alone.
+    const std::size_t again = std::max(whole.rfind("//") + 1, whole.rfind("/~/") + 1);
+    const std::string text = whole.substr(again);
     const std::size_t slash = text.rfind('/');
     if (slash == std::string::npos)
         return {fs::current_path(ignored), text};

@@ -34,7 +34,7 @@ bool has_extension(const std::filesystem::path& file, std::string_view extension
 std::vector<FileEntry> list_folder(const std::filesystem::path& folder, std::string_view extension,
                                    std::string& error);
 
-/// What a user has typed of a path.
+/// What a user has typed of a path. Where a whole one follows a folder, it counts alone.
 struct TypedPath {
     std::filesystem::path folder; ///< in full; "~" is the home folder, and no folder the current one
     std::string beginning;        ///< of a name in it

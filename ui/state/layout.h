@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include <glm/vec2.hpp>
 
@@ -19,6 +20,9 @@ struct WindowPlace {
     bool operator==(const WindowPlace&) const = default;
 };
 
+/// Sections of the settings, which can be folded away.
+enum class PanelSection { method, display, compare, reference, size, limits, expert };
+
 /// What of the layout the viewer remembers from one run to the next.
 struct LastingLayout {
     WindowPlace window; ///< as it is now
@@ -26,8 +30,12 @@ struct LastingLayout {
     float text_factor = 1;  ///< of text and controls, against the display's: another one has as large a text
     float panel_width = 20; ///< of the panels at the side, in heights of a line
     bool show_panel = true;
+    unsigned open_sections = 0b0011111; ///< a bit for each PanelSection: limits and expert are folded away at first
     bool show_statistics = false;
     bool show_charts = false;
+
+    bool is_open(PanelSection section) const { return open_sections >> static_cast<int>(section) & 1; }
+    void fold(PanelSection section) { open_sections ^= 1u << static_cast<int>(section); }
 
     bool operator==(const LastingLayout&) const = default;
 };
@@ -48,6 +56,13 @@ struct SampleForm {
     glm::ivec2 pixel{0};
     int pass = 0;
     std::uint64_t seed = 0;
+};
+
+/// Words over the pictures that go by themselves.
+struct Toast {
+    static constexpr double seconds = 5; ///< for which it stays
+    std::string text;                    ///< empty: there is none
+    double since = 0;                    ///< ImGui::GetTime() when it was first drawn; 0: it was not yet
 };
 
 /// What the mouse points at.
@@ -74,7 +89,11 @@ struct Layout : LastingLayout {
     ChartKind chart_kind = ChartKind::error;
     bool charts_by_spp = false; ///< against samples; otherwise against seconds
     bool show_help = false;
+    bool show_palette = false;  ///< the list of all commands
+    int palette_steps = 0;      ///< down the list, as typed since it was drawn
+    bool palette_takes = false; ///< Return was typed
     bool show_messages = false;
+    Toast toast;
     SampleForm sample_form;
     std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
 

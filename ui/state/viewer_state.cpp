@@ -33,7 +33,6 @@ glm::ivec2 ViewerState::fitting_size() const {
 void ViewerState::inspect(const SampleChoice& sample) {
     set_inspector(true);
     inspector.choose(sample);
-    layout.show_messages = false; // which lie where the inspector does
 }
 
 void ViewerState::inspect(glm::ivec2 pixel, int pass, std::uint64_t seed) {
@@ -49,6 +48,11 @@ void ViewerState::add_message(Message::Kind kind, std::string text, Message::Ori
     wishes.redraw = true;
     if (kind == Message::Kind::error)
         layout.show_messages = wishes.scroll_to_newest = true;
+}
+
+void ViewerState::tell(std::string text) {
+    layout.toast = {text, 0};
+    add_message(Message::Kind::note, std::move(text));
 }
 
 void ViewerState::add_refused(const std::string& whose, const Counters& counters, int slot,

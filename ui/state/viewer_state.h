@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/state/document.h"
+#include "ui/state/history.h"
 #include "ui/state/layout.h"
 
 #include <cstdint>
@@ -15,6 +16,7 @@ struct Wishes {
     bool redraw = false;           ///< something has come since the last frame was drawn, and is to be seen
     bool scroll_to_newest = false; ///< of the list of messages
     bool quit = false;
+    bool auto_exposure = false; ///< the exposure and the range that show the active pane's picture
 
     // These are for the session.
     bool restart = false;
@@ -47,6 +49,7 @@ struct Wishes {
 struct ViewerState : Document {
     Layout layout;
     Wishes wishes;
+    History history;
 
     bool is_on_show(int pane) const { return !layout.alone || pane == active_pane; }
 
@@ -60,6 +63,9 @@ struct ViewerState : Document {
 
     /// Adds a message; an error opens the list at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
+
+    /// Adds a note, and shows it over the pictures for a while.
+    void tell(std::string text);
 
     /// Adds a note on samples of the scene that a render refused, the first few of which can be inspected if the
     /// scene is still on show. Adds nothing where there are none. `whose` begins it; `slot` is of the pane that

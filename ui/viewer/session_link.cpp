@@ -1,8 +1,9 @@
 #include "ui/viewer/viewer.h"
 
-#include <cstdint>
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace tessera {
 
@@ -16,6 +17,8 @@ void SessionLink::take(ViewerState& state) {
         if (auto snapshot = session_.latest(pane.slot))
             pane.snapshot = std::move(snapshot);
         pane.failed = session_.has_failed(pane.slot);
+        pane.failure = session_.failure(pane.slot);
+        pane.pass_share = session_.pass_share(pane.slot);
         pane.reconstructing = session_.reconstructing(pane.slot);
         report_refused(state, i);
     }
@@ -42,12 +45,11 @@ void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
 void SessionLink::send(ViewerState& state) {
     send_running(state);
     latch_size(state);
+    if (state.scene)
+        send_panes(state);
     std::array<bool, most_panes> is_used{};
-    for (PaneState& pane : state.panes) {
+    for (const PaneState& pane : state.panes)
         is_used[static_cast<std::size_t>(pane.slot)] = true;
-        if (state.scene)
-            send_pane(state, pane);
-    }
     for (std::size_t slot = 0; slot < sent_.size(); ++slot) {
         if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
             session_.withdraw(static_cast<int>(slot));
@@ -102,12 +104,72 @@ void SessionLink::latch_size(ViewerState& state) {
     latched_choice_ = state.size;
 }
 
+/// The pane that renders for this one: panes with the same settings have the same samples, and so one render, of
+/// which each has a reconstruction of its own. The one that renders already goes on to.
+std::size_t SessionLink::renders_for(const ViewerState& state, std::size_t pane) const {
+    const RenderSettings& wanted = state.panes[pane].settings.render;
+    std::size_t first = pane;
+    for (std::size_t i = state.panes.size(); i-- > 0;)
+        if (state.panes[i].settings.render == wanted)
+            first = i;
+    for (std::size_t i = first; i < state.panes.size(); ++i) {
+        const Sent& sent = sent_of(state.panes[i]);
+        if (state.panes[i].settings.render == wanted && sent.scene && sent.followed < 0 && sent.render == wanted)
+            return i;
+    }
+    return first;
+}
+
+/// Gives a pane another slot, with all that is known of it; who has that gets the pane's.
+void SessionLink::give_slot(ViewerState& state, PaneState& pane, int slot) {
+    const int before = pane.slot;
+    for (PaneState& other : state.panes)
+        if (other.slot == slot)
+            other.slot = before;
+    pane.slot = slot;
+    std::swap(state.charts[static_cast<std::size_t>(before)], state.charts[static_cast<std::size_t>(slot)]);
+}
+
+void SessionLink::send_panes(ViewerState& state) {
+    std::vector<std::size_t> renders(state.panes.size());
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        renders[i] = renders_for(state, i);
+    // Who has rendered for others until now may do something else, or be no more: one of these takes its samples on.
+    for (std::size_t i = 0; i < state.panes.size(); ++i) {
+        PaneState& pane = state.panes[i];
+        const int followed = sent_of(pane).followed;
+        if (renders[i] == i && followed >= 0 && sent_[static_cast<std::size_t>(followed)].scene &&
+            sent_[static_cast<std::size_t>(followed)].render == pane.settings.render)
+            give_slot(state, pane, followed);
+    }
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        if (renders[i] == i)
+            send_pane(state, state.panes[i]);
+    for (std::size_t i = 0; i < state.panes.size(); ++i)
+        if (renders[i] != i)
+            let_follow(state.panes[i], state.panes[renders[i]]);
+}
+
+void SessionLink::let_follow(PaneState& pane, const PaneState& other) {
+    Sent& sent = sent_of(pane);
+    if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
+        session_.set_reconstruction(pane.slot, pane.settings.reconstruction);
+    if (sent.followed != other.slot || sent.generation != other.generation)
+        session_.follow(pane.slot, other.slot);
+    sent = sent_of(other);
+    sent.reconstruction = pane.settings.reconstruction;
+    sent.followed = other.slot;
+    pane.generation = sent.generation;
+    refused_told_[static_cast<std::size_t>(pane.slot)] = sent.generation; // who renders tells
+}
+
 void SessionLink::send_pane(ViewerState& state, PaneState& pane) {
     Sent& sent = sent_of(pane);
     if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
         session_.set_reconstruction(pane.slot, pane.settings.reconstruction);
     sent.reconstruction = pane.settings.reconstruction;
-    if (starts_anew(state, pane) || sent.size != state.request_size()) {
+    if (starts_anew(state, pane) || sent.size != state.request_size() || sent.followed >= 0) {
+        sent.followed = -1;
         sent.scene = state.scene;
         sent.camera = state.camera.camera();
         sent.size = state.request_size();

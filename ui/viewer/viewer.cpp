@@ -8,6 +8,7 @@
 #include "ui/panels/panels.h"
 #include "ui/state/actions.h"
 #include "ui/state/file_names.h"
+#include "ui/state/words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <imgui.h>
 
@@ -28,9 +30,15 @@ constexpr float most_panel_share = 0.5f; // of the window's width
 constexpr int frames_until_still = 3;    // Dear ImGui fits tables a frame or two later
 constexpr float longest_step = 0.1f;     // seconds that a held key moves in one frame at the most
 
-/// The place of a pane: they lie beside each other, from three on in two rows.
-ScreenRect pane_rect(const ScreenRect& all, int pane, int panes) {
-    const int rows = panes > 2 ? 2 : 1;
+/// The place of a pane: from three on, they lie in two rows.
+ScreenRect pane_rect(const ScreenRect& all, int pane, int panes, glm::vec2 picture) {
+    // Two lie as their pictures are larger, beside each other or one above the other.
+    const float strips = 3.6f * ImGui::GetFontSize(); // of a pane, above and below its picture
+    const auto scale = [&](int columns, int rows) {
+        const glm::vec2 room = all.size() / glm::vec2(columns, rows) - glm::vec2(0, strips);
+        return std::min(room.x / picture.x, room.y / picture.y);
+    };
+    const int rows = panes > 2 || (panes == 2 && scale(1, 2) > scale(2, 1)) ? 2 : 1;
     const int columns = (panes + rows - 1) / rows;
     const glm::vec2 cell = all.size() / glm::vec2(columns, rows);
     const glm::vec2 min = all.min + cell * glm::vec2(pane % columns, pane / columns);
@@ -53,6 +61,7 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
         pane.slot = static_cast<int>(state_.panes.size()) - 1;
     }
     state_.active_pane = static_cast<int>(state_.panes.size()) - 1;
+    asked_panes_ = options_.panes_as_remembered ? 0 : static_cast<int>(state_.panes.size());
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
     state_.wishes.open_reference = options_.reference.string();
@@ -84,16 +93,20 @@ void Viewer::take_scene() {
     for (SceneNote& note : result->notes)
         state_.add_message(note.is_error ? Message::Kind::error : Message::Kind::note, std::move(note.text),
                            result->scene ? Origin::scene : Origin::failed_load);
-    if (result->scene)
+    if (result->scene) {
         show_scene(std::move(result->scene), result->origin);
-    else
-        state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
+        return;
+    }
+    if (!state_.scene)
+        state_.scene_problem = {result->error, true};
+    state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
 }
 
 void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& origin) {
     const std::shared_ptr<const Scene> before = std::exchange(state_.scene, std::move(scene));
     const bool again = before && is_same_scene(shown_, origin);
     shown_ = origin;
+    state_.scene_problem = {};
     state_.scene_name = origin.name;
     state_.scene_source = origin.source;
     state_.space = {};
@@ -108,29 +121,19 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
         state_.set_view({});
     }
     const auto depth_of = [&](const Scene& s) {
-        return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, 64);
+        return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, most_edges);
     };
+    const int no_limit = SceneDescription().max_depth; // is cut without a word
+    if (!options_.max_depth && state_.scene->max_depth() > no_limit)
+        state_.add_message(Message::Kind::note,
+                           fmt::format("{}: max depth {} is more than paths have here: {} is taken.", origin.name,
+                                       state_.scene->max_depth(), most_edges),
+                           Message::Origin::scene);
     for (PaneState& pane : state_.panes) {
         int& depth = pane.settings.render.max_depth;
         if (!again || depth == depth_of(*before)) // not one that the user has set
             depth = depth_of(*state_.scene);
     }
-}
-
-// --- taking in ---
-
-void Viewer::read_keyboard() {
-    const ImGuiIO& io = ImGui::GetIO();
-    std::vector<Shortcut> typed = keyboard_.take();
-    // Nothing behind a dialog may be done from it; Esc closes it, and Ctrl+Q the program.
-    if (state_.layout.choosing)
-        std::erase_if(typed, [](const Shortcut& s) {
-            return s != Shortcut{Key::escape} && s != Shortcut{Key::q, true};
-        });
-    run_shortcuts(typed, io.WantTextInput, state_);
-    const bool held_back = io.WantTextInput || state_.layout.choosing;
-    state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
-    flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
 // --- drawing ---
@@ -157,11 +160,15 @@ void Viewer::draw_frame() {
         draw_panel_edge(pictures, controls_, state_);
     }
     ScreenRect bottom = pictures;
-    pictures.max.y = bottom.min.y = pictures.max.y - bottom_height(pictures.size().y);
+    const BottomHeights heights = bottom_heights(pictures.size().y);
+    pictures.max.y = bottom.min.y = pictures.max.y - heights.messages - heights.inside;
     draw_panes(pictures);
-    draw_bottom(bottom);
+    draw_bottom(bottom, heights);
     draw_overlays(pictures);
+    if (std::exchange(state_.wishes.auto_exposure, false))
+        expose();
     fulfil_wishes();
+    note_history();
     link_.send(state_);
     companion_jobs_.update(state_, options_.wake);
     inspection_job_.update(state_, options_.wake);
@@ -210,6 +217,7 @@ void Viewer::draw_panes(const ScreenRect& where) {
         state_.layout.cursor.reset();
     PaneTools tools{shader_, images_, controls_, state_};
     const int alone = state_.layout.alone ? state_.active_pane : -1;
+    const glm::vec2 picture(state_.scene ? state_.scene->size() : glm::ivec2(16, 9));
     const auto each = [&](auto&& act) {
         for (int i = 0; i < panes; ++i) {
             if (alone < 0 || alone == i)
@@ -217,26 +225,31 @@ void Viewer::draw_panes(const ScreenRect& where) {
         }
     };
     each(
-        [&](PaneView& view, int i) { view.take_input(i, alone < 0 ? pane_rect(where, i, panes) : where, tools); });
+        [&](PaneView& view, int i) { view.take_input(i, alone < 0 ? pane_rect(where, i, panes, picture) : where, tools); });
     each([&](PaneView& view, int i) { view.draw(i, tools); });
 }
 
-/// The height of the panel below the pictures, at most half the room that there is; 0: there is none.
-float Viewer::bottom_height(float room) const {
-    const float least = ImGui::GetFontSize() * 11;
-    const float large = std::max(least, std::min(ImGui::GetFontSize() * 17, room * 0.36f));
+/// The heights of the panels below the pictures, together at most half the room that there is; 0: there is none.
+Viewer::BottomHeights Viewer::bottom_heights(float room) const {
+    const float font = ImGui::GetFontSize(), least = font * 11;
+    const float large = std::max(least, std::min(font * 17, room * 0.36f));
     const bool looks_inside = state_.slow_motion.active || state_.inspector.active;
-    const float wanted = state_.layout.show_messages ? least : looks_inside ? large : 0;
-    return std::min(std::floor(wanted), room / 2);
+    const float messages = state_.layout.show_messages ? looks_inside ? font * 7 : least : 0;
+    const float inside = looks_inside ? large : 0;
+    const float share = std::min(1.0f, room / 2 / std::max(messages + inside, 1.0f));
+    return {std::floor(messages * share), std::floor(inside * share)};
 }
 
-void Viewer::draw_bottom(const ScreenRect& where) {
-    if (state_.layout.show_messages)
-        draw_message_panel(where, controls_, state_);
-    else if (state_.slow_motion.active)
-        draw_slow_motion_panel(where, controls_, state_);
-    else if (state_.inspector.active)
-        draw_inspector_panel(where, controls_, state_);
+/// Messages lie above what looks inside: neither hides the other.
+void Viewer::draw_bottom(const ScreenRect& where, const BottomHeights& heights) {
+    const float middle = where.min.y + heights.messages;
+    const ScreenRect inside{{where.min.x, middle}, where.max};
+    if (heights.messages > 0)
+        draw_message_panel({where.min, {where.max.x, middle}}, controls_, state_);
+    if (heights.inside > 0 && state_.slow_motion.active)
+        draw_slow_motion_panel(inside, controls_, state_);
+    else if (heights.inside > 0)
+        draw_inspector_panel(inside, controls_, state_);
 }
 
 void Viewer::draw_overlays(const ScreenRect& pictures) {
@@ -251,7 +264,30 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
         draw_help(screen, controls_, state_);
     if (load_.running())
         draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
+    else if (!state_.scene && !state_.scene_problem.text.empty())
+        draw_no_scene(pictures, controls_, state_);
+    palette_.draw(screen, controls_, state_);
+    draw_toast(pictures, controls_, state_);
     file_dialog_.draw(screen, controls_, state_); // last: it is modal, and windows may not appear after such
+}
+
+/// The exposure and the range of false colours that show what the active pane shows.
+void Viewer::expose() {
+    const Showing showing = sides_of(state_, state_.active_pane).left;
+    const PaneImage& image = images_[static_cast<std::size_t>(showing.pane)];
+    if (image.empty())
+        return;
+    const Buffer buffer = buffer_of(showing.pane, state_);
+    if (colour_map(showing, state_) == ColourMap::false_colour)
+        state_.ranges[buffer] = automatic_range(buffer, image.pixels(), state_.companions);
+    else if (const auto exposure = exposure_of(showing, images_))
+        state_.tone.exposure = std::clamp(*exposure, ranges::exposure.low(), ranges::exposure.high());
+}
+
+/// A drag, a held key or a value that is being typed is one step.
+void Viewer::note_history() {
+    if (state_.scene)
+        state_.history.note(state_, flying_ || ImGui::IsAnyMouseDown() || ImGui::GetIO().WantTextInput);
 }
 
 double Viewer::next_frame_in() const {
@@ -259,7 +295,11 @@ double Viewer::next_frame_in() const {
         return 0;
     const bool reconstructs =
         std::any_of(state_.panes.begin(), state_.panes.end(), [](const PaneState& p) { return p.reconstructing; });
-    if (load_.running() || controls_.tooltip_pending() || reconstructs)
+    const bool renders_long = std::any_of(state_.panes.begin(), state_.panes.end(),
+                                          [](const PaneState& p) { return is_in_long_first_pass(p); });
+    if (!state_.layout.toast.text.empty())
+        return 0.2; // it goes by itself
+    if (load_.running() || controls_.tooltip_pending() || reconstructs || renders_long)
         return 0.1;
     return ImGui::GetIO().WantTextInput ? 0.2 : never; // a blinking cursor
 }

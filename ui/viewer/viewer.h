@@ -44,12 +44,17 @@ private:
         RenderSettings render;
         ReconstructionSettings reconstruction;
         std::uint64_t generation = 0;
+        int followed = -1; // the slot whose passes it shows; -1: it renders them
     };
     Sent& sent_of(const PaneState& pane) { return sent_[static_cast<std::size_t>(pane.slot)]; }
     const Sent& sent_of(const PaneState& pane) const { return sent_[static_cast<std::size_t>(pane.slot)]; }
     bool starts_anew(const ViewerState& state, const PaneState& pane) const;
     void latch_size(ViewerState& state);
+    std::size_t renders_for(const ViewerState& state, std::size_t pane) const;
+    static void give_slot(ViewerState& state, PaneState& pane, int slot);
+    void send_panes(ViewerState& state);
     void send_pane(ViewerState& state, PaneState& pane);
+    void let_follow(PaneState& pane, const PaneState& other);
     void send_running(const ViewerState& state);
     void give_up_reconstructions(ViewerState& state);
     void report_refused(ViewerState& state, std::size_t pane);
@@ -160,9 +165,14 @@ private:
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);
-    float bottom_height(float room) const;
-    void draw_bottom(const ScreenRect& where);
+    struct BottomHeights {
+        float messages = 0, inside = 0;
+    };
+    BottomHeights bottom_heights(float room) const;
+    void draw_bottom(const ScreenRect& where, const BottomHeights& heights);
     void draw_overlays(const ScreenRect& pictures);
+    void expose();
+    void note_history();
     void log_changes();
 
     SessionLink link_;
@@ -179,9 +189,11 @@ private:
     SurroundingsJob surroundings_job_;
     ChartJob chart_job_;
     FileDialog file_dialog_;
+    CommandPalette palette_;
     SaveQueue save_queue_;
     Preferences preferences_;                // as the file last had them
     std::string told_of_preferences_;        // the last note
+    int asked_panes_ = 0;                    // so many were asked for this once; 0: as remembered
     std::vector<std::string> opened_scenes_; // by this viewer, the last one last
     SceneLoad load_;
     SceneOrigin shown_; // where the scene on show is from

@@ -70,7 +70,7 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
 void Viewer::load_settings(const std::filesystem::path& file) {
     try {
         apply_settings_file(state_, file);
-        state_.add_message(Message::Kind::note, "The settings are now those of " + file.string());
+        state_.tell("The settings are now those of " + file.string());
     } catch (const std::exception& e) {
         state_.add_message(Message::Kind::error, message_of(e));
     }
@@ -84,6 +84,8 @@ void Viewer::fulfil_wishes() {
                            Message::Origin::failed_load);
         load_.cancel();
         state_.loading.clear();
+        if (!state_.scene)
+            state_.scene_problem = {"Loading " + load_.origin().name + " was given up.", false};
     }
     if (std::exchange(state_.wishes.reload, false))
         reload();
@@ -95,8 +97,7 @@ void Viewer::fulfil_wishes() {
     fulfil_saves();
     if (std::exchange(state_.wishes.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
-        state_.add_message(Message::Kind::note,
-                           "The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
+        state_.tell("The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
     }
 }
 
@@ -122,7 +123,7 @@ void Viewer::take(const SaveQueue::Outcome& outcome) {
     if (!outcome.result)
         return state_.add_message(Message::Kind::error, outcome.error);
     if (!outcome.result->what.empty())
-        state_.add_message(Message::Kind::note, "Saved " + outcome.result->what);
+        state_.tell("Saved " + outcome.result->what);
     if (outcome.result->then)
         outcome.result->then();
 }
@@ -200,7 +201,9 @@ Preferences Viewer::current_preferences() const {
         now.window = preferences_.window;
     for (const std::string& scene : opened_scenes_)
         now.add_recent(scene);
-    now.panes = static_cast<int>(state_.panes.size());
+    // What was asked for on the command line is for this time only.
+    const int panes = static_cast<int>(state_.panes.size());
+    now.panes = panes == asked_panes_ && preferences_.panes > 0 ? preferences_.panes : panes;
     return now;
 }
 

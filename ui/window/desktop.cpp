@@ -83,6 +83,9 @@ Key key_of_glfw(int key) {
         return Key::tab;
     case GLFW_KEY_ESCAPE:
         return Key::escape;
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+        return Key::enter;
     case GLFW_KEY_LEFT_SHIFT:
     case GLFW_KEY_RIGHT_SHIFT:
         return Key::shift;

@@ -1,0 +1,153 @@
+// Automatic exposure, the list of commands, undo by keys, what is said over the pictures, where panes lie, presets.
+
+#include "render/scene/scene.h"
+#include "tests/ui/current_folder.h"
+#include "tests/ui/panes_fixture.h"
+#include "ui/state/presets.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace tessera::test {
+namespace {
+
+TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
+    const double good = brightness("pane1.picture");
+    state().tone.exposure = -9;
+    frames(2);
+    ASSERT_LT(brightness("pane1.picture"), good / 4);
+    type(Key::f6);
+    frames(2);
+    EXPECT_GT(brightness("pane1.picture"), good / 2);
+    EXPECT_LT(brightness("pane1.picture"), 220);
+    state().active_pane = 1;
+    state().panes[1].settings.buffer = Buffer::dx;
+    const float of_picture = state().tone.exposure;
+    frames(3);
+    type(Key::f6);
+    frames(2);
+    EXPECT_GT(state().tone.exposure, of_picture) << "gradients are darker";
+    save("gradients-exposed.png");
+    state().panes[1].settings.buffer = Buffer::reused;
+    state().ranges[Buffer::reused] = {0, 1e6f, false};
+    frames(3);
+    type(Key::f6);
+    frames(2);
+    EXPECT_LT(state().ranges[Buffer::reused].high, 1e4f);
+}
+
+TEST_F(Panes, CommandsAreFoundByWords) {
+    type(Key::p, true, true);
+    ASSERT_TRUE(has("palette.text"));
+    frames(2);
+    for (char c : std::string_view("four pan"))
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
+    frames(3);
+    save("palette.png");
+    ASSERT_TRUE(has("palette/Four panes"));
+    EXPECT_FALSE(has("palette/Quit"));
+    type(Key::enter);
+    frames(2);
+    EXPECT_FALSE(has("palette.text"));
+    EXPECT_EQ(state().panes.size(), 4u);
+    type(Key::p, true, true);
+    EXPECT_TRUE(has("palette/Quit")) << "it begins without words";
+    type(Key::down);
+    type(Key::escape);
+    EXPECT_FALSE(has("palette.text"));
+}
+
+TEST_F(Panes, ChangesAreTakenBackByKeys) {
+    frames(3);
+    const Camera before = state().camera.camera();
+    drag(point(0, 0.4f, 0.4f), {60, 10});
+    frames(2);
+    ASSERT_FALSE(state().camera.camera() == before);
+    const Camera after = state().camera.camera();
+    type(Key::z, true);
+    EXPECT_TRUE(state().camera.camera() == before) << "a drag is one step";
+    type(Key::z, true, true);
+    EXPECT_TRUE(state().camera.camera() == after);
+}
+
+TEST(Toast, SaysWhereAFileIsAndGoes) {
+    const CurrentFolder folder;
+    ViewerHarness h;
+    h.rest(1);
+    h.type(Key::k);
+    h.finish_saving();
+    h.frames(2);
+    EXPECT_TRUE(h.has("toast"));
+    EXPECT_NE(h.state().layout.toast.text.find((folder.path / "tessera-camera.json").string()), std::string::npos)
+        << h.state().layout.toast.text;
+    h.save("toast.png");
+    h.frame(static_cast<float>(Toast::seconds) + 1);
+    h.frames(3);
+    EXPECT_FALSE(h.has("toast"));
+    EXPECT_FALSE(h.state().messages.empty()) << "the message stays in the list";
+}
+
+/// Whether two panes lie one above the other, of a scene with a film of that size.
+bool are_stacked(ViewerHarness& h, glm::ivec2 film) {
+    h.viewer.load("film", [film](SceneNotes&, LoadProgress&) {
+        SceneDescription description = viewer_scene()->description();
+        description.size = film;
+        return std::make_shared<const Scene>(std::move(description));
+    });
+    const int before = h.state().scenes_shown;
+    h.wait_until([&] { return h.state().scenes_shown > before; });
+    h.frames(3);
+    return h.place("pane0.picture").max.y <= h.place("pane1.picture").min.y;
+}
+
+TEST(PanesByAspect, TwoLieSoThatTheirPicturesAreLarger) {
+    ViewerHarness h({1440, 810});
+    EXPECT_TRUE(are_stacked(h, {320, 120}));
+    EXPECT_FALSE(are_stacked(h, {200, 200}));
+    h.resize({600, 810});
+    h.frames(3);
+    EXPECT_LE(h.place("pane0.picture").max.y, h.place("pane1.picture").min.y) << "a narrow window";
+}
+
+TEST_F(Panes, PresetsMarkWhatDiffersAndBringItBack) {
+    state().active_pane = 1;
+    choose("preset", "bauszat2017");
+    frames(2);
+    EXPECT_EQ(preset_of(pane(1).settings), state().preset);
+    EXPECT_EQ(pane(1).settings.render.rr_delta, 0.1f);
+    EXPECT_EQ(pane(0).settings.render.roulette, RouletteKind::absolute) << "all have the same";
+    EXPECT_TRUE(has("rr_delta"));
+    click_at("tile", 0.99f);
+    ASSERT_NE(pane(1).settings.render.tile, 6);
+    save("preset-changed.png");
+    reveal("tile");
+    move_to(place("tile").center());
+    press(1);
+    release(1);
+    EXPECT_EQ(pane(1).settings.render.tile, 6);
+    EXPECT_EQ(pane(0).settings.render.tile, 6);
+    EXPECT_EQ(preset_of(pane(1).settings), state().preset);
+}
+
+TEST(PaneHeaders, HaveTileAndNormOfTheirOwn) {
+    ViewerHarness h({1600, 900});
+    h.rest(1);
+    EXPECT_FALSE(h.has("pane0.tile")) << "PT has none";
+    ASSERT_TRUE(h.has("pane1.tile"));
+    h.choose("pane1.norm", "l1");
+    EXPECT_EQ(h.pane(1).settings.reconstruction.norm, Norm::l1);
+    EXPECT_FALSE(h.state().linked) << "it is this pane's alone";
+    EXPECT_NE(h.pane(0).settings.reconstruction.norm, Norm::l1);
+    h.choose("pane1.tile", "3");
+    EXPECT_EQ(h.pane(1).settings.render.tile, 3);
+    h.save("header.png");
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,156 @@
+// Undo and redo, presets, and commands by words.
+
+#include "render/settings/settings_table.h"
+#include "ui/state/found_actions.h"
+#include "ui/state/history.h"
+#include "ui/state/presets.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+Document document_with(int panes) {
+    Document document;
+    for (const PaneSettings& settings : default_panes(panes)) {
+        document.panes.emplace_back().settings = settings;
+        document.panes.back().slot = static_cast<int>(document.panes.size()) - 1;
+    }
+    document.scenes_shown = 1;
+    return document;
+}
+
+TEST(History, GoesBackAndForth) {
+    Document document = document_with(2);
+    History history;
+    history.note(document, false);
+    EXPECT_FALSE(history.can_undo());
+    document.panes[1].settings.render.tile = 3;
+    history.note(document, false);
+    document.camera.fly({0, 0, 1});
+    const glm::vec3 flown = document.camera.position();
+    history.note(document, false);
+    history.undo(document);
+    EXPECT_NE(document.camera.position(), flown);
+    EXPECT_EQ(document.panes[1].settings.render.tile, 3);
+    history.undo(document);
+    EXPECT_EQ(document.panes[1].settings.render.tile, RenderSettings().tile);
+    EXPECT_FALSE(history.can_undo());
+    history.undo(document); // nothing
+    history.redo(document);
+    history.redo(document);
+    EXPECT_EQ(document.camera.position(), flown);
+    EXPECT_EQ(document.panes[1].settings.render.tile, 3);
+    EXPECT_FALSE(history.can_redo());
+}
+
+TEST(History, ADragIsOneStep) {
+    Document document = document_with(1);
+    History history;
+    history.note(document, false);
+    for (int i = 0; i < 50; ++i) {
+        document.camera.orbit({5, 0}, 400);
+        history.note(document, true);
+    }
+    history.note(document, false);
+    history.undo(document);
+    EXPECT_FALSE(history.can_undo());
+}
+
+TEST(History, PanesComeBackWithTheirSettings) {
+    Document document = document_with(2);
+    document.panes[0].settings.render.tile = 5;
+    document.linked = false;
+    History history;
+    history.note(document, false);
+    document.set_pane_count(1);
+    history.note(document, false);
+    history.undo(document);
+    ASSERT_EQ(document.panes.size(), 2u);
+    EXPECT_EQ(document.panes[0].settings.render.tile, 5);
+    EXPECT_EQ(document.panes[0].settings.render.method, Method::pt);
+    EXPECT_FALSE(document.linked);
+}
+
+TEST(History, AnotherSceneBeginsAnew) {
+    Document document = document_with(1);
+    History history;
+    history.note(document, false);
+    document.tone.exposure = 1;
+    history.note(document, false);
+    ++document.scenes_shown;
+    history.note(document, false);
+    EXPECT_FALSE(history.can_undo());
+}
+
+TEST(History, WhatIsDoneAfterUndoEndsRedo) {
+    Document document = document_with(1);
+    History history;
+    for (float exposure : {0.0f, 1.0f, 2.0f}) {
+        document.tone.exposure = exposure;
+        history.note(document, false);
+    }
+    history.undo(document);
+    document.tone.exposure = 7;
+    history.note(document, false);
+    EXPECT_FALSE(history.can_redo());
+    history.undo(document);
+    EXPECT_EQ(document.tone.exposure, 1);
+}
+
+TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {
+    for (std::size_t i = 0; i < presets().size(); ++i) {
+        for (Method method : all_methods) {
+            PaneSettings pane;
+            pane.render.method = method;
+            pane.render.max_depth = 17;
+            pane.render.seed = 5;
+            pane.buffer = Buffer::dx;
+            apply(presets()[i], pane);
+            EXPECT_EQ(pane.render.method, method);
+            EXPECT_EQ(pane.render.max_depth, 17);
+            EXPECT_EQ(pane.render.seed, 5u);
+            EXPECT_EQ(pane.buffer, Buffer::dx);
+            EXPECT_EQ(preset_of(pane), static_cast<int>(i));
+            EXPECT_NO_THROW(check(pane.render));
+            pane.render.tile = 11;
+            EXPECT_EQ(preset_of(pane), -1);
+        }
+    }
+    EXPECT_EQ(preset_of(PaneSettings()), 0) << "what the program begins with is a preset";
+}
+
+TEST(FoundActions, HaveAllWords) {
+    EXPECT_EQ(actions_with("").size(), actions().size());
+    const auto found = actions_with("four pane");
+    ASSERT_FALSE(found.empty());
+    EXPECT_STREQ(found.front()->name, "Four panes");
+    EXPECT_TRUE(actions_with("four xyzzy").empty());
+    const auto by_key = actions_with("ctrl+shift+z");
+    EXPECT_TRUE(std::any_of(by_key.begin(), by_key.end(),
+                            [](const Action* action) { return std::string(action->name) == "Redo"; }));
+}
+
+TEST(DefaultPanes, FourLieAsATable) {
+    Document document = document_with(2);
+    document.active_pane = 1;
+    const auto method = [&](std::size_t i) { return document.panes[i].settings.render.method; };
+    document.set_pane_count(4);
+    EXPECT_EQ(method(0), Method::pt);
+    EXPECT_EQ(method(1), Method::pr);
+    EXPECT_EQ(method(2), Method::gpt);
+    EXPECT_EQ(method(3), Method::gpr);
+    EXPECT_EQ(document.active().settings.render.method, Method::gpr) << "the active pane stays";
+    document.set_pane_count(2);
+    EXPECT_EQ(method(0), Method::pt);
+    EXPECT_EQ(method(1), Method::gpr);
+    EXPECT_EQ(document.active_pane, 1);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,108 @@
+// Keys while a list or a menu is open, and values that are typed into sliders.
+
+#include "tests/ui/viewer_harness.h"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+namespace tessera::test {
+namespace {
+
+struct OpenList : testing::Test, ViewerHarness {
+    OpenList() {
+        rest(2);
+        camera = state().camera.camera();
+    }
+    bool is_open() const { return has("pane0.method/pt"); }
+    void open() {
+        click_at("pane0.method", 0.3f);
+        ASSERT_TRUE(is_open());
+    }
+    void key(Key key) {
+        type(key);
+        frames(6);
+    }
+
+    Camera camera;
+};
+
+TEST_F(OpenList, EscapeClosesItAndNothingElse) {
+    open();
+    state().layout.show_help = false;
+    key(Key::escape);
+    EXPECT_FALSE(is_open());
+    EXPECT_EQ(pane(0).settings.render.method, Method::pt);
+    EXPECT_FALSE(state().wishes.cancel_scene);
+}
+
+TEST_F(OpenList, ArrowsChooseAndReturnTakes) {
+    const std::uint64_t generation = pane(1).generation;
+    open();
+    key(Key::down);
+    key(Key::down);
+    EXPECT_TRUE(is_open());
+    EXPECT_TRUE(state().camera.camera() == camera) << "arrows turn the camera only where nothing is open";
+    key(Key::enter);
+    EXPECT_FALSE(is_open());
+    EXPECT_NE(pane(0).settings.render.method, Method::pt);
+    EXPECT_EQ(pane(1).generation, generation) << "the other pane's render is thrown away";
+    EXPECT_TRUE(state().camera.camera() == camera);
+}
+
+TEST_F(OpenList, HeldArrowsDoNotTurnTheCamera) {
+    open();
+    viewer.keyboard().press(Key::down, Key::down, false, false);
+    frames(10);
+    viewer.keyboard().release(Key::down);
+    EXPECT_TRUE(state().camera.camera() == camera);
+}
+
+TEST_F(OpenList, NoKeyOfTheSceneWorks) {
+    open();
+    const std::uint64_t generation = pane(0).generation;
+    for (Key scene_key : {Key::r, Key::m, Key::p, Key::space, Key::k, Key::j})
+        key(scene_key);
+    EXPECT_EQ(pane(0).generation, generation);
+    EXPECT_FALSE(state().paused);
+    EXPECT_TRUE(state().layout.show_panel);
+    EXPECT_FALSE(state().slow_motion.active);
+    EXPECT_TRUE(state().messages.empty());
+}
+
+TEST_F(OpenList, MenusHaveTheKeysToo) {
+    click("menu View");
+    ASSERT_TRUE(has("menu View/Brighter"));
+    const float exposure = state().tone.exposure;
+    key(Key::down);
+    key(Key::enter);
+    EXPECT_FALSE(has("menu View/Brighter"));
+    EXPECT_NE(state().tone.exposure, exposure);
+    click("menu View");
+    key(Key::escape);
+    EXPECT_FALSE(has("menu View/Brighter"));
+}
+
+TEST_F(OpenList, WhatIsTypedIntoASliderCountsWhenItIsLeft) {
+    const std::uint64_t generation = pane(1).generation;
+    const int before = pane(1).settings.render.tile;
+    reveal("tile");
+    modifiers(true, false);
+    click(place("tile").center());
+    modifiers(false, false);
+    frames(2);
+    for (char digit : {'9', '9'}) {
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(digit));
+        frames(3);
+        EXPECT_EQ(pane(1).settings.render.tile, before) << "a digit is no value yet";
+        EXPECT_EQ(pane(1).generation, generation);
+    }
+    click(place("pane0.status").center()); // away from it
+    frames(3);
+    EXPECT_EQ(pane(1).settings.render.tile, 16) << "the most that there is";
+    EXPECT_NE(pane(1).generation, generation);
+}
+
+} // namespace
+} // namespace tessera::test

@@ -1,0 +1,123 @@
+#include "render/inspect/inspection.h"
+#include "ui/state/actions.h"
+#include "ui/state/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+
+namespace tessera {
+
+void set_buffer(ViewerState& state, Buffer buffer) {
+    for (PaneState& pane : state.panes)
+        pane.settings.buffer = buffer;
+}
+
+void step_method(ViewerState& state, int step) {
+    constexpr int count = static_cast<int>(std::size(all_methods));
+    Method& method = state.active().settings.render.method;
+    method = all_methods[(static_cast<int>(method) + step + count) % count];
+}
+
+void step_tile(ViewerState& state, int step) {
+    int& tile = state.active().settings.render.tile;
+    tile = std::clamp(tile + step, 1, 16);
+    state.share_settings();
+}
+
+void next_part(ViewerState& state) {
+    int parts = 0;
+    for (const PaneState& pane : state.panes)
+        if (pane.snapshot && pane.snapshot->images)
+            parts = std::max(parts, static_cast<int>(pane.snapshot->images->parts.size()));
+    const std::shared_ptr<const int>& shown = state.companions.part;
+    const int next = shown ? *shown + 1 : 0;
+    state.companions.part = next < parts ? std::make_shared<const int>(next) : nullptr;
+}
+
+void compare_reconstructions(ViewerState& state) {
+    PaneSettings shown = state.active().settings;
+    if (!has_gradients(shown.render.method))
+        shown.render.method = Method::gpr;
+    shown.buffer = Buffer::reconstruction;
+    shown.comparison = {};
+    state.linked = false; // they differ in what linked panes share
+    state.layout.alone = false;
+    state.set_pane_count(most_panes);
+    constexpr Norm norms[] = {Norm::none, Norm::l2, Norm::l1, Norm::weighted};
+    for (std::size_t i = 0; i < std::size(norms); ++i) {
+        state.panes[i].settings = shown;
+        state.panes[i].settings.reconstruction.norm = norms[i];
+    }
+    state.active_pane = most_panes - 1;
+}
+
+void step_exposure(ViewerState& state, float stops) {
+    state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
+}
+
+void next_pane(ViewerState& state) {
+    state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
+}
+
+void next_grid(ViewerState& state) {
+    const std::size_t count = state.panes.size();
+    state.set_pane_count(count == 1 ? 2 : count == 2 ? 4 : 1);
+}
+
+void step_pass(ViewerState& state) {
+    state.paused = true;
+    ++state.wishes.steps;
+}
+
+void step_ui_scale(ViewerState& state, float by) {
+    state.layout.set_ui_scale(std::round(state.layout.ui_scale() * 4) / 4 + by);
+}
+
+void next_tone(ViewerState& state) {
+    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
+}
+
+void toggle_charts(ViewerState& state) {
+    state.layout.show_charts = !state.layout.show_charts;
+    state.layout.large_charts = state.layout.large_charts && state.layout.show_charts;
+}
+
+void toggle_inspector(ViewerState& state) {
+    state.set_inspector(!state.inspector.active);
+}
+
+void open_sample_form(ViewerState& state) {
+    SampleForm& form = state.layout.sample_form;
+    form.seed = state.active().settings.render.seed;
+    if (const auto& sample = state.inspector.sample) {
+        form.pixel = sample->pixel;
+        if (const auto& inspection = state.inspector.inspection)
+            form.pass = inspection->pass;
+        form.pass = sample->pass.value_or(form.pass);
+        if (sample->origin)
+            form.seed = sample->origin->settings.seed;
+    }
+    form.show = true;
+}
+
+void toggle_slow_motion(ViewerState& state) {
+    state.set_slow_motion(!state.slow_motion.active);
+}
+
+void next_tile(ViewerState& state) {
+    SlowMotion& slow = state.slow_motion;
+    if (slow.tile)
+        slow.start({slow.slot, slow.next_pixel(state.request_size()), {}});
+}
+
+void toggle_comparison(ViewerState& state, Comparison::Kind kind) {
+    if (state.compared_with(state.active_pane) == state.active_pane)
+        state.set_pane_count(2);
+    Comparison::Kind& own = state.active().settings.comparison.kind;
+    own = own == kind ? Comparison::Kind::off : kind;
+}
+
+} // namespace tessera

@@ -1,0 +1,63 @@
+#include "ui/state/history.h"
+
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+UndoPoint point_of(const Document& document) {
+    UndoPoint point;
+    for (const PaneState& pane : document.panes)
+        point.panes.push_back(pane.settings);
+    point.linked = document.linked;
+    point.size = document.size;
+    point.camera = document.camera.camera();
+    point.camera_distance = document.camera.distance();
+    point.tone = document.tone;
+    return point;
+}
+
+void take(const UndoPoint& point, Document& document) {
+    document.linked = false; // whose settings would be shared out meanwhile
+    document.set_pane_count(static_cast<int>(point.panes.size()));
+    for (std::size_t i = 0; i < point.panes.size(); ++i)
+        document.panes[i].settings = point.panes[i];
+    document.linked = point.linked;
+    document.size = point.size;
+    document.camera.put(point.camera, point.camera_distance);
+    document.tone = point.tone;
+}
+
+} // namespace
+
+void History::note(const Document& document, bool is_held) {
+    if (document.scenes_shown != scenes_shown_) {
+        *this = History();
+        scenes_shown_ = document.scenes_shown;
+    }
+    if (is_held)
+        return;
+    UndoPoint point = point_of(document);
+    if (now_ == point)
+        return;
+    if (now_) {
+        before_.push_back(std::move(*now_));
+        after_.clear();
+    }
+    if (before_.size() > most_points)
+        before_.pop_front();
+    now_ = std::move(point);
+}
+
+void History::go(Document& document, std::deque<UndoPoint>& from, std::deque<UndoPoint>& to) {
+    if (from.empty() || !now_)
+        return;
+    to.push_back(std::move(*now_));
+    now_ = std::move(from.back());
+    from.pop_back();
+    take(*now_, document);
+    now_ = point_of(document); // a camera comes back as near as rounding lets it
+}
+
+} // namespace tessera

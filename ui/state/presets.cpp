@@ -1,0 +1,102 @@
+#include "ui/state/presets.h"
+
+#include <iterator>
+
+namespace tessera {
+
+namespace {
+
+/// Nothing that came after the papers: each pixel the radiance itself, all spikes, all edges joined, tiles whole.
+PaneSettings plain() {
+    PaneSettings s;
+    s.render.adapt_tile = false;
+    s.render.adaptive = false;
+    s.render.basis = Basis::none;
+    s.render.shift_distance = 0;
+    s.render.weight_threshold = 0;
+    s.reconstruction.spikes = Spikes::off;
+    return s;
+}
+
+PaneSettings bekaert() {
+    PaneSettings s = plain();
+    s.render.pattern = Pattern::rooks;
+    s.render.tile = 8;
+    s.render.shift = ShiftKind::reconnection;
+    s.render.roulette = RouletteKind::none;
+    s.reconstruction.norm = Norm::none;
+    return s;
+}
+
+PaneSettings kettunen() {
+    PaneSettings s = plain();
+    s.reconstruction.norm = Norm::l1;
+    s.reconstruction.alpha = 0.2f;
+    return s;
+}
+
+PaneSettings bauszat() {
+    PaneSettings s = kettunen();
+    s.render.tile = 6;
+    s.render.roulette = RouletteKind::absolute;
+    s.render.rr_delta = 0.1f;
+    s.render.q_min = 0.1f;
+    return s;
+}
+
+PaneSettings fang() {
+    PaneSettings s = plain();
+    s.render.basis = Basis::albedo;
+    s.reconstruction.norm = Norm::mixed;
+    s.reconstruction.alpha = 0.2f;
+    return s;
+}
+
+constexpr Preset table[] = {
+    {"ours", "Tessera", "The settings that the program begins with.", [] { return PaneSettings(); }},
+    {"bekaert2002", "Bekaert 2002",
+     "PR as first published: N-rooks patterns of 8, x1 joined to x2, direct light each pixel's own, no roulette on "
+     "reuse.",
+     bekaert},
+    {"kettunen2015", "Kettunen 2015",
+     "G-PT as first published: half-vector copy and reconnection, L1 with alpha 0.2; nothing is divided by the "
+     "albedo, and spikes count in full.",
+     kettunen},
+    {"bauszat2017", "Bauszat 2017",
+     "PR and G-PR in tiles of 6, with the absolute roulette (RR delta 0.1, q min 0.1), L1 with alpha 0.2.", bauszat},
+    {"fang2024", "Fang 2024",
+     "Gradients of the light over the albedo; least absolute differences of the gradients, least squares of the "
+     "primal.",
+     fang},
+};
+
+/// The pane's settings as the preset has them, with all that the pane keeps.
+PaneSettings with_own(PaneSettings preset, const PaneSettings& pane) {
+    preset.render.method = pane.render.method;
+    preset.render.seed = pane.render.seed;
+    preset.render.max_depth = pane.render.max_depth;
+    preset.render.light_samples = pane.render.light_samples;
+    preset.render.very_direct_grid = pane.render.very_direct_grid;
+    preset.buffer = pane.buffer;
+    preset.comparison = pane.comparison;
+    return preset;
+}
+
+} // namespace
+
+std::span<const Preset> presets() {
+    return table;
+}
+
+void apply(const Preset& preset, PaneSettings& pane) {
+    pane = with_own(preset.settings(), pane);
+}
+
+int preset_of(const PaneSettings& pane) {
+    for (std::size_t i = 0; i < std::size(table); ++i)
+        if (with_own(table[i].settings(), pane) == pane)
+            return static_cast<int>(i);
+    return -1;
+}
+
+} // namespace tessera

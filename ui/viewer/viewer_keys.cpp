@@ -1,0 +1,63 @@
+#include "ui/gl/gui.h"
+#include "ui/state/actions.h"
+#include "ui/viewer/viewer.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr float longest_step = 0.1f; // seconds that a held key moves in one frame at the most
+
+/// Whether a list of choices or a menu is open; also a dialog that is modal.
+bool has_open_list() {
+    return ImGui::IsPopupOpen(static_cast<const char*>(nullptr), ImGuiPopupFlags_AnyPopup);
+}
+
+/// Takes what was typed to the open list.
+void step_in_list(const std::vector<Shortcut>& typed) {
+    constexpr std::pair<Key, ListStep> steps[] = {
+        {Key::left, ListStep::left}, {Key::right, ListStep::right}, {Key::up, ListStep::up},
+        {Key::down, ListStep::down}, {Key::enter, ListStep::take},  {Key::escape, ListStep::close}};
+    for (const Shortcut& shortcut : typed)
+        for (const auto& [key, step] : steps)
+            if (shortcut == Shortcut{key})
+                send_list_step(step);
+}
+
+/// Takes to the list of commands what was typed for it.
+void steer_palette(const std::vector<Shortcut>& typed, Layout& layout) {
+    for (const Shortcut& shortcut : typed) {
+        layout.palette_steps += (shortcut == Shortcut{Key::down}) - (shortcut == Shortcut{Key::up});
+        layout.palette_takes = layout.palette_takes || shortcut == Shortcut{Key::enter};
+    }
+}
+
+} // namespace
+
+void Viewer::read_keyboard() {
+    const ImGuiIO& io = ImGui::GetIO();
+    std::vector<Shortcut> typed = keyboard_.take();
+    // Nothing behind a list, a menu or a dialog may be done from it; Esc closes it, and Ctrl+Q the program.
+    const bool in_list = has_open_list() && !state_.layout.choosing;
+    if (in_list)
+        step_in_list(typed);
+    if (in_list || state_.layout.choosing)
+        std::erase_if(typed, [&](const Shortcut& s) {
+            return s != Shortcut{Key::q, true} && (in_list || s != Shortcut{Key::escape});
+        });
+    state_.wishes.redraw |= list_steps_pending();
+    if (state_.layout.show_palette)
+        steer_palette(typed, state_.layout);
+    run_shortcuts(typed, io.WantTextInput, state_);
+    const bool held_back = io.WantTextInput || in_list || state_.layout.choosing || state_.layout.show_palette;
+    state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
+    flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
+}
+
+} // namespace tessera
