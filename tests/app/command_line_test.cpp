@@ -42,6 +42,15 @@ protected:
     fs::path box_ = folder_ / "box.xml";
 };
 
+TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {
+    const Outcome help = run(folder_, "box.xml --help");
+    EXPECT_EQ(help.exit_code, 0) << help.output;
+    EXPECT_NE(help.output.find("explore a scene in a window"), std::string::npos) << help.output;
+    const Outcome missing = run(folder_, "missing.xml");
+    EXPECT_EQ(missing.exit_code, 2);
+    EXPECT_NE(missing.output.find("missing.xml"), std::string::npos) << missing.output;
+}
+
 TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
     write("broken.xml", "<scene version=\"3.0.0\">\n  <shape type=\"cube\">\n</scene>\n");
     write("bad-mesh.xml",

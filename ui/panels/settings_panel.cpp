@@ -39,8 +39,8 @@ bool draw_marked(Controls& controls, Setting setting, const std::optional<std::s
     setting.help = help;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
-    ImGui::GetWindowDrawList()->AddCircleFilled({at.x - font * 0.32f, at.y + ImGui::GetFrameHeight() * 0.5f},
-                                                font * 0.17f, colours::accent);
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x - font * 0.19f, at.y + ImGui::GetFrameHeight() * 0.5f},
+                                                font * 0.15f, colours::accent);
     const bool changed = draw_setting(controls, setting);
     if (!ImGui::IsItemHovered() || !ImGui::IsMouseClicked(ImGuiMouseButton_Right))
         return changed;
