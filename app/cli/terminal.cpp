@@ -134,6 +134,10 @@ std::string cpu_model() {
     return "unknown";
 }
 
+std::string machine_kind() {
+    return fmt::format("{} ({} threads)", cpu_model(), std::thread::hardware_concurrency());
+}
+
 std::string machine_text() {
     std::string text = fmt::format("{}, {} hardware threads", cpu_model(), std::thread::hardware_concurrency());
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);

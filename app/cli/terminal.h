@@ -83,6 +83,9 @@ double peak_memory_bytes();
 /// What the system calls its processor, such as "Intel(R) Xeon(R) CPU @ 2.20GHz"; "unknown" where it does not say.
 std::string cpu_model();
 
+/// Machines of which CPU seconds can be compared: processor and hardware threads, "AMD EPYC (2 threads)".
+std::string machine_kind();
+
 /// The processor and what there is of it, "AMD EPYC, 2 hardware threads, 8 GB": memory in 10^9 bytes (left out
 /// where the system does not say).
 std::string machine_text();

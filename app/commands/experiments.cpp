@@ -1,11 +1,13 @@
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
+#include "app/experiment/experiment_jobs.h"
 #include "app/report/reports.h"
 #include "render/io/json_text.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -14,15 +16,7 @@ namespace tessera {
 
 namespace {
 
-/// How a command ends: what an interrupt leaves is a part of what was asked for.
-int end_of(const ExperimentOptions& options) {
-    if (!interrupted())
-        return exit_ok;
-    fmt::print(stderr, "{}: not complete; the same command goes on from its journal\n", options.output.string());
-    return exit_failure;
-}
-
-void write_bench(const Experiment& experiment) {
+void write_bench(Experiment& experiment) {
     const ExperimentOptions& options = experiment.options();
     const std::vector<Result> results = experiment.results();
     const std::vector<SceneCurves> scenes = curves_by_scene(results);
@@ -30,7 +24,8 @@ void write_bench(const Experiment& experiment) {
     write_text(options.output / "bench.json", to_json(options, results));
     write_text(options.output / "bench-speedup.csv", speed_up_csv(options, scenes));
     for (const SceneCurves& scene : scenes)
-        write_text(options.output / fmt::format("bench-{}.svg", scene.name), to_svg(bench_chart(options, scene)));
+        write_text(options.output / fmt::format("bench-{}.svg", file_name(scene.name)),
+                   to_svg(bench_chart(options, scene)));
     write_text(options.output / "bench.html", bench_page(experiment, scenes));
 }
 
@@ -38,16 +33,19 @@ void write_bench(const Experiment& experiment) {
 
 int run_bench(const ExperimentOptions& options) {
     Experiment experiment(options);
-    experiment.run([&] { write_bench(experiment); });
-    fmt::print("{}\n", (options.output / "bench.html").string());
-    return end_of(options);
+    const int code = run_jobs({&experiment}, options, [&] { write_bench(experiment); });
+    if (options.sharing.task != Sharing::Task::list)
+        fmt::print("{}\n", (options.output / "bench.html").string());
+    return code;
 }
 
 int run_sweep(const ExperimentOptions& options) {
     Experiment experiment(options);
-    experiment.run([&] { write_sweep(options, experiment.results()); });
-    fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n", options.output.string());
-    return end_of(options);
+    const int code = run_jobs({&experiment}, options, [&] { write_sweep(options, experiment.results()); });
+    if (options.sharing.task != Sharing::Task::list)
+        fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n",
+                   options.output.string());
+    return code;
 }
 
 namespace {
@@ -97,7 +95,7 @@ std::vector<StabilityCase> cases_of(const ExperimentOptions& suite) {
         c.scene = scene;
         c.options = std::make_unique<ExperimentOptions>(options_for(scene, suite));
         c.experiment = std::make_unique<Experiment>(*c.options);
-        check_references(c.experiment->scenes().front());
+        check_references(std::as_const(*c.experiment).scenes().front());
     }
     return cases;
 }
@@ -112,13 +110,17 @@ int run_stability(ExperimentOptions suite) {
     make_folder(suite.output);
     check_writable(suite.output / "stability.md");
     const std::vector<StabilityCase> cases = cases_of(suite);
-    for (std::size_t i = 0; i < cases.size() && !interrupted(); ++i) {
-        fmt::print(stderr, "{} ({} of {})\n", cases[i].name(), i + 1, cases.size());
-        cases[i].experiment->run([&] { write_stability(suite, cases); });
-        write_sheet(suite, cases[i]);
-    }
-    fmt::print("{}\n", (suite.output / "stability.md").string());
-    return end_of(suite);
+    std::vector<Experiment*> experiments;
+    for (const StabilityCase& c : cases)
+        experiments.push_back(c.experiment.get());
+    const int code = run_jobs(experiments, suite, [&] {
+        write_stability(suite, cases);
+        for (const StabilityCase& c : cases)
+            write_sheet(suite, c);
+    });
+    if (suite.sharing.task != Sharing::Task::list)
+        fmt::print("{}\n", (suite.output / "stability.md").string());
+    return code;
 }
 
 } // namespace tessera

@@ -4,14 +4,14 @@
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "render/io/exr.h"
+#include "render/io/files.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include <fmt/core.h>
@@ -21,18 +21,15 @@ namespace tessera {
 
 namespace {
 
-/// The setups that differ in reconstruction alone, by their indices: they share a render.
-std::vector<std::vector<std::size_t>> by_render(const std::vector<Setup>& setups) {
-    std::vector<std::vector<std::size_t>> groups;
-    const auto render_of = [&](std::size_t i) {
-        PictureSettings settings = setups[i].settings;
-        settings.reconstruction = {};
-        return settings;
-    };
-    for (std::size_t i = 0; i < setups.size(); ++i) {
-        const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
-            return render_of(group.front()) == render_of(i);
-        });
+using Setups = std::vector<std::size_t>;
+
+/// These setups in groups of which all members have the same `part`, in the order in which they come.
+template <class Part>
+std::vector<Setups> grouped(const Setups& setups, Part part) {
+    std::vector<Setups> groups;
+    for (std::size_t i : setups) {
+        const auto found = std::find_if(groups.begin(), groups.end(),
+                                        [&](const Setups& group) { return part(group.front()) == part(i); });
         if (found != groups.end())
             found->push_back(i);
         else
@@ -62,130 +59,134 @@ Experiment::Experiment(const ExperimentOptions& options)
         scene.check_writable();
     }
     make_folder(options.output);
+    make_folder(options.output / "jobs");
     if (options.keeps_images)
         make_folder(options.output / "images");
-    check_writable(options.output / "journal.jsonl");
-    journal_.emplace(options.output / "journal.jsonl");
-    renders_ = static_cast<double>(by_render(setups_).size() * scenes_.size()) * options.seeds;
+    check_writable(options.output / "jobs" / worker_name());
+    list_jobs();
+    recall();
 }
 
-void Experiment::run(const std::function<void()>& report) {
-    const InterruptGuard guard;
-    start_ = std::chrono::steady_clock::now();
-    for (MeasuredScene& scene : scenes_)
-        if (!interrupted())
-            run_scene(scene, report);
-    progress_.reset();
-    report();
+void Experiment::list_jobs() {
+    Setups all(setups_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const bool by_samples = options_.effort.unit == Effort::Unit::spp;
+    const std::vector<Setups> points =
+        by_samples ? grouped(all, [&](std::size_t i) { return setups_[i].values; }) : std::vector<Setups>{all};
+    for (std::size_t scene = 0; scene < scenes_.size(); ++scene)
+        for (int i = 0; i < options_.seeds; ++i)
+            for (const Setups& point : points)
+                jobs_.push_back({scene, options_.settings.render.seed + static_cast<std::uint64_t>(i), point});
+    files_.resize(jobs_.size());
+    is_recalled_.resize(jobs_.size());
+    is_collected_.resize(jobs_.size());
 }
 
-void Experiment::run_scene(MeasuredScene& scene, const std::function<void()>& report) {
-    ThreadPool& usual = pool(options_.settings.threads);
-    const OpenedScene opened = open_scene(scene.source(), usual);
-    print_notes(opened.notes);
-    if (!scene.make_references(opened.scene, usual))
-        return;
-    triangles_ = opened.scene->triangle_count();
-    scene_checksums_ = checksums_of(opened.scene->description(), opened.scene->camera());
-    progress_.emplace("measuring");
-    for (int i = 0; i < options_.seeds && !interrupted(); ++i) {
-        run_round(scene, opened.scene, options_.settings.render.seed + static_cast<std::uint64_t>(i));
-        report();
+std::string Experiment::text_of(const Job& job) const {
+    std::string text = fmt::format("{}, seed {}", scenes_[job.scene].name(), job.seed);
+    if (options_.effort.unit != Effort::Unit::spp)
+        return text;
+    for (std::size_t i = 0; i < options_.variations.size(); ++i)
+        if (const std::string& value = setups_[job.setups.front()].values[i]; !value.empty())
+            text += fmt::format(", {} {}", options_.variations[i].variable.id, value);
+    return text;
+}
+
+const std::shared_ptr<const Scene>& Experiment::open(std::size_t scene) {
+    if (!geometry_ || open_scene_ != scene) {
+        geometry_.reset(); // two may be too much for the memory
+        const OpenedScene opened = open_scene(scenes_[scene].source(), pool(options_.settings.threads));
+        print_notes(opened.notes);
+        geometry_ = opened.scene;
+        open_scene_ = scene;
     }
+    for (const FolderReference* reference : std::as_const(scenes_[scene]).references())
+        reference->check_scene(scenes_[scene].source(), *geometry_);
+    return geometry_;
 }
 
-void Experiment::run_round(const MeasuredScene& scene, const std::shared_ptr<const Scene>& geometry,
-                           std::uint64_t seed) {
-    std::vector<SharedRun> runs = unfinished_runs(scene, geometry, seed);
-    while (!runs.empty() && !interrupted()) {
+bool Experiment::render_reference(std::size_t scene, FolderReference& reference) {
+    return reference.render(scenes_[scene].source(), open(scene), pool(options_.settings.threads));
+}
+
+bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& tell) {
+    const Job& job = jobs_[index];
+    std::string found;
+    std::vector<SharedRun> runs = runs_of(job, open(job.scene));
+    for (const double count = static_cast<double>(runs.size()); !runs.empty();) {
+        if (interrupted())
+            return false;
         const auto behind = std::min_element(runs.begin(), runs.end(), [](const SharedRun& a, const SharedRun& b) {
             return a.run->done() < b.run->done();
         });
         behind->run->pass();
         if (behind->run->is_done()) {
-            finish(scene, *behind, seed);
+            found += finish(job, *behind);
             runs.erase(behind);
         }
-        tell(runs, scene.name());
+        double left = 0;
+        for (const SharedRun& shared : runs)
+            left += std::max(1 - shared.run->done(), 0.0);
+        tell(1 - left / count);
     }
+    for (std::size_t setup : job.setups) // what was known before is in no other file that all must find
+        if (const nlohmann::json known = recalled(job, setup); !known.is_null())
+            found += Journal::line(key_of(job.scene, setups_[setup], job.seed), known);
+    claim.finish(found);
+    return true;
 }
 
-std::vector<Experiment::SharedRun> Experiment::unfinished_runs(const MeasuredScene& scene,
-                                                               const std::shared_ptr<const Scene>& geometry,
-                                                               std::uint64_t seed) {
+/// Those that differ in reconstruction alone share a render.
+std::vector<Experiment::Setups> Experiment::renders_of(const Setups& setups) const {
+    return grouped(setups, [&](std::size_t i) {
+        PictureSettings settings = setups_[i].settings;
+        settings.reconstruction = {};
+        return settings;
+    });
+}
+
+/// Those of the job that are not known already.
+std::vector<Experiment::SharedRun> Experiment::runs_of(const Job& job,
+                                                       const std::shared_ptr<const Scene>& geometry) {
+    Setups unknown;
+    for (std::size_t i : job.setups)
+        if (recalled(job, i).is_null())
+            unknown.push_back(i);
     std::vector<SharedRun> runs;
-    for (const std::vector<std::size_t>& group : by_render(setups_)) {
-        SharedRun shared;
+    for (const Setups& group : renders_of(unknown)) {
         std::vector<ReconstructionSettings> reconstructions;
-        for (std::size_t i : group) {
-            if (recall(scene, i, seed))
-                continue;
-            shared.setups.push_back(i);
+        for (std::size_t i : group)
             reconstructions.push_back(setups_[i].settings.reconstruction);
-        }
-        if (shared.setups.empty()) {
-            --renders_;
-            continue;
-        }
         PictureSettings settings = setups_[group.front()].settings;
-        settings.render.seed = seed;
-        shared.run = std::make_unique<MeasuredRun>(
-            Render(geometry, geometry->camera(), settings.size, settings.render), options_.effort,
-            options_.halvings, std::move(reconstructions), options_.measures_artefacts, scene.reference(settings),
-            pool(settings.threads));
-        runs.push_back(std::move(shared));
+        settings.render.seed = job.seed;
+        runs.push_back(
+            {group, std::make_unique<MeasuredRun>(
+                        Render(geometry, geometry->camera(), settings.size, settings.render), options_.effort,
+                        options_.halvings, std::move(reconstructions), options_.measures_artefacts,
+                        scenes_[job.scene].reference(settings), pool(settings.threads))});
     }
     return runs;
 }
 
-/// Records what a run has found. Pictures are written first, so that what the journal knows is complete.
-void Experiment::finish(const MeasuredScene& scene, const SharedRun& shared, std::uint64_t seed) {
+/// Lines of the job's file: what a run has found. Pictures are written first, so that what is known is complete.
+std::string Experiment::finish(const Job& job, const SharedRun& shared) {
+    const MeasuredScene& scene = scenes_[job.scene];
     warn_of_refused(scene.source(), shared.run->render());
+    std::string lines;
     for (std::size_t i = 0; i < shared.setups.size(); ++i) {
         const Setup& setup = setups_[shared.setups[i]];
-        if (keeps_image(seed))
+        if (keeps_image(job.seed))
             write_exr(image_file(scene.name(), setup), {{{"", shared.run->images()[i]}}, {}});
         nlohmann::json measurements = nlohmann::json::array();
-        for (const Measurement& m : shared.run->measurements()[i])
+        for (Measurement m : shared.run->measurements()[i]) {
+            m.machine = options_.sharing.machine;
             measurements.push_back(nlohmann::json(to_json(m)));
-        journal_->record(key_of(scene, setup, seed),
-                         {{"program", program_identity()}, {"measurements", measurements}});
-        add(scene, shared.setups[i], shared.run->measurements()[i]);
+        }
+        lines += Journal::line(key_of(job.scene, setup, job.seed), {{"program", program_identity()},
+                                                                    {"triangles", geometry_->triangle_count()},
+                                                                    {"measurements", measurements}});
     }
-    ++finished_;
-}
-
-/// Takes measurements from the journal. False: they are not there, or the picture is not, or artefacts were not
-/// measured.
-bool Experiment::recall(const MeasuredScene& scene, std::size_t setup, std::uint64_t seed) {
-    const nlohmann::json known = journal_->find(key_of(scene, setups_[setup], seed));
-    if (known.is_null() || (known.at("program") != program_identity() && !options_.takes_any_build) ||
-        (keeps_image(seed) && !std::filesystem::exists(image_file(scene.name(), setups_[setup]))))
-        return false;
-    std::vector<Measurement> measurements;
-    for (const nlohmann::json& m : known.at("measurements")) {
-        measurements.push_back(measurement_from_json(m));
-        if (options_.measures_artefacts && !measurements.back().artefacts)
-            return false;
-    }
-    add(scene, setup, measurements);
-    return true;
-}
-
-void Experiment::add(const MeasuredScene& scene, std::size_t setup, const std::vector<Measurement>& measurements) {
-    for (const Measurement& m : measurements) {
-        const std::array place{&scene - scenes_.data(), static_cast<std::ptrdiff_t>(setup),
-                               static_cast<std::ptrdiff_t>(-m.halvings)};
-        const Result none{scene.name(), scene.source().file, setups_[setup], m.halvings, triangles_, {}};
-        results_.try_emplace(place, none).first->second.runs.push_back(m);
-    }
-}
-
-std::vector<Result> Experiment::results() const {
-    std::vector<Result> results;
-    for (const auto& [place, result] : results_)
-        results.push_back(result);
-    return results;
+    return lines;
 }
 
 bool Experiment::keeps_image(std::uint64_t seed) const {
@@ -197,30 +198,6 @@ std::filesystem::path Experiment::image_file(const std::string& scene, const Set
     for (const std::string& value : setup.values)
         name += "-" + value;
     return options_.output / "images" / (name + ".exr");
-}
-
-/// All that the measurements depend on, but for the program.
-nlohmann::json Experiment::key_of(const MeasuredScene& scene, const Setup& setup, std::uint64_t seed) const {
-    RenderSettings settings = setup.settings.render;
-    settings.seed = seed;
-    return {{"scene", scene.name()},
-            {"scene_checksums", to_string(scene_checksums_)},
-            {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction)},
-            {"recon", to_string(setup.settings.reconstruction.norm)},
-            {"threads", setup.settings.threads},
-            {"effort", to_string(options_.effort)},
-            {"halvings", options_.halvings},
-            {"reference", checksum_of(scene.reference(setup.settings))},
-            {"cpu", cpu_model()}};
-}
-
-void Experiment::tell(const std::vector<SharedRun>& runs, const std::string& scene) {
-    double done = finished_;
-    for (const SharedRun& shared : runs)
-        done += std::min(shared.run->done(), 1.0);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-    progress_->update(done / std::max(renders_, 1.0), seconds.count(),
-                      fmt::format("{}, {:g} of {:g} renders", scene, finished_, renders_));
 }
 
 ThreadPool& Experiment::pool(int threads) {

@@ -26,6 +26,25 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
     add_setting(command, spp)->description("samples a pixel of references that are missing");
 }
 
+void add_sharing(CLI::App& command, ExperimentWords& words) {
+    Sharing& sharing = words.options.sharing;
+    CLI::Option* list = command.add_flag("--list", words.lists,
+                                         "print the jobs: number, state, CPU seconds (about), what it is of");
+    CLI::Option* job = command.add_option("--job", sharing.job, "do this one of the list, and no other");
+    limit(job, 1, 1e9)->excludes(list);
+    command.add_flag("--report", words.only_reports, "write the reports of what is done, and render nothing")
+        ->excludes(list)
+        ->excludes(job);
+    command.add_option("--machine", sharing.machine,
+                       "a name for machines of this kind; times of several kinds stand in rows of their own "
+                       "(default: processor and hardware threads)");
+    command.add_flag("--any-machine", sharing.takes_any_machine, "put times of all kinds of machines together");
+    limit_to_seconds(command.add_option("--silence", sharing.silence,
+                                        "seconds without a sign of life of another process after which its job is "
+                                        "given to the next"))
+        ->capture_default_str();
+}
+
 void add_experiment(CLI::App& command, ExperimentWords& words) {
     ExperimentOptions& options = words.options;
     forbid_empty(command.add_option("scenes", words.scenes, "Mitsuba scenes, XML"))->required()->take_all();
@@ -48,15 +67,19 @@ void add_experiment(CLI::App& command, ExperimentWords& words) {
     add_norms(command, words.norms, "or several, where there are gradients")->capture_default_str();
     add_references(command, options);
     command.add_flag("--any-build", options.takes_any_build,
-                     "take from the journal what other builds of the program have recorded, too");
+                     "take what other builds of the program have rendered, too");
     command.add_option("-o,--output", options.output, "folder to write to")->required();
+    add_sharing(command, words);
 }
 
 constexpr const char* common_footer =
-    "Methods take turns, pass by pass. What is finished is recorded in OUTPUT/journal.jsonl: after an interrupt "
-    "or a "
-    "kill the same command goes on from there. Another build (but see --any-build), machine, reference or setting "
-    "begins anew.\n"
+    "A job is a scene and a seed, and with --spp one point of what is varied; in a job, methods take turns, pass "
+    "by "
+    "pass. The same command, started several times on one machine or on many that share the folder, divides the "
+    "jobs "
+    "(CLUSTER.md). What is done is in OUTPUT/jobs: after an interrupt or a kill the same command goes on from "
+    "there. "
+    "Another build (but see --any-build), scene file, reference or setting begins anew.\n"
     "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them; missing ones are rendered "
     "first, and those that remember another scene are refused.";
 
@@ -68,7 +91,7 @@ void add_sweep(CLI::App& app, ExperimentWords& words) {
     CLI::App& command = *app.add_subcommand(
         "sweep", "error, time and efficiency by the values of settings, on scenes with references");
     command.footer(std::string("Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, "
-                               "anew after each round of renders.\n") +
+                               "anew now and then.\n") +
                    common_footer);
     add_experiment(command, words);
 }
@@ -82,7 +105,7 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
     words.options.keeps_images = true;
     CLI::App& command = *app.add_subcommand("bench", "error against time of methods, as one page with charts");
     command.footer(std::string("Writes bench.html, which needs no other file, bench.csv, bench.json and "
-                               "bench-SCENE.svg to the output folder, anew after each round of renders, and the "
+                               "bench-SCENE.svg to the output folder, anew now and then, and the "
                                "pictures of the first seed to OUTPUT/images.\n") +
                    common_footer);
     add_experiment(command, words);
@@ -104,9 +127,8 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
     CLI::App& command = *app.add_subcommand(
         "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
     command.footer(
-        std::string(
-            "Writes stability.md, stability.csv and SCENE.png to the output folder, anew after each round of "
-            "renders. References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
+        std::string("Writes stability.md, stability.csv and SCENE.png to the output folder, anew now and then. "
+                    "References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
         common_footer);
     add_experiment(command, words);
     command.get_option("scenes")->required(false)->description(
@@ -133,6 +155,11 @@ ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWord
     if (command.count("--time"))
         options.effort = {words.time,
                           words.clock == "cpu" ? Effort::Unit::cpu_seconds : Effort::Unit::wall_seconds};
+    using Task = Sharing::Task;
+    options.sharing.task = words.lists                  ? Task::list
+                           : words.only_reports         ? Task::report
+                           : command.count("--job") > 0 ? Task::one_job
+                                                        : Task::work;
     return options;
 }
 

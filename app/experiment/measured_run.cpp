@@ -40,13 +40,6 @@ void MeasuredScene::check_seeds(std::uint64_t first, int count) const {
                                            reference.path().string()));
 }
 
-bool MeasuredScene::make_references(const std::shared_ptr<const Scene>& scene, ThreadPool& pool) {
-    for (auto& [key, reference] : references_)
-        if (!reference.make(source_, scene, pool))
-            return false;
-    return true;
-}
-
 const ReferenceImage& MeasuredScene::reference(const PictureSettings& settings) const {
     return references_.at(key_of(settings)).image();
 }
@@ -54,6 +47,13 @@ const ReferenceImage& MeasuredScene::reference(const PictureSettings& settings) 
 std::vector<const FolderReference*> MeasuredScene::references() const {
     std::vector<const FolderReference*> all;
     for (const auto& [key, reference] : references_)
+        all.push_back(&reference);
+    return all;
+}
+
+std::vector<FolderReference*> MeasuredScene::references() {
+    std::vector<FolderReference*> all;
+    for (auto& [key, reference] : references_)
         all.push_back(&reference);
     return all;
 }

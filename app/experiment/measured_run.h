@@ -44,6 +44,7 @@ struct Measurement {
     std::optional<TileSpectrum> tiles; ///< of methods that share light within tiles of two pixels and more
     Counters counters;
     std::optional<Artefacts> artefacts; ///< where they are measured
+    std::string machine = {};           ///< the kind of machine that it was rendered on
 };
 
 /// The measurement as JSON; numbers that are not finite become null.
@@ -68,12 +69,16 @@ public:
     void check_writable() const;
     /// Throws BadInput where one of the `count` seeds from `first` on is a reference's.
     void check_seeds(std::uint64_t first, int count) const;
-    /// Renders what references are missing. False: Ctrl-C ended it.
-    bool make_references(const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
-
+    /// The reference for pictures of these settings.
+    FolderReference& reference_for(const PictureSettings& settings) { return references_.at(key_of(settings)); }
+    const FolderReference& reference_for(const PictureSettings& settings) const {
+        return references_.at(key_of(settings));
+    }
+    /// Its image, once it is complete.
     const ReferenceImage& reference(const PictureSettings& settings) const;
     /// The references in the order of size and depth.
     std::vector<const FolderReference*> references() const;
+    std::vector<FolderReference*> references();
 
 private:
     using Key = std::array<int, 3>; // width, height, depth

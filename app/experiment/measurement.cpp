@@ -110,7 +110,8 @@ nlohmann::ordered_json to_json(const Measurement& m) {
             {"relmse_floor_free_standard_error", m.floor_free.standard_error},
             {"tiles", to_json(m.tiles)},
             {"counters", to_json(m.counters)},
-            {"artefacts", to_json(m.artefacts)}};
+            {"artefacts", to_json(m.artefacts)},
+            {"machine", m.machine}};
 }
 
 Measurement measurement_from_json(const nlohmann::json& json) {
@@ -124,7 +125,8 @@ Measurement measurement_from_json(const nlohmann::json& json) {
             {number(json.at("relmse_floor_free")), number(json.at("relmse_floor_free_standard_error"))},
             tiles_from_json(json.at("tiles")),
             counters_from_json(json.at("counters")),
-            artefacts_from_json(json.value("artefacts", nlohmann::json()))};
+            artefacts_from_json(json.value("artefacts", nlohmann::json())),
+            json.value("machine", "")};
 }
 
 } // namespace tessera

@@ -41,13 +41,19 @@ FolderReference::FolderReference(const std::filesystem::path& folder, const std:
                                  ReferenceRecipe recipe)
     : path_(reference_file(folder, scene_name, recipe.size, recipe.settings.max_depth)),
       recipe_(std::move(recipe)) {
-    if (!std::filesystem::exists(path_))
-        return;
+    look();
+}
+
+bool FolderReference::look() {
+    if (is_complete() || !std::filesystem::exists(path_))
+        return is_complete();
     image_ = read_reference(path_);
+    checksum_ = checksum_of(*image_);
     const glm::ivec2 size(image_->mean.width(), image_->mean.height());
     if (size != recipe_.size)
         throw BadInput(fmt::format("{} is {}x{}, but {}x{} is to be rendered", path_.string(), size.x, size.y,
                                    recipe_.size.x, recipe_.size.y));
+    return true;
 }
 
 void FolderReference::check_writable() const {
@@ -62,18 +68,18 @@ std::array<std::uint64_t, 2> FolderReference::seeds() const {
     return is_complete() ? image_->seeds : std::array{first, first + 1};
 }
 
-bool FolderReference::make(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
-                           ThreadPool& pool) {
-    if (is_complete()) {
-        check_scene(source, *scene);
-        return true;
-    }
+bool FolderReference::render(const SceneSource& source, const std::shared_ptr<const Scene>& scene,
+                             ThreadPool& pool) {
     fmt::print(stderr, "{} is missing: rendering it\n", path_.string());
     image_ = render_reference(path_, source, scene, recipe_, pool);
+    if (is_complete())
+        checksum_ = checksum_of(*image_);
     return is_complete();
 }
 
 void FolderReference::check_scene(const SceneSource& source, const Scene& scene) const {
+    if (!is_complete())
+        return;
     if (!image_->scene)
         return fmt::print(stderr, "note: {} does not say which scene it is of: that cannot be checked\n",
                           path_.string());

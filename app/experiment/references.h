@@ -23,22 +23,26 @@ public:
     FolderReference(const std::filesystem::path& folder, const std::string& scene_name, ReferenceRecipe recipe);
 
     bool is_complete() const { return image_.has_value(); }
+    /// Whether it is complete by now: another process may have made it. Throws as the constructor does.
+    bool look();
     /// Makes the folder. Throws std::runtime_error where the reference cannot be written.
     void check_writable() const;
-    /// Renders it if it is missing. Throws BadInput for one of another scene; one that does not say which it is of
-    /// is taken, with a note. False: Ctrl-C ended it.
-    bool make(const SceneSource& source, const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
+    /// Renders it, and takes up what another has left of it. False: Ctrl-C ended it.
+    bool render(const SceneSource& source, const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
+    /// Throws BadInput where it is complete and shows another scene; one that does not say what it shows is taken,
+    /// with a note.
+    void check_scene(const SceneSource& source, const Scene& scene) const;
 
     const ReferenceImage& image() const { return *image_; } ///< once it is complete
+    std::uint32_t checksum() const { return checksum_; }    ///< of its pixels, once it is complete
     std::array<std::uint64_t, 2> seeds() const;             ///< those it has, or will have
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    void check_scene(const SceneSource& source, const Scene& scene) const;
-
     std::filesystem::path path_;
     ReferenceRecipe recipe_;
     std::optional<ReferenceImage> image_;
+    std::uint32_t checksum_ = 0;
 };
 
 } // namespace tessera

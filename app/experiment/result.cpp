@@ -1,70 +1,41 @@
 #include "app/experiment/result.h"
 
 #include "app/experiment/speed_up.h"
-#include "render/io/files.h"
 #include "render/io/json_text.h"
+#include "render/io/text.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <fstream>
+#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace tessera {
 
-namespace {
-
 using nlohmann::json;
 
-std::string text_of(const std::filesystem::path& file) {
-    return std::filesystem::exists(file) ? read_text(file) : std::string();
+std::string Journal::line(const json& key, const json& value) {
+    return to_text(json{{"key", key}, {"value", value}}) + "\n";
 }
 
-/// Adds the text to the file's end, where it is on the disk when this returns.
-void append(const std::filesystem::path& file, const std::string& text) {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    const bool written = descriptor >= 0 &&
-                         ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                         ::fsync(descriptor) == 0;
-    const std::string reason = std::strerror(errno);
-    if (descriptor >= 0)
-        ::close(descriptor);
-    if (!written)
-        throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), reason));
-}
-
-} // namespace
-
-Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
-    const std::string text = text_of(file_);
+void Journal::read(const std::filesystem::path& file) {
+    const std::string text = read_text(file);
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
         const json line = parse_json(std::string_view(text).substr(begin, end - begin));
         if (line.is_object() && line.contains("key") && line.contains("value"))
             entries_[to_text(line["key"])] = to_text(line["value"]);
     }
-    append(file_, begin < text.size() ? "\n" : "");                            // the torn line ends here
-    write_through_folder(file_.has_parent_path() ? file_.parent_path() : "."); // the file may be new in it
 }
 
 json Journal::find(const json& key) const {
     const auto found = entries_.find(to_text(key));
     return found == entries_.end() ? json() : parse_json(found->second);
-}
-
-void Journal::record(const json& key, const json& value) {
-    append(file_, to_text(json{{"key", key}, {"value", value}}) + "\n");
-    entries_[to_text(key)] = to_text(value);
 }
 
 namespace {

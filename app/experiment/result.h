@@ -1,4 +1,4 @@
-// What an experiment knows: the journal of what is finished, and the results of its setups with what is worked out
+// What an experiment knows: what is finished, and the results of its setups with what is worked out
 // from them.
 #pragma once
 
@@ -16,20 +16,20 @@
 
 namespace tessera {
 
-/// What is finished of a long job, in a file of one line for each piece: whatever ends the program, what was
-/// recorded is there the next time. A last line that was torn, and lines that are not the journal's, do not count.
+/// What is finished of an experiment, by keys that say all that it depends on, in files of one line for each
+/// piece. Lines that are torn, or not the journal's, do not count.
 class Journal {
 public:
-    /// Reads the file, or begins one. Throws std::runtime_error that names it where it cannot be written.
-    explicit Journal(std::filesystem::path file);
+    /// A line of such a file.
+    static std::string line(const nlohmann::json& key, const nlohmann::json& value);
 
-    /// What was last recorded under this key, which says all that it depends on; null: nothing was.
+    /// Adds what the file holds; what it has of a key comes in place of what was known. Throws std::runtime_error
+    /// that names the file where it cannot be read.
+    void read(const std::filesystem::path& file);
+    /// What was last read under this key; null: nothing was.
     nlohmann::json find(const nlohmann::json& key) const;
-    /// Records a value, which is on the disk when this returns. Throws std::runtime_error that names the file.
-    void record(const nlohmann::json& key, const nlohmann::json& value);
 
 private:
-    std::filesystem::path file_;
     std::unordered_map<std::string, std::string> entries_; // values by their keys, both as text
 };
 
@@ -39,8 +39,14 @@ struct Result {
     std::filesystem::path file;
     Setup setup;
     int halvings = 0;
-    std::size_t triangles = 0;     ///< of the scene
-    std::vector<Measurement> runs; ///< one a seed
+    std::size_t triangles = 0; ///< of the scene
+    /// The kind of machine that all runs are of; empty: the results are not told apart by it.
+    std::string machine = {};
+    std::vector<Measurement> runs = {}; ///< one a seed, in their order
+
+    /// What its scene is called in tables and charts: its name, and the machine where results are told apart by
+    /// it.
+    std::string title() const { return machine.empty() ? scene : scene + " (" + machine + ")"; }
 };
 
 /// A value of each run, in their order.

@@ -117,8 +117,8 @@ std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
                last_of(curves.back()).setup.values == setup.values;
     };
     for (const Result& result : results) {
-        if (scenes.empty() || scenes.back().name != result.scene)
-            scenes.push_back({result.scene, {}});
+        if (scenes.empty() || scenes.back().name != result.title())
+            scenes.push_back({result.title(), {}});
         std::vector<Curve>& curves = scenes.back().curves;
         if (!goes_on(curves, result.setup))
             curves.emplace_back();

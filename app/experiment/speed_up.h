@@ -33,9 +33,9 @@ double sigmas(double probability);
 /// Error against cost: the results of one setup on one scene, by rising time.
 using Curve = std::vector<Result>;
 
-/// All curves of one scene, at least one.
+/// All curves of one scene, at least one; where results are told apart by the kind of machine, of one kind.
 struct SceneCurves {
-    std::string name;
+    std::string name;          ///< Result::title of all
     std::vector<Curve> curves; ///< in the order of their setups
 };
 

@@ -188,7 +188,7 @@ Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& r
     };
     const auto efficiency = [](double x, const Result& r) { return ChartPoint{x, efficiency_of(r), 0}; };
     const auto speed = [](double x, const Result& r) { return ChartPoint{x, speed_of(r), 0}; };
-    return {title(options, results.front().scene),
+    return {title(options, results.front().title()),
             {plot_of(options, results, fmt::format("relMSE, floor-free (bars: {})", bars), error),
              plot_of(options, results, "efficiency, 1 / (relMSE × CPU seconds)", efficiency),
              plot_of(options, results, "millions of samples a wall second", speed)}};

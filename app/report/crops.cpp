@@ -144,7 +144,7 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
     std::vector<Picture> pictures;
     for (const Curve& curve : scene.curves) {
         const Result& result = last_of(curve);
-        const std::filesystem::path file = experiment.image_file(scene.name, result.setup);
+        const std::filesystem::path file = experiment.image_file(result.scene, result.setup);
         if (!std::filesystem::exists(file))
             continue;
         const ExrFile exr = read_exr(file, {}, {""});
@@ -159,7 +159,7 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
 
 const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurves& scene) {
     for (const MeasuredScene& measured : experiment.scenes())
-        if (measured.name() == scene.name)
+        if (measured.name() == last_of(scene.curves.front()).scene)
             return &measured.reference(last_of(scene.curves.front()).setup.settings);
     return nullptr;
 }

@@ -54,6 +54,9 @@ std::string line_label(const ExperimentOptions& options, const Result& result);
 /// What a chart calls the curve: "gpr l2, tile 4".
 std::string curve_label(const ExperimentOptions& options, const Curve& curve);
 
+/// A Result::title as a part of a file's name.
+std::string file_name(const std::string& title);
+
 /// What a result's time or number of samples was to be.
 Effort effort_of(const ExperimentOptions& options, const Result& result);
 
@@ -72,7 +75,7 @@ Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& r
 // Files of results, and the page of `tessera bench`.
 
 /// The results as CSV, a line for each: scene, method, reconstruction, what is varied, the share of time or
-/// samples, and all columns of result.h; an empty cell where there is no value.
+/// samples, all columns of result.h, and the kinds of machines; an empty cell where there is no value.
 std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& results);
 
 /// The results as JSON, with the machine, all settings and every single run.

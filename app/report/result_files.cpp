@@ -2,12 +2,15 @@
 #include "app/report/reports.h"
 #include "render/io/json_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace tessera {
@@ -28,6 +31,14 @@ std::string csv_cell(const std::string& text) {
 /// JSON knows no infinities, and no "not a number": null.
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+/// The kinds of machines that its runs are of.
+std::string machines_of(const Result& result) {
+    std::set<std::string> kinds;
+    for (const Measurement& run : result.runs)
+        kinds.insert(run.machine);
+    return fmt::format("{}", fmt::join(kinds, "; "));
 }
 
 /// The value as a number where it is one; null where it makes no difference.
@@ -51,6 +62,7 @@ ordered_json result_json(const ExperimentOptions& options, const Result& result)
     row["effort"] = to_string(effort_of(options, result));
     for (const ResultColumn& column : result_columns())
         row[std::string(column.id)] = number(column.value(result));
+    row["machine"] = machines_of(result);
     row["settings"] = settings_json(source, s.render, s.size, result.runs.front().spp, s.reconstruction);
     row["runs"] = ordered_json::array();
     for (const Measurement& run : result.runs)
@@ -80,6 +92,7 @@ std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& 
     text += ",effort";
     for (const ResultColumn& column : result_columns())
         text += fmt::format(",{}", column.id);
+    text += ",machine";
     for (const Result& result : results) {
         text += fmt::format("\n{},{},{}", csv_cell(result.scene), short_name(result.setup.settings.render.method),
                             to_string(result.setup.settings.reconstruction.norm));
@@ -90,6 +103,7 @@ std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& 
             const double value = column.value(result);
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
         }
+        text += "," + csv_cell(machines_of(result));
     }
     return text + "\n";
 }
@@ -119,6 +133,12 @@ std::string to_json(const ExperimentOptions& options, const std::vector<Result>&
 
 Effort effort_of(const ExperimentOptions& options, const Result& result) {
     return {std::ldexp(options.effort.amount, -result.halvings), options.effort.unit};
+}
+
+std::string file_name(const std::string& title) {
+    std::string name = title;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
 }
 
 std::string line_label(const ExperimentOptions& options, const Result& result) {

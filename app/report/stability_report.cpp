@@ -82,21 +82,23 @@ double level_of(const ExperimentOptions& suite, const std::vector<StabilityCase>
     return 0.01 / static_cast<double>(2 * setups * cases.size());
 }
 
-/// The rows of a case; there are none before there are two runs of PT, and for setups that have none yet.
+/// The rows of a case, of setups that have two runs, as PT has on the same kind of machine.
 std::vector<Row> rows_of(const StabilityCase& c, double level) {
     std::vector<Result> results = c.experiment->results();
     std::erase_if(results, [](const Result& r) { return r.runs.size() < 2; });
-    const auto pt = std::find_if(results.begin(), results.end(),
-                                 [](const Result& r) { return r.setup.settings.render.method == Method::pt; });
-    if (pt == results.end())
+    if (results.empty())
         return {};
     const ReferenceImage& reference = reference_of(c);
     const ReferenceNoise noise = measure_reference_noise(reference.halves[0], reference.halves[1]);
-    const Findings of_pt = find(*pt, *pt, noise);
     std::vector<Row> rows;
     for (const Result& result : results) {
+        const auto pt = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+            return r.setup.settings.render.method == Method::pt && r.machine == result.machine;
+        });
+        if (pt == results.end())
+            continue;
         const Findings found = find(result, *pt, noise);
-        rows.push_back({&c, result, found, judge(found, of_pt, level)});
+        rows.push_back({&c, result, found, judge(found, find(*pt, *pt, noise), level)});
     }
     return rows;
 }
@@ -137,12 +139,17 @@ std::string verdict_cell(const Row& row) {
     return row.verdict.cause.empty() ? word : fmt::format("**{}**: {}", word, row.verdict.cause);
 }
 
+/// What the rows call a setup, and the kind of machine where results are told apart by it.
+std::string name_of(const Result& result) {
+    return name_of(result.setup) + (result.machine.empty() ? "" : " (" + result.machine + ")");
+}
+
 std::string csv(const std::vector<Row>& rows) {
     std::string text =
         "scene,method,recon,verdict,cause,seeds,spp,cpu_seconds,energy,energy_error,energy_sigmas,"
         "squared_bias,squared_bias_error,squared_bias_sigmas,relmse,relmse_error,factor,factor_low,"
         "factor_high,spike,worst,worst_x,worst_y,worst_share,tile_edges,tile_edges_error,tone_mapped,tenfold,"
-        "bad_pixels,refused_samples\n";
+        "bad_pixels,refused_samples,machine\n";
     for (const Row& row : rows) {
         const Findings& f = row.findings;
         const PictureSettings& s = row.result.setup.settings;
@@ -172,7 +179,7 @@ std::string csv(const std::vector<Row>& rows) {
                              f.tone_mapped,
                              f.tenfold})
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
-        text += fmt::format(",{},{}\n", f.bad_pixels, f.refused);
+        text += fmt::format(",{},{},\"{}\"\n", f.bad_pixels, f.refused, row.result.machine);
     }
     return text;
 }
@@ -180,7 +187,7 @@ std::string csv(const std::vector<Row>& rows) {
 std::vector<OverviewCell> cells_of(const std::vector<Row>& rows) {
     std::vector<OverviewCell> cells;
     for (const Row& row : rows)
-        cells.push_back({row.of->name(), name_of(row.result.setup), row.verdict.kind, row.findings.factor});
+        cells.push_back({row.of->name(), name_of(row.result), row.verdict.kind, row.findings.factor});
     return cells;
 }
 
@@ -195,10 +202,9 @@ std::string table(const std::vector<Row>& rows) {
             "| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {:.3g} | {:.3g} | {} | "
             "{:.3g} ± "
             "{:.1g} | {:.4g} |\n",
-            name_of(row.result.setup), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high),
-            percent(f.energy), bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x, f.worst_pixel.y,
-            100 * f.worst_share, 100 * f.tenfold, 1000 * f.tone_mapped, cell(f.tile_edges), f.error, f.error_error,
-            spp_of(row.result));
+            name_of(row.result), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high), percent(f.energy),
+            bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x, f.worst_pixel.y, 100 * f.worst_share,
+            100 * f.tenfold, 1000 * f.tone_mapped, cell(f.tile_edges), f.error, f.error_error, spp_of(row.result));
     }
     return text;
 }

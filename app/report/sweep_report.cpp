@@ -42,7 +42,7 @@ std::string error_table(const ExperimentOptions& options, const Results& results
     text += " spp | relMSE | uncertainty | deviation | CPU s | deviation | efficiency |\n";
     text += rule(9 + options.variations.size(), 2);
     for (const Result& r : results) {
-        text += fmt::format("| {} | {} |", r.scene, name_of(r.setup));
+        text += fmt::format("| {} | {} |", r.title(), name_of(r.setup));
         for (const std::string& value : r.setup.values)
             text += fmt::format(" {} |", value_cell(value));
         text += fmt::format(" {} | {} | {} | {} | {} | {} | {} |\n", cell(spp_of(r)), error_cell(r),
@@ -68,7 +68,7 @@ std::string reuse_table(const ExperimentOptions& options, const Results& results
     for (const Result& r : results) {
         if (!std::isfinite(reused_share(r)))
             continue; // a method that shares nothing
-        const std::pair line(r.scene, line_label(options, r));
+        const std::pair line(r.title(), line_label(options, r));
         if (std::find(columns.begin(), columns.end(), first_value(r)) == columns.end())
             columns.push_back(first_value(r));
         if (std::find(lines.begin(), lines.end(), line) == lines.end())
@@ -84,7 +84,7 @@ std::string reuse_table(const ExperimentOptions& options, const Results& results
         text += fmt::format("| {} | {} |", scene, label);
         for (const std::string& column : columns) {
             const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) {
-                return r.scene == scene && line_label(options, r) == label && first_value(r) == column;
+                return r.title() == scene && line_label(options, r) == label && first_value(r) == column;
             });
             text += found == results.end()
                         ? " |"
@@ -108,7 +108,7 @@ std::string tile_table(const ExperimentOptions& options, const Results& results)
     for (const Result& r : results) {
         if (!has_tiles(r))
             continue;
-        text += fmt::format("| {} | {} |", r.scene, name_of(r.setup));
+        text += fmt::format("| {} | {} |", r.title(), name_of(r.setup));
         for (const std::string& value : r.setup.values)
             text += fmt::format(" {} |", value_cell(value));
         for (const char* id : {"tile_error_spectrum", "tile_edge_spectrum", "tile_edge_ratio"})
@@ -148,9 +148,10 @@ void write_sweep(const ExperimentOptions& options, const Results& results) {
     write_text(options.output / "sweep.md", markdown(options, results));
     std::map<std::string, Results> scenes;
     for (const Result& result : results)
-        scenes[result.scene].push_back(result);
+        scenes[result.title()].push_back(result);
     for (const auto& [scene, of_scene] : scenes)
-        write_text(options.output / fmt::format("sweep-{}.svg", scene), to_svg(sweep_chart(options, of_scene)));
+        write_text(options.output / fmt::format("sweep-{}.svg", file_name(scene)),
+                   to_svg(sweep_chart(options, of_scene)));
 }
 
 } // namespace tessera

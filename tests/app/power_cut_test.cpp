@@ -1,5 +1,5 @@
 // What is on the disk when: that what is said to be finished has reached it, and that the disk's word counts.
-#include "app/experiment/experiment.h"
+#include "app/experiment/experiment_jobs.h"
 #include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
@@ -44,7 +44,7 @@ std::size_t find(const std::string& beginning, std::size_t from) {
     return from;
 }
 
-TEST(PowerCut, NoLineOfTheJournalIsOfAPictureThatIsNotThere) {
+TEST(PowerCut, NoJobIsDoneWhosePictureIsNotThere) {
     const TemporaryFolder folder;
     ExperimentOptions options;
     options.scenes = {fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml"};
@@ -57,19 +57,13 @@ TEST(PowerCut, NoLineOfTheJournalIsOfAPictureThatIsNotThere) {
     options.keeps_images = true;
     Experiment experiment(options);
     synced.clear();
-    experiment.run([] {});
+    ASSERT_EQ(run_jobs({&experiment}, options, [] {}), 0);
     const std::size_t picture = find("cornell-box-gpr-weighted.exr.", 0), name = find("images", picture),
-                      line = find("journal.jsonl", 0);
+                      results = find("cornell-box-", name + 1), folder_of_jobs = find("jobs", results);
     EXPECT_LT(picture, name);
-    EXPECT_LT(name, line) << "the picture, its name, and only then what refers to it";
-    EXPECT_LT(line, synced.size());
-}
-
-TEST(PowerCut, ANewJournalIsInItsFolder) {
-    const TemporaryFolder folder;
-    synced.clear();
-    const Journal journal(folder.path() / "journal.jsonl");
-    EXPECT_LT(find(folder.path().filename(), 0), synced.size());
+    EXPECT_LT(name, results) << "the picture, its name, and only then what refers to it";
+    EXPECT_LT(results, folder_of_jobs);
+    EXPECT_LT(folder_of_jobs, synced.size());
 }
 
 TEST(PowerCut, WhatDoesNotReachTheDiskIsNotWritten) {

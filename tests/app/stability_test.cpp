@@ -54,6 +54,20 @@ protected:
         out << std::ifstream(folder_.path() / name, std::ios::binary).rdbuf();
         return out.str();
     }
+    /// Files of finished jobs, in the order of their names.
+    std::set<fs::path> job_files(const fs::path& jobs) const {
+        std::set<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder_.path() / jobs))
+            if (entry.path().extension() == ".jsonl")
+                files.insert(entry.path());
+        return files;
+    }
+    std::string all_text(const fs::path& jobs) const {
+        std::string all;
+        for (const fs::path& file : job_files(jobs))
+            all += text(file);
+        return all;
+    }
     Outcome stability(const std::string& rest) const {
         return run(folder_.path(), "stability '" + (suite / "no-light.xml").string() + "' '" +
                                        (suite / "texture.xml").string() + "' --size 24x18 --threads 1 --spp 4 " +
@@ -62,7 +76,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJournal) {
+TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
     const std::string options = "--seeds 3 --reference refs --reference-spp 32 -o out";
     const Outcome o = stability(options);
     ASSERT_EQ(o.exit_code, 0) << o.output;
@@ -77,28 +91,31 @@ TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJournal) {
     for (const char* file : {"out/no-light.png", "out/texture.png", "refs/texture-24x18-d8.exr"})
         EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 
-    const std::string journal = text("out/scenes/texture/journal.jsonl");
+    const std::string jobs = all_text("out/scenes/texture/jobs");
     ASSERT_EQ(stability(options).exit_code, 0);
-    EXPECT_EQ(text("out/scenes/texture/journal.jsonl"), journal) << "nothing is rendered again";
+    EXPECT_EQ(all_text("out/scenes/texture/jobs"), jobs) << "nothing is rendered again";
     EXPECT_EQ(text("out/stability.csv"), csv);
 }
 
-TEST_F(StabilityCommand, RendersAnewWhatTheJournalKnowsWithoutArtefacts) {
+TEST_F(StabilityCommand, RendersAnewWhatIsKnownWithoutArtefacts) {
     const std::string options = "--seeds 2 --methods pt,pr --reference refs --reference-spp 32 -o out";
     ASSERT_EQ(stability(options).exit_code, 0);
-    const fs::path journal = folder_.path() / "out/scenes/texture/journal.jsonl";
-    std::string lines;
-    std::ifstream in(journal);
-    for (std::string line; std::getline(in, line);) {
-        auto entry = nlohmann::json::parse(line, nullptr, false);
-        if (entry.is_object())
-            entry["value"]["measurements"][0]["artefacts"] = nullptr; // as `tessera sweep` has them
-        lines += entry.is_object() ? entry.dump() + "\n" : line + "\n";
+    const std::size_t before = job_files("out/scenes/texture/jobs").size();
+    for (const fs::path& file : job_files("out/scenes/texture/jobs")) {
+        std::string lines;
+        std::ifstream in(file);
+        for (std::string line; std::getline(in, line);) {
+            auto entry = nlohmann::json::parse(line);
+            if (entry.contains("value"))
+                entry["value"]["measurements"][0]["artefacts"] = nullptr; // as `tessera sweep` has them
+            lines += entry.dump() + "\n";
+        }
+        fs::remove(file);
+        std::ofstream(file.parent_path() / ("of-a-sweep-" + file.filename().string())) << lines;
     }
-    std::ofstream(journal) << lines;
     const Outcome o = stability(options);
     EXPECT_EQ(o.exit_code, 0) << o.output;
-    EXPECT_GT(text("out/scenes/texture/journal.jsonl").size(), lines.size()) << "all is rendered again";
+    EXPECT_EQ(job_files("out/scenes/texture/jobs").size(), 2 * before) << "all is rendered again";
     EXPECT_THAT(text("out/stability.csv"), HasSubstr("\ntexture,pr,none,"));
 }
 

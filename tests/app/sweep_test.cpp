@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -56,6 +57,13 @@ protected:
         }
         return rows;
     }
+    std::set<fs::path> job_files() const {
+        std::set<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder() / "out/jobs"))
+            if (entry.path().extension() == ".jsonl")
+                files.insert(entry.path());
+        return files;
+    }
     json results() const { return json::parse(text("out/sweep.json")); }
 
     const std::string small_ = " --size 32x18 --spp 2 --reference refs --reference-spp 2 --threads 1 -o out ";
@@ -69,7 +77,7 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
 
     const auto rows = csv();
     ASSERT_EQ(rows.size(), 3u);
-    EXPECT_EQ(rows[0].size(), 5 + result_columns().size());
+    EXPECT_EQ(rows[0].size(), 6 + result_columns().size());
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_EQ(rows[i].size(), rows[0].size());
     EXPECT_THAT(std::vector(rows[0].begin(), rows[0].begin() + 7),
@@ -101,7 +109,7 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
     pugi::xml_document chart;
     EXPECT_TRUE(chart.load_file((folder() / "out/sweep-box.svg").c_str()));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "out"), fs::directory_iterator()), 5)
-        << "tables, chart, journal";
+        << "tables, chart, jobs";
 }
 
 TEST_F(SweepCommand, MakesReferencesOnce) {
@@ -231,35 +239,38 @@ TEST_F(SweepCommand, VariesWhatIsNoSettingOfTheRender) {
 }
 
 /// What is finished is not rendered again; what is asked for beside it is.
-TEST_F(SweepCommand, GoesOnFromItsJournal) {
+TEST_F(SweepCommand, GoesOnFromItsJobs) {
     const std::string sweep = "sweep box/scene.xml --vary tile=2,3" + small_;
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
     const json first = results()["results"];
-    const auto lines = [this] {
-        const std::string journal = text("out/journal.jsonl");
-        return std::count(journal.begin(), journal.end(), '\n');
-    };
-    EXPECT_EQ(lines(), 2);
+    EXPECT_EQ(job_files().size(), 2u);
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
     EXPECT_EQ(results()["results"], first) << "the same seconds, too";
-    EXPECT_EQ(lines(), 2);
+    EXPECT_EQ(job_files().size(), 2u);
     ASSERT_EQ(run(folder(), sweep + "--seeds 2").exit_code, 0);
-    EXPECT_EQ(lines(), 4);
+    EXPECT_EQ(job_files().size(), 4u);
     EXPECT_EQ(results()["results"][1]["runs"][0], first[1]["runs"][0]);
     ASSERT_EQ(run(folder(), sweep + "--alpha 0.3").exit_code, 0);
-    EXPECT_EQ(lines(), 6) << "other settings are other runs";
-    std::string journal = text("out/journal.jsonl");
-    const std::string mine = "\"program\":\"0.1.0 ", other = "\"program\":\"0.0.9 ";
-    for (std::size_t at; (at = journal.find(mine)) != journal.npos;)
-        journal.replace(at, mine.size(), other);
-    folder_.write("out/journal.jsonl", journal);
-    ASSERT_EQ(run(folder(), sweep + "--any-build").exit_code, 0);
-    EXPECT_EQ(lines(), 6);
+    EXPECT_EQ(job_files().size(), 6u) << "other settings are other jobs";
+    ASSERT_EQ(run(folder(), "sweep box/scene.xml --vary tile=3 -m pr,gpr" + small_).exit_code, 0);
+    EXPECT_EQ(job_files().size(), 7u);
+    EXPECT_EQ(results()["results"][1]["runs"], first[1]["runs"]) << "one job of two methods, one of them known";
+    fs::remove_all(folder() / "out");
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
-    EXPECT_EQ(lines(), 8) << "another build may be faster";
+    const std::string mine = "\"program\":\"0.1.0 ", other = "\"program\":\"0.0.9 ";
+    for (const fs::path& file : job_files()) { // as another build would name it
+        std::string lines = text(file);
+        lines.replace(lines.find(mine), mine.size(), other);
+        fs::remove(file);
+        folder_.write("out/jobs/other-" + file.filename().string(), lines);
+    }
+    ASSERT_EQ(run(folder(), sweep + "--any-build").exit_code, 0);
+    EXPECT_EQ(job_files().size(), 2u);
+    ASSERT_EQ(run(folder(), sweep).exit_code, 0);
+    EXPECT_EQ(job_files().size(), 4u) << "another build may be faster";
     fs::remove(reference());
     ASSERT_EQ(run(folder(), sweep + "--reference-spp 4").exit_code, 0);
-    EXPECT_EQ(lines(), 10) << "to another reference there are other errors";
+    EXPECT_EQ(job_files().size(), 6u) << "to another reference there are other errors";
 }
 
 TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {

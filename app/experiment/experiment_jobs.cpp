@@ -1,0 +1,237 @@
+#include "app/experiment/experiment_jobs.h"
+
+#include "app/cli/opened_scene.h"
+#include "app/experiment/claim.h"
+#include "render/io/files.h"
+#include "render/io/memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace fs = std::filesystem;
+
+ExperimentJobs::ExperimentJobs(const std::vector<Experiment*>& experiments) {
+    for (Experiment* experiment : experiments) {
+        std::size_t job = 0;
+        const std::vector<Experiment::Job>& jobs = experiment->jobs();
+        for (std::size_t scene = 0; scene < experiment->scenes().size(); ++scene) {
+            for (FolderReference* reference : experiment->scenes()[scene].references())
+                items_.push_back({experiment, scene, reference, 0});
+            for (; job < jobs.size() && jobs[job].scene == scene; ++job)
+                items_.push_back({experiment, scene, nullptr, job});
+        }
+        job_count_ += jobs.size();
+    }
+    is_done_.resize(items_.size());
+}
+
+fs::path ExperimentJobs::file_of(std::size_t item) {
+    const Item& i = items_[item];
+    return i.reference ? i.reference->path() : i.experiment->file_of(i.job);
+}
+
+bool ExperimentJobs::is_done(std::size_t item) {
+    const Item& i = items_[item];
+    if (!is_done_[item])
+        is_done_[item] = i.reference ? i.reference->look() : i.experiment->is_done(i.job);
+    return is_done_[item] != 0;
+}
+
+bool ExperimentJobs::run(std::size_t item, Claim& claim) {
+    const Item& i = items_[item];
+    const auto done = static_cast<std::size_t>(std::count(is_done_.begin(), is_done_.end(), 1));
+    if (!done_at_first_) {
+        done_at_first_ = done;
+        start_ = std::chrono::steady_clock::now();
+    }
+    if (i.reference) {
+        progress_.reset(); // a reference has its own
+        is_done_[item] = i.experiment->render_reference(i.scene, *i.reference);
+        return is_done_[item] != 0;
+    }
+    if (!progress_)
+        progress_.emplace("measuring");
+    is_done_[item] = i.experiment->run(i.job, claim, [&](double share) { tell(i, share); });
+    if (is_done_[item] && done + 1 == items_.size())
+        progress_.reset();
+    return is_done_[item] != 0;
+}
+
+void ExperimentJobs::tell(const Item& item, double share) {
+    const auto done = static_cast<double>(std::count(is_done_.begin(), is_done_.end(), 1));
+    const auto first = static_cast<double>(*done_at_first_), all = static_cast<double>(items_.size());
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+    const Experiment::Job& job = item.experiment->jobs()[item.job];
+    progress_->update((done - first + share) / (all - first), seconds.count(),
+                      fmt::format("{}, {:g} of {:g} jobs done", item.experiment->text_of(job), done, all));
+}
+
+std::vector<std::size_t> ExperimentJobs::items_for(int number) const {
+    int count = 0;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        if (items_[item].reference || ++count != number)
+            continue;
+        std::vector<std::size_t> needed;
+        for (std::size_t other = 0; other < item; ++other)
+            if (items_[other].reference && items_[other].experiment == items_[item].experiment &&
+                items_[other].scene == items_[item].scene)
+                needed.push_back(other);
+        needed.push_back(item);
+        return needed;
+    }
+    throw BadInput(fmt::format("--job {}: there are {} jobs", number, count));
+}
+
+std::size_t ExperimentJobs::left() {
+    std::size_t left = 0;
+    for (std::size_t item = 0; item < items_.size(); ++item)
+        left += !items_[item].reference && !is_done(item);
+    return left;
+}
+
+std::string ExperimentJobs::list() {
+    std::string text;
+    int number = 0;
+    double all = 0;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        const Item& i = items_[item];
+        if (i.reference)
+            continue;
+        const bool done = is_done(item);
+        const double seconds = i.experiment->estimate(i.job);
+        const std::string owner = done || file_of(item).empty() ? "" : Claims::owner_of(file_of(item));
+        const std::string about = std::isnan(seconds) ? "-" : fmt::format("{:.3g} s", seconds);
+        text += fmt::format("{}\t{}\t{}\t{}\n", ++number,
+                            done            ? "done"
+                            : owner.empty() ? "open"
+                                            : "claimed by " + owner,
+                            about, i.experiment->text_of(i.experiment->jobs()[i.job]));
+        all += done || std::isnan(seconds) ? 0 : seconds;
+    }
+    return text;
+}
+
+std::string ExperimentJobs::mark() {
+    std::string names;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        const fs::path file = file_of(item);
+        if (file.empty())
+            return "";
+        if (!items_[item].reference)
+            names += file.filename().string() + "\n";
+    }
+    return fmt::format("report-{:08x}", checksum(std::as_bytes(std::span(names))));
+}
+
+namespace {
+
+/// The report, which is written by one process at a time. That it was written when all was done is a file, as that
+/// of a job.
+class Report {
+public:
+    Report(ExperimentJobs& jobs, const ExperimentOptions& options, const std::function<void()>& write)
+        : jobs_(jobs), folder_(options.output / "jobs"), silence_(options.sharing.silence), claims_(silence_),
+          write_(write) {}
+
+    /// Not all is done: the last one is still to be written, whatever was written before.
+    void forget() {
+        if (const std::string mark = jobs_.mark(); !mark.empty())
+            fs::remove(folder_ / mark);
+    }
+
+    /// Writes one of what there is, unless another process is writing.
+    void write_if_free() {
+        if (const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report"))
+            write_();
+    }
+
+    /// The same, if the last one was long enough ago.
+    void write_now_and_then() {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point begin = Clock::now();
+        if (begin < next_)
+            return;
+        write_if_free();
+        constexpr int pauses = 20;
+        const Clock::time_point end = Clock::now();
+        next_ = end + pauses * (end - begin);
+    }
+
+    /// Writes the last one, unless another process has since all is done. `anew`: in any case.
+    void write_last(bool anew) {
+        const fs::path written = folder_ / jobs_.mark();
+        for (Patience patience(silence_); anew || !fs::exists(written);) {
+            const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
+            if (!claim) {
+                if (!patience.wait())
+                    return;
+                continue;
+            }
+            if (anew || !fs::exists(written)) {
+                write_();
+                write_text(written, worker_name() + "\n");
+            }
+            return;
+        }
+    }
+
+private:
+    ExperimentJobs& jobs_;
+    fs::path folder_;
+    double silence_;
+    Claims claims_;
+    const std::function<void()>& write_;
+    std::chrono::steady_clock::time_point next_{};
+};
+
+/// Does what is asked for of the jobs. False: Ctrl-C ended it.
+bool work(ExperimentJobs& jobs, const Sharing& sharing, Report& report) {
+    if (sharing.task == Sharing::Task::report)
+        return true;
+    JobWorker worker(jobs, sharing.silence);
+    if (sharing.task == Sharing::Task::work)
+        return worker.run([&] { report.write_now_and_then(); });
+    const std::vector<std::size_t> items = jobs.items_for(sharing.job);
+    return std::all_of(items.begin(), items.end(), [&](std::size_t item) { return worker.run_one(item); });
+}
+
+} // namespace
+
+int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOptions& options,
+             const std::function<void()>& write_report) {
+    const InterruptGuard guard;
+    ExperimentJobs jobs(experiments);
+    if (options.sharing.task == Sharing::Task::list) {
+        fmt::print("{}", jobs.list());
+        return exit_ok;
+    }
+    make_folder(options.output / "jobs");
+    Report report(jobs, options, write_report);
+    const bool was_done = jobs.left() == 0;
+    if (!was_done)
+        report.forget();
+    const bool has_ended = work(jobs, options.sharing, report);
+    const std::size_t left = jobs.left();
+    const bool is_of_one = options.sharing.task == Sharing::Task::one_job;
+    if (left == 0)
+        report.write_last(was_done);
+    else if (!is_of_one)
+        report.write_if_free();
+    if (has_ended && (left == 0 || is_of_one))
+        return exit_ok;
+    fmt::print(stderr, "{}: not complete, {} of {} jobs are left; the same command goes on with them\n",
+               options.output.string(), left, jobs.job_count());
+    return exit_failure;
+}
+
+} // namespace tessera

@@ -1,0 +1,207 @@
+// What an experiment has found: the files of its jobs, and the results in them.
+#include "app/cli/terminal.h"
+#include "app/experiment/experiment.h"
+#include "render/io/files.h"
+#include "render/io/json_text.h"
+#include "render/io/memory.h"
+#include "render/run/picture_identity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint32_t checksum_of(const std::string& text) {
+    return checksum(std::as_bytes(std::span(text)));
+}
+
+} // namespace
+
+/// All that the measurements depend on, but for the program and the machine.
+nlohmann::json Experiment::key_of(std::size_t scene, const Setup& setup, std::uint64_t seed) const {
+    RenderSettings settings = setup.settings.render;
+    settings.seed = seed;
+    return {{"scene", scenes_[scene].name()},
+            {"scene_file", scene_files_[scene]},
+            {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction)},
+            {"recon", to_string(setup.settings.reconstruction.norm)},
+            {"threads", setup.settings.threads},
+            {"effort", to_string(options_.effort)},
+            {"halvings", options_.halvings},
+            {"reference", scenes_[scene].reference_for(setup.settings).checksum()}};
+}
+
+/// The checksum is of all that decides what its file holds, but for the seed.
+std::string Experiment::file_name_of(const Job& job) {
+    Setups place = job.setups;
+    place.push_back(job.scene);
+    std::string& name = point_names_[place];
+    if (name.empty()) {
+        nlohmann::json all = {options_.measures_artefacts,
+                              options_.takes_any_build ? std::string() : program_identity()};
+        for (std::size_t i : job.setups)
+            all.push_back(key_of(job.scene, setups_[i], 0));
+        name = scenes_[job.scene].name();
+        if (options_.effort.unit == Effort::Unit::spp)
+            for (const std::string& value : setups_[job.setups.front()].values)
+                name += value.empty() ? "" : "-" + value;
+        name += fmt::format("-{:08x}", checksum_of(to_text(all)));
+    }
+    return fmt::format("{}-seed{}.jsonl", name, job.seed);
+}
+
+fs::path Experiment::file_of(std::size_t index) {
+    const Job& job = jobs_[index];
+    if (!files_[index].empty())
+        return files_[index];
+    for (std::size_t i : job.setups)
+        if (!scenes_[job.scene].reference_for(setups_[i].settings).look())
+            return {};
+    return files_[index] = options_.output / "jobs" / file_name_of(job);
+}
+
+bool Experiment::is_done(std::size_t job) {
+    return is_recalled_[job] != 0 || (!file_of(job).empty() && fs::exists(file_of(job)));
+}
+
+/// Reads the files that are of other lists of jobs: of fewer seeds or methods, or other values. What is known
+/// without its picture is to be rendered again.
+void Experiment::recall() {
+    for (const MeasuredScene& scene : scenes_)
+        scene_files_.push_back(
+            checksum_of(read_bytes(scene.source().file) + to_text(nlohmann::json(scene.source().variables))));
+    std::unordered_set<std::string> own;
+    for (std::size_t job = 0; job < jobs_.size(); ++job) {
+        const fs::path file = file_of(job);
+        own.insert(file.filename().string());
+        if (!file.empty() && keeps_image(jobs_[job].seed) && !has_images(jobs_[job]))
+            fs::remove(file);
+    }
+    bool are_others = false;
+    for (const fs::directory_entry& entry : fs::directory_iterator(options_.output / "jobs"))
+        if (entry.path().extension() == ".jsonl" && !own.contains(entry.path().filename().string())) {
+            journal_.read(entry.path());
+            are_others = true;
+        }
+    for (std::size_t job = 0; are_others && job < jobs_.size(); ++job)
+        is_recalled_[job] = !file_of(job).empty() && !fs::exists(file_of(job)) && is_known(jobs_[job]);
+}
+
+bool Experiment::has_images(const Job& job) const {
+    return std::all_of(job.setups.begin(), job.setups.end(), [&](std::size_t i) {
+        return fs::exists(image_file(scenes_[job.scene].name(), setups_[i]));
+    });
+}
+
+/// What the journal has of it; null: nothing that would do.
+nlohmann::json Experiment::find(const Journal& journal, const Job& job, std::size_t setup) const {
+    const nlohmann::json known = journal.find(key_of(job.scene, setups_[setup], job.seed));
+    if (known.is_null() || (known.at("program") != program_identity() && !options_.takes_any_build))
+        return {};
+    for (const nlohmann::json& m : known.at("measurements"))
+        if (options_.measures_artefacts && !measurement_from_json(m).artefacts)
+            return {};
+    return known;
+}
+
+nlohmann::json Experiment::recalled(const Job& job, std::size_t setup) const {
+    const bool has_image =
+        !keeps_image(job.seed) || fs::exists(image_file(scenes_[job.scene].name(), setups_[setup]));
+    return has_image ? find(journal_, job, setup) : nlohmann::json();
+}
+
+bool Experiment::is_known(const Job& job) const {
+    return std::none_of(job.setups.begin(), job.setups.end(),
+                        [&](std::size_t i) { return recalled(job, i).is_null(); });
+}
+
+void Experiment::collect(std::size_t index) {
+    if (is_collected_[index] || !is_done(index))
+        return;
+    const Job& job = jobs_[index];
+    Journal own;
+    if (!is_recalled_[index])
+        own.read(file_of(index));
+    for (std::size_t setup : job.setups) {
+        const nlohmann::json known = find(is_recalled_[index] ? journal_ : own, job, setup);
+        if (known.is_null())
+            throw std::runtime_error(
+                fmt::format("{}: is damaged; without that file the job is done anew", file_of(index).string()));
+        for (const nlohmann::json& m : known.at("measurements"))
+            records_.push_back({job.scene, setup, known.at("triangles"), measurement_from_json(m)});
+    }
+    is_collected_[index] = 1;
+}
+
+std::vector<Result> Experiment::results() {
+    for (std::size_t job = 0; job < jobs_.size(); ++job)
+        collect(job);
+    std::set<std::string> machines;
+    for (const Record& record : records_)
+        machines.insert(record.measurement.machine);
+    const bool tells_machines = machines.size() > 1 && !options_.sharing.takes_any_machine;
+    std::map<std::tuple<std::size_t, std::string, std::size_t, int>, Result> by_place;
+    for (const auto& [scene, setup, triangles, measurement] : records_) {
+        const std::string machine = tells_machines ? measurement.machine : "";
+        Result none{scenes_[scene].name(),
+                    scenes_[scene].source().file,
+                    setups_[setup],
+                    measurement.halvings,
+                    triangles,
+                    machine,
+                    {}};
+        by_place.try_emplace({scene, machine, setup, -measurement.halvings}, std::move(none))
+            .first->second.runs.push_back(measurement);
+    }
+    std::vector<Result> results;
+    for (auto& [place, result] : by_place) {
+        std::ranges::sort(result.runs, {}, &Measurement::seed); // in whatever order the jobs were done
+        results.push_back(std::move(result));
+    }
+    return results;
+}
+
+double Experiment::estimate(std::size_t index) {
+    const Job& job = jobs_[index];
+    if (options_.effort.unit != Effort::Unit::spp)
+        return options_.effort.amount * static_cast<double>(renders_of(job.setups).size());
+    collect(index);
+    const auto mean = [&](auto counts, auto value) {
+        double sum = 0, count = 0;
+        for (const Record& record : records_)
+            if (record.scene == job.scene && record.measurement.halvings == 0 && counts(record)) {
+                sum += value(record.measurement);
+                ++count;
+            }
+        return sum / count; // of none not a number
+    };
+    const auto rendering = [](const Measurement& m) { return m.cpu_seconds - m.reconstruction_cpu_seconds; };
+    double seconds = 0;
+    for (const Setups& render : renders_of(job.setups)) {
+        const double known = mean([&](const Record& r) { return r.setup == render.front(); }, rendering);
+        seconds += std::isnan(known) ? mean([](const Record&) { return true; }, rendering) : known;
+    }
+    return seconds;
+}
+
+} // namespace tessera
