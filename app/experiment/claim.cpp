@@ -107,8 +107,7 @@ fs::path Claim::own_path() const {
 void Claim::write_head() const {
     static std::atomic<std::uint32_t> beat = 0;
     const std::string head = head_text(++beat, silence_);
-    if (::pwrite(descriptor_, head.data(), head.size(), 0) > 0)
-        ::fdatasync(descriptor_); // others see it now
+    [[maybe_unused]] const ssize_t n = ::pwrite(descriptor_, head.data(), head.size(), 0);
 }
 
 void Claim::beat(const std::stop_token& stop) const {
@@ -116,8 +115,10 @@ void Claim::beat(const std::stop_token& stop) const {
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     const std::chrono::duration<double> pause(silence_ / beats_a_silence);
-    while (!never.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested())
+    while (!never.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested()) {
         write_head();
+        ::fdatasync(descriptor_); // a network file system might keep it to itself for half a minute
+    }
 }
 
 void Claim::write_text(const std::string& text) const {

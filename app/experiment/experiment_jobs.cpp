@@ -47,6 +47,11 @@ bool ExperimentJobs::is_done(std::size_t item) {
     return is_done_[item] != 0;
 }
 
+void ExperimentJobs::found(std::size_t item) {
+    const Item& i = items_[item];
+    is_done_[item] = !i.reference || i.reference->look();
+}
+
 bool ExperimentJobs::run(std::size_t item, Claim& claim) {
     const Item& i = items_[item];
     const auto done = static_cast<std::size_t>(std::count(is_done_.begin(), is_done_.end(), 1));

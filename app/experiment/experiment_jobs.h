@@ -25,6 +25,7 @@ public:
     std::size_t size() const override { return items_.size(); }
     std::filesystem::path file_of(std::size_t item) override;
     bool is_done(std::size_t item) override;
+    void found(std::size_t item) override;
     bool run(std::size_t item, Claim& claim) override;
 
     /// The items that the job of that number takes: references, and itself. Throws BadInput where there is no such

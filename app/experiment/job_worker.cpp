@@ -84,9 +84,11 @@ void JobWorker::look() {
             folder->second = list(file.parent_path());
         const std::string name = file.filename().string();
         const bool is_claimed = folder->second.claimed.contains(name);
-        const bool is_there = folder->second.files.contains(name) && jobs_.is_done(job);
+        const bool is_there = folder->second.files.contains(name);
         is_alone = is_alone && !(is_claimed && !is_there);
         set(job, is_there ? State::done : is_claimed ? State::taken : State::open);
+        if (is_there)
+            jobs_.found(job);
     }
     if (!states_.empty())
         place_ = is_alone ? 0 : std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(chance_);

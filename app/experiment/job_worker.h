@@ -21,6 +21,8 @@ public:
     /// The file that a job makes. Empty: it cannot be begun yet.
     virtual std::filesystem::path file_of(std::size_t job) = 0;
     virtual bool is_done(std::size_t job) = 0;
+    /// Says that the job's file was seen in its folder, so that nobody needs to look again.
+    virtual void found(std::size_t) {}
     /// Does a job that this process has claimed, and makes its file. False: Ctrl-C ended it.
     virtual bool run(std::size_t job, Claim& claim) = 0;
 };
