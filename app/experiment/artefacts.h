@@ -4,6 +4,7 @@
 #include "recon/metrics.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -21,6 +22,9 @@ struct Artefacts {
     std::vector<double> pieces; ///< pieces_of the image, by those pixels
     double tone_mapped = 0;     ///< mean squared error of tone-mapped radiances, x / (1 + x): of what is seen
     double tenfold = 0; ///< share of pixels of more than ten times the reference's luminance, or below a tenth
+    /// Halo::energy and Halo::peak of what the picture is made of; not numbers where no sample is a spike.
+    double halo_energy = std::numeric_limits<double>::quiet_NaN();
+    double halo_peak = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// How many of the worst pixels are kept: more than one in a thousand, so that several runs' together tell the

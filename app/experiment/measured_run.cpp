@@ -2,6 +2,7 @@
 
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
+#include "recon/halo.h"
 #include "render/run/fitting_reconstruction.h"
 
 #include <algorithm>
@@ -128,9 +129,14 @@ void MeasuredRun::measure(int halvings) {
                                     tiles_of(r.image, reference_.mean, render_.settings()),
                                     render_.counters(),
                                     {}});
-        if (measures_artefacts_)
-            measurements_[i].back().artefacts =
-                measure_artefacts(r.image, reference_.halves[0], reference_.halves[1]);
+        if (measures_artefacts_) {
+            Artefacts artefacts = measure_artefacts(r.image, reference_.halves[0], reference_.halves[1]);
+            if (const auto halo = measure_halo(buffers, reconstructions_[i], parallel_for)) {
+                artefacts.halo_energy = halo->energy;
+                artefacts.halo_peak = halo->peak;
+            }
+            measurements_[i].back().artefacts = std::move(artefacts);
+        }
         images_[i] = std::move(r.image);
     }
 }

@@ -50,7 +50,9 @@ nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
             {"bad_pixels", a->bad_pixels},
             {"pieces", a->pieces},
             {"tone_mapped", a->tone_mapped},
-            {"tenfold", a->tenfold}};
+            {"tenfold", a->tenfold},
+            {"halo_energy", a->halo_energy},
+            {"halo_peak", a->halo_peak}};
 }
 
 /// The artefacts in the JSON; null where none were measured, or the journal is from before there were any.
@@ -64,9 +66,11 @@ std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
     json.at("bad_pixels").get_to(a.bad_pixels);
     a.pieces = numbers(json.at("pieces"));
-    // Journals of before have neither.
+    // Journals of before have none of these.
     a.tone_mapped = number(json.value("tone_mapped", nlohmann::json()));
     a.tenfold = number(json.value("tenfold", nlohmann::json()));
+    a.halo_energy = number(json.value("halo_energy", nlohmann::json()));
+    a.halo_peak = number(json.value("halo_peak", nlohmann::json()));
     return a;
 }
 

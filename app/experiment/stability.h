@@ -32,6 +32,8 @@ struct Findings {
     double worst_share = 0; ///< of the squared error, what the worst pixels (worst_count) have
     double tone_mapped = 0; ///< mean of Artefacts::tone_mapped
     double tenfold = 0;     ///< mean of Artefacts::tenfold
+    double halo_energy = 0; ///< means of Artefacts::halo_energy and halo_peak over the runs that have a spike;
+    double halo_peak = 0;   ///< not numbers: none has
     double tile_edges = 0;  ///< mean of TileSpectrum::edges; not a number where there are none
     double tile_edges_error = 0;
     double error = 0;       ///< relMSE, of pictures in units of the reference's mean

@@ -185,7 +185,7 @@ std::string cause_of_worse(const Findings& f) {
 
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference) {
     Findings f;
-    Numbers errors, edges, tone_mapped, tenfold;
+    Numbers errors, edges, tone_mapped, tenfold, halo_energies, halo_peaks;
     for (const Measurement& run : result.runs) {
         f.bad_pixels += run.artefacts->bad_pixels;
         f.refused += run.counters.refused_samples;
@@ -193,6 +193,10 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
         errors.push_back(run.artefacts->error.relative_mse);
         tone_mapped.push_back(run.artefacts->tone_mapped);
         tenfold.push_back(run.artefacts->tenfold);
+        if (std::isfinite(run.artefacts->halo_peak)) {
+            halo_energies.push_back(run.artefacts->halo_energy);
+            halo_peaks.push_back(run.artefacts->halo_peak);
+        }
         if (run.tiles)
             edges.push_back(run.tiles->edges);
     }
@@ -205,6 +209,8 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     find_spikes(result, f);
     f.tone_mapped = mean_of(tone_mapped);
     f.tenfold = mean_of(tenfold);
+    f.halo_energy = halo_energies.empty() ? none : mean_of(halo_energies);
+    f.halo_peak = halo_peaks.empty() ? none : mean_of(halo_peaks);
     f.tile_edges = edges.empty() ? none : mean_of(edges);
     f.tile_edges_error = edges.empty() ? none : standard_error_of(edges);
     find_factor(result, path_tracing, reference.squared_error_error, f);

@@ -149,7 +149,7 @@ std::string csv(const std::vector<Row>& rows) {
         "scene,method,recon,verdict,cause,seeds,spp,cpu_seconds,energy,energy_error,energy_sigmas,"
         "squared_bias,squared_bias_error,squared_bias_sigmas,relmse,relmse_error,factor,factor_low,"
         "factor_high,spike,worst,worst_x,worst_y,worst_share,tile_edges,tile_edges_error,tone_mapped,tenfold,"
-        "bad_pixels,refused_samples,machine\n";
+        "halo_energy,halo_peak,bad_pixels,refused_samples,machine\n";
     for (const Row& row : rows) {
         const Findings& f = row.findings;
         const PictureSettings& s = row.result.setup.settings;
@@ -177,7 +177,9 @@ std::string csv(const std::vector<Row>& rows) {
                              f.tile_edges,
                              f.tile_edges_error,
                              f.tone_mapped,
-                             f.tenfold})
+                             f.tenfold,
+                             f.halo_energy,
+                             f.halo_peak})
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
         text += fmt::format(",{},{},\"{}\"\n", f.bad_pixels, f.refused, row.result.machine);
     }
@@ -194,17 +196,17 @@ std::vector<OverviewCell> cells_of(const std::vector<Row>& rows) {
 std::string table(const std::vector<Row>& rows) {
     std::string text =
         "| | verdict | error at equal time / PT's | energy % | bias % | spike | worst pixel | worst pixels' "
-        "share | off tenfold % | tone-mapped | tile edges | relMSE | spp |\n"
-        "| --- | --- | --- | --- | --- | ---: | --- | ---: | ---: | ---: | ---: | --- | ---: |\n";
+        "share | off tenfold % | tone-mapped | halo | tile edges | relMSE | spp |\n"
+        "| --- | --- | --- | --- | --- | ---: | --- | ---: | ---: | ---: | --- | ---: | --- | ---: |\n";
     for (const Row& row : rows) {
         const Findings& f = row.findings;
         text += fmt::format(
-            "| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {:.3g} | {:.3g} | {} | "
-            "{:.3g} ± "
-            "{:.1g} | {:.4g} |\n",
+            "| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {:.3g} | {:.3g} | {} ({}) | "
+            "{} | {:.3g} ± {:.1g} | {:.4g} |\n",
             name_of(row.result), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high), percent(f.energy),
             bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x, f.worst_pixel.y, 100 * f.worst_share,
-            100 * f.tenfold, 1000 * f.tone_mapped, cell(f.tile_edges), f.error, f.error_error, spp_of(row.result));
+            100 * f.tenfold, 1000 * f.tone_mapped, cell(f.halo_energy), cell(f.halo_peak), cell(f.tile_edges),
+            f.error, f.error_error, spp_of(row.result));
     }
     return text;
 }
@@ -242,8 +244,10 @@ std::string introduction(const ExperimentOptions& suite, double level) {
         "relative errors, all seeds together. bias: root of the squared bias, without noise, and its upper end (2 "
         "standard errors). worst pixels' share: of relMSE, what about 1 in 1000 pixels (16 at the least) have. "
         "off tenfold: pixels of more than ten times the reference's luminance, or less than a tenth. tone-mapped: "
-        "1000 times the mean squared error of x / (1 + x), which no spike rules. tile edges: spectrum of squared "
-        "steps at the tile frequency, 1 where no grid shows.\n\n",
+        "1000 times the mean squared error of x / (1 + x), which no spike rules. halo: what the brightest spike puts "
+        "outside of its tile, over its own energy, and the largest change of a pixel there, over its brightness (a "
+        "ring or a blob; spread light has much of the former and little of the latter). tile edges: spectrum of "
+        "squared steps at the tile frequency, 1 where no grid shows.\n\n",
         size.x, size.y, to_string(suite.effort), suite.seeds, cpu_model(), sigmas(level), level);
 }
 
