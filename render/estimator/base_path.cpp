@@ -88,11 +88,13 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 
 /// Roulette on path length at x_index: the probability that a path goes on. It follows what this scattering alone
 /// does to light [as in Georgiev 2012's SmallVCM], not all before it: what becomes of a suffix must not depend on
-/// the pixel, or those who share it would not agree on which light paths it has.
-float path_survival(const PathSettings& settings, int index, Rgb f_cos, float pdf_w) {
+/// the pixel, or those who share it would not agree on which light paths it has. Where light is bent, radiance is
+/// squeezed into another solid angle, and spread again where it comes back: that is no loss.
+float path_survival(const PathSettings& settings, int index, const Vertex& x, const BsdfSample& s) {
     if (settings.roulette_depth == 0 || index < settings.roulette_depth)
         return 1;
-    return std::clamp(std::max({f_cos.r, f_cos.g, f_cos.b}) / pdf_w, 0.1f, 0.95f);
+    const float relative = s.scatter == Scatter::transmit ? x.bsdf.relative_index(x.to_previous) : 1;
+    return std::clamp(std::max({s.f_cos.r, s.f_cos.g, s.f_cos.b}) * relative * relative / s.pdf_w, 0.1f, 0.95f);
 }
 
 /// Samples the BSDF at the last vertex, x_index, and appends what lies in that direction; false: the path ends.
@@ -105,7 +107,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
                                  path.random.draw_2d(index, Draw::direction));
     if (!s)
         return false;
-    v.survival = path_survival(tracer.settings, index, s->f_cos, s->pdf_w);
+    v.survival = path_survival(tracer.settings, index, x, *s);
     if (v.survival < 1 && path.random.draw(index, Draw::path_survival) >= v.survival)
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);

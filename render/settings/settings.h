@@ -16,7 +16,7 @@ inline constexpr int most_tile = 16;  ///< pixels along a tile's edge
 struct PathSettings {
     int max_depth = 8;      ///< edges of a light path; 1: emission only
     int light_samples = 1;  ///< points on lights drawn at every vertex
-    int roulette_depth = 0; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
+    int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
 
     bool operator==(const PathSettings&) const = default;
 };

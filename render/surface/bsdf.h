@@ -66,8 +66,8 @@ struct Bsdf {
         return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));
     }
 
-    /// Where light is scattered through the surface: index on the far side over that on the side of to_previous,
-    /// by which such scatters have their half vector. 1: the non-delta part transmits nothing.
+    /// Where light goes through the surface: index on the far side over that on the side of to_previous, by which
+    /// such scatters have their half vector, and by whose square radiance is divided. 1: nothing is bent.
     float relative_index(glm::vec3 to_previous) const {
         return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
     }

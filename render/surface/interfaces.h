@@ -48,6 +48,7 @@ struct SmoothDielectric {
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
     float roughness() const { return 0; }
     Rgb albedo(glm::vec3) const { return Rgb(1); }
+    float relative_index(glm::vec3 to_previous) const { return to_previous.z > 0 ? eta : 1 / eta; }
 };
 
 /// A thin pane of a dielectric, as one surface: light is reflected, or goes straight on; the bounces between the
