@@ -60,8 +60,17 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     });
 }
 
-/// Gradient-domain path tracing [Kettunen 2015]: the primal is path tracing's, each gradient is the difference of
-/// two neighbours that share the light of their base paths. Of the shifts, those to the pixel itself are counted.
+/// Adds a share of what entry 0 of worker.set got to the primal of a sample whose parts are worker.part_primal.
+void add_share(float share, Worker& worker, PixelSample& sample) {
+    sample.primal += worker.set.coefficient(0) * share;
+    const std::span<const Rgb> parts = worker.set.parts_of(0);
+    for (std::size_t l = 0; l < parts.size(); ++l)
+        worker.part_primal[l] += parts[l] * share;
+}
+
+/// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that share the
+/// light of their base paths; the primal is the mean of what the pixel got in these sets, or path tracing's. Of
+/// the shifts, those to the pixel itself are counted.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
@@ -72,9 +81,17 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
             const Rgb albedo = pass.albedo_of(path);
             PixelSample sample{coefficient(path.radiance(), albedo), Rgb(0), Rgb(0), path.very_direct, albedo};
             sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
+            const int sets = (x + 1 < pass.size.x) + (y + 1 < pass.size.y);
+            const bool takes_mean = pass.settings.primal == PrimalSource::reuse && sets > 0;
+            if (takes_mean) {
+                sample.primal = Rgb(0);
+                std::fill(worker.part_primal.begin(), worker.part_primal.end(), Rgb(0));
+            }
             for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
                 share_light(pass, roulette_of(pass.settings), worker);
                 worker.set.expand(film);
+                if (takes_mean)
+                    add_share(1 / static_cast<float>(sets), worker, sample);
                 sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
                 const bool is_dx = gradient == &PixelSample::dx;
                 (is_dx ? sample.parts_dx : sample.parts_dy) = difference(

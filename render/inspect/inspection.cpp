@@ -36,7 +36,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
 
 /// Whether a pixel's primal is the light of its own base path.
 bool has_own_primal(const RenderSettings& s) {
-    return !reuses_paths(s.method) || (s.method == Method::gpr && s.primal == PrimalSource::base);
+    return s.method == Method::pt || (has_gradients(s.method) && s.primal == PrimalSource::base);
 }
 
 /// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
@@ -71,6 +71,8 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
 } // namespace
 
 Rgb Inspection::shared_radiance() const {
+    if (sets.empty())
+        return radiance;
     Rgb sum(0);
     for (const InspectedSet& set : sets)
         sum += set.radiance(pixel) / static_cast<float>(sets.size());

@@ -61,9 +61,9 @@ enum class RouletteKind : std::uint8_t {
     none      ///< every path is reused
 };
 
-/// Where G-PR has its primal image from.
+/// Where G-PT and G-PR have their primal image from.
 enum class PrimalSource : std::uint8_t {
-    reuse, ///< what the sampling sets share out
+    reuse, ///< what the sampling sets share out; in G-PT the mean of a pixel's two
     base   ///< each pixel's own base path
 };
 

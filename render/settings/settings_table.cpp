@@ -61,7 +61,7 @@ constexpr SettingChoice bases[] = {
     {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1108 bytes a pixel more."},
 };
 constexpr SettingChoice primals[] = {
-    {"reuse", "shared paths", "What the pixels of a tile share out: less noise, the same for neighbours."},
+    {"reuse", "shared paths", "What the pixels of a set share out: less noise, alike for neighbours."},
     {"base", "base paths", "Each pixel's own path: as noisy as path tracing, but independent."},
 };
 
@@ -179,8 +179,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Roulette on small weights: a light path whose weight is below this share of the even one is shared out "
          "less often, in proportion (no unit) [Bekaert 2002]. 0: never.",
          Setting::Real{&s.weight_threshold, 0, 1, 0, 1}, joins, true},
-        {"primal", "Primal", "Where G-PR has its primal image from.", one_of(primals, s.primal),
-         s.method == Method::gpr, true},
+        {"primal", "Primal", "Where G-PT and G-PR have their primal image from.", one_of(primals, s.primal),
+         has_gradients(s.method), true},
         {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
          one_of(bases, s.basis), s.method != Method::pt},
         {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},

@@ -70,7 +70,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
             const glm::ivec2 p = pixels[n];
             const Inspection seen =
                 inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), pass, p);
-            sums[n] += settings.method == Method::gpt ? seen.radiance : seen.shared_radiance();
+            sums[n] += seen.shared_radiance();
             const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.radiance()(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
                 << p.x << ',' << p.y << " pass " << pass;
