@@ -20,6 +20,7 @@ namespace tessera {
 class Previews {
 public:
     static constexpr int finest = 4, coarsest = 16;
+    static constexpr int most_pixels = 400'000; ///< of a first preview, as long as it can be coarser
     static constexpr int least_edge = 40; ///< pixels that a preview coarser than the finest has along either edge
 
     /// The divisor of the next preview of a request for a picture of that size; 0: there have been enough.
@@ -27,6 +28,8 @@ public:
         if (!is_first(generation))
             return next_;
         int divisor = first_;
+        while (divisor < coarsest && size.x / divisor > most_pixels / std::max(size.y / divisor, 1))
+            divisor *= 2;
         while (divisor > finest && std::min(size.x, size.y) < divisor * least_edge)
             divisor /= 2;
         return divisor;

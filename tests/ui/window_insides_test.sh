@@ -121,6 +121,7 @@ press 2 '^pane 1 buffer primal$' # as reconstructions go on from the last one, a
 press plus '^exposure 0.5$'
 press ctrl+p '^messages '
 settings=$(saved -settings.json) || exit 1
+sleep 6 # until what was said over the pictures is gone
 look_at_rest settings
 press 0 '^exposure 0$'
 press m '^pane 1 method pt$'
@@ -133,6 +134,7 @@ wait_for '^panes 2$' "$from"
 wait_for '^exposure 0.5$' "$from"
 wait_for '^pane 1 method gpr$' "$from"
 wait_for "^pane 1 spp $spp\$" "$from"
+sleep 6
 look_at_rest loaded
 same settings loaded
 

@@ -36,6 +36,7 @@ wait_for '^pane 0 method gpr$' "$from"
 from=$(next_line)
 click pane0.method
 wait_for '^control pane0.method/gpr ' "$from"
+sleep 0.5
 xdotool key Up sleep 0.3 key Return
 wait_for '^pane 0 method gpt$' "$from"
 click pane0.method
