@@ -2,10 +2,13 @@
 
 #include "tests/ui/charts_fixture.h"
 #include "ui/charts/charts.h"
+#include "ui/panes/pane_parts.h"
 #include "ui/state/companions.h"
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <string>
 
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
@@ -39,6 +42,9 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
         state().pace.spp_limit = spp;
         wait_for_errors(1, spp);
     }
+    char error[32];
+    std::snprintf(error, sizeof error, "   relMSE %.3g", errors(1).back().error);
+    EXPECT_NE(status_text(state(), 1).find(error), std::string::npos) << status_text(state(), 1);
     const std::size_t weighted = errors(1).size();
     EXPECT_GE(weighted, 2u);
     state().panes[1].settings.reconstruction = {Norm::l1, 0.3f, true};

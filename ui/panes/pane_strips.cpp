@@ -148,6 +148,16 @@ std::string reconstruction_text(const Snapshot& snapshot) {
     return text;
 }
 
+/// "   relMSE 0.0123": of the newest picture that was measured; empty: none was, or there is no reference.
+std::string error_text(const ViewerState& state, const PaneState& pane) {
+    const PaneChart& chart = state.chart_of(pane);
+    if (!state.companions.reference || chart.curves.empty() || chart.generation != pane.generation)
+        return "";
+    char text[32];
+    std::snprintf(text, sizeof text, "   relMSE %.3g", chart.curves.back().points().back().error);
+    return text;
+}
+
 /// "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a share before the first step.
 std::string under_way_text(const ReconstructionUnderWay& now) {
     char share[16] = "", text[96];
@@ -190,7 +200,7 @@ std::string status_text(const ViewerState& state, int index) {
     char text[160];
     std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
                   rate * 1e-6);
-    line += text;
+    line += text + error_text(state, pane);
     if (snapshot.coarse())
         line += "   first look";
     else if (!reconstructs_long && snapshot.reconstruction && has_gradients(snapshot.settings.method))
