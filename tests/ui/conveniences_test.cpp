@@ -5,6 +5,7 @@
 #include "tests/ui/panes_fixture.h"
 #include "ui/state/presets.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -61,6 +62,29 @@ TEST_F(Panes, CommandsAreFoundByWords) {
     type(Key::down);
     type(Key::escape);
     EXPECT_FALSE(has("palette.text"));
+}
+
+TEST_F(Panes, TheHelpIsFoundByWords) {
+    state().layout.show_help = true;
+    frames(3);
+    ASSERT_TRUE(has("help.text"));
+    save("help.png");
+    const ScreenPixels all = screen();
+    click("help.text");
+    for (char c : std::string_view("roulette"))
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
+    frames(3);
+    save("help-found.png");
+    const ScreenPixels found = screen();
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < all.rgb.size(); ++i)
+        changed += all.rgb[i] != found.rgb[i];
+    EXPECT_GT(changed, 20000u) << "what was not looked for is gone";
+    EXPECT_TRUE(state().layout.show_help);
+    type(Key::escape); // ends the text
+    type(Key::escape);
+    frames(2);
+    EXPECT_FALSE(has("help.text"));
 }
 
 TEST_F(Panes, ChangesAreTakenBackByKeys) {

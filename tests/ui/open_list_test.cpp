@@ -51,6 +51,15 @@ TEST_F(OpenList, ArrowsChooseAndReturnTakes) {
     EXPECT_TRUE(state().camera.camera() == camera);
 }
 
+TEST_F(OpenList, ArrowsBeginAtWhatIsChosen) {
+    click_at("pane1.method", 0.3f);
+    ASSERT_TRUE(has("pane1.method/gpr"));
+    frames(3);
+    key(Key::up);
+    key(Key::enter);
+    EXPECT_EQ(pane(1).settings.render.method, Method::gpt);
+}
+
 TEST_F(OpenList, HeldArrowsDoNotTurnTheCamera) {
     open();
     viewer.keyboard().press(Key::down, Key::down, false, false);

@@ -86,7 +86,7 @@ bool Controls::choice(const char* id, const char* label_text, std::span<const Ch
 bool Controls::bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index,
                            float width, const char* help) {
     ImGui::SetNextItemWidth(width);
-    const bool open = ImGui::BeginCombo(hidden_label(id).c_str(), shown, ImGuiComboFlags_HeightLarge);
+    const bool open = ImGui::BeginCombo(hidden_label(id).c_str(), shown, ImGuiComboFlags_HeightLargest);
     bool changed = false;
     if (open) {
         for (std::size_t i = 0; i < items.size(); ++i) {
@@ -95,6 +95,8 @@ bool Controls::bare_choice(const char* id, const char* shown, std::span<const Ch
                 changed = !selected;
                 index = static_cast<int>(i);
             }
+            if (selected)
+                ImGui::SetItemDefaultFocus(); // arrows begin there
             place((std::string(id) + "/" + items[i].id).c_str(), items[i].help.c_str());
         }
         ImGui::EndCombo(); // the item is the combo itself again

@@ -144,48 +144,6 @@ void draw_message(Message& message, int index, Controls& controls, ViewerState& 
     ImGui::PopFont();
 }
 
-void draw_action_table() {
-    if (!ImGui::BeginTable("actions", 3, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
-        return;
-    ImGui::TableSetupColumn("key");
-    ImGui::TableSetupColumn("name");
-    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
-    for (const Action& action : actions()) {
-        std::string keys = to_string(action.shortcut);
-        if (action.second_shortcut != Shortcut{})
-            keys += "   " + to_string(action.second_shortcut);
-        ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
-        ImGui::TextUnformatted(keys.c_str());
-        ImGui::PopStyleColor();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(action.name);
-        ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(action.help);
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleColor();
-    }
-    ImGui::EndTable();
-}
-
-void draw_gesture_table() {
-    if (!ImGui::BeginTable("gestures", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
-        return;
-    ImGui::TableSetupColumn("input");
-    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
-    for (const Gesture& gesture : gestures()) {
-        ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
-        ImGui::TextUnformatted(gesture.input);
-        ImGui::PopStyleColor();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(gesture.help);
-    }
-    ImGui::EndTable();
-}
-
 } // namespace
 
 float draw_menu_bar(Controls& controls, ViewerState& state) {
@@ -225,30 +183,6 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
         ImGui::EndChild();
     }
     ImGui::End();
-}
-
-void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state) {
-    const float font = ImGui::GetFontSize();
-    const glm::vec2 size(std::min(screen.x, font * 52), std::min(screen.y, font * 50));
-    ImGui::SetNextWindowPos({(screen.x - size.x) * 0.5f, (screen.y - size.y) * 0.5f});
-    ImGui::SetNextWindowSize({size.x, size.y});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    if (ImGui::Begin("Help", nullptr, overlay_flags)) {
-        // The button stays where it is while the page is scrolled.
-        ImGui::BeginChild("page", {0, -ImGui::GetFrameHeightWithSpacing()});
-        heading("Keys");
-        draw_action_table();
-        heading("Mouse and camera");
-        draw_gesture_table();
-        ImGui::EndChild();
-        if (controls.button("close_help", "Close", "Closes this page (F1, ? or Esc)."))
-            state.layout.show_help = false;
-    }
-    ImGui::End();
-    ImGui::PopStyleVar(2);
-    ImGui::PopStyleColor();
 }
 
 void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,

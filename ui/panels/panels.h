@@ -45,8 +45,14 @@ void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state
 /// The messages, newest last; over the pictures, whose size must not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// Draws all actions and gestures, over everything.
-void draw_help(glm::vec2 screen, Controls& controls, ViewerState& state);
+/// All actions by menu, and all gestures, to be found by words; over everything.
+class HelpPage {
+public:
+    void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
+
+private:
+    std::array<char, 128> text_{};
+};
 
 /// What is being loaded and how far that is, over the pictures, and a button to give it up.
 void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,

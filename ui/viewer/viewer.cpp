@@ -261,7 +261,7 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
     if (state_.layout.sample_form.show)
         draw_sample_dialog(screen, controls_, state_);
     if (state_.layout.show_help)
-        draw_help(screen, controls_, state_);
+        help_.draw(screen, controls_, state_);
     if (load_.running())
         draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
     else if (!state_.scene && !state_.scene_problem.text.empty())

@@ -190,6 +190,7 @@ private:
     ChartJob chart_job_;
     FileDialog file_dialog_;
     CommandPalette palette_;
+    HelpPage help_;
     SaveQueue save_queue_;
     Preferences preferences_;                // as the file last had them
     std::string told_of_preferences_;        // the last note
