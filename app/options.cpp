@@ -214,12 +214,14 @@ int run_command_line(int argc, char** argv) {
     RenderOptions render_options;
     ExperimentWords sweep_words, bench_words, stability_words;
     ReferenceWords reference_words;
+    MergeOptions merge_options;
     CompareOptions compare_options;
     ViewOptions view_options;
     ReconstructWords reconstruct_words;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
     add_reference(app, reference_words);
+    add_merge(app, merge_options);
     add_sweep(app, sweep_words);
     add_bench(app, bench_words);
     add_stability(app, stability_words);
@@ -236,9 +238,9 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_ok : exit_bad_input;
     }
     if (app.get_subcommands().empty())
-        throw BadInput(
-            "no command was given: view, render, reconstruct, reference, sweep, bench, stability, compare or info "
-            "(tessera --help)");
+        throw BadInput("no command was given: view, render, reconstruct, reference, merge, sweep, bench, "
+                       "stability, compare or info "
+                       "(tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("reconstruct"))
@@ -251,6 +253,8 @@ int run_command_line(int argc, char** argv) {
         return run_stability(parse_experiment(*app.get_subcommand("stability"), stability_words));
     if (app.got_subcommand("reference"))
         return run_reference(parse_reference(*app.get_subcommand("reference"), reference_words));
+    if (app.got_subcommand("merge"))
+        return run_merge(merge_options);
     if (app.got_subcommand("view"))
         return view(*app.get_subcommand("view"), view_words, view_options);
     if (app.got_subcommand("compare"))

@@ -88,17 +88,18 @@ struct ReferenceOptions {
     ReferenceRecipe recipe;
     std::optional<int> max_depth;   ///< empty: the scene's own
     std::optional<glm::ivec2> size; ///< empty: the scene's own
+    bool is_share = false;          ///< the recipe's share is to be written, be it one of one
     int threads = 0;                ///< 0: one a hardware thread
     std::filesystem::path output;
 };
 
-/// Renders a reference, from a checkpoint if there is one, and prints its error. Returns an ExitCode: failure if
-/// Ctrl-C came before it was complete. Throws BadInput, LoadError or another std::exception.
+/// Renders a reference or a share of one, from a checkpoint if there is one, and prints its error. Returns an
+/// ExitCode: failure if Ctrl-C came before it was complete. Throws BadInput, LoadError or another std::exception.
 int run_reference(const ReferenceOptions& options);
 
 /// The words of `tessera reference`, before they are given a meaning.
 struct ReferenceWords {
-    std::string scene, camera, norms;
+    std::string scene, camera, norms, share;
     glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
     bool strict = false;
@@ -110,6 +111,19 @@ void add_reference(CLI::App& app, ReferenceWords& words);
 
 /// What the words mean. Throws BadInput that names the option.
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words);
+
+/// What `tessera merge` is asked for.
+struct MergeOptions {
+    std::vector<std::filesystem::path> shares; ///< in any order
+    std::filesystem::path output;
+};
+
+/// Adds the command; `options` take what is given to it, and must live as long as `app`.
+void add_merge(CLI::App& app, MergeOptions& options);
+
+/// Adds the shares of a reference up, and prints its error. Returns an ExitCode. Throws BadInput, and as
+/// merge_shares does.
+int run_merge(const MergeOptions& options);
 
 /// What `tessera reconstruct` is asked for.
 struct ReconstructOptions {

@@ -3,6 +3,7 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/io/files.h"
+#include "render/run/reference_share.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
@@ -42,8 +43,24 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
           most_seconds)
         ->capture_default_str();
+    command.add_option("--share", words.share,
+                       "K/N: the K-th of N parts of its samples, on whichever machine; `tessera merge` adds the "
+                       "parts up. OUTPUT is then no EXR file, and ends in .share");
     command.add_option("-o,--output", words.options.output, "EXR file to write")->required();
 }
+
+namespace {
+
+PassShare parse_share(const std::string& text) {
+    PassShare share;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%9d/%9d%n", &share.number, &share.count, &end) != 2 ||
+        end != static_cast<int>(text.size()) || share.number < 1 || share.number > share.count)
+        throw BadInput(fmt::format("--share {}: must be K/N, two whole numbers, K from 1 to N", text));
+    return share;
+}
+
+} // namespace
 
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words) {
     ReferenceOptions options = words.options;
@@ -54,13 +71,33 @@ ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& 
         options.size = words.size;
     if (!words.norms.empty())
         options.recipe.norms = parse_norms(words.norms);
+    if (!words.share.empty()) {
+        options.is_share = true;
+        options.recipe.share = parse_share(words.share);
+    }
     return options;
 }
 
+namespace {
+
+void print_error(const std::filesystem::path& output, const ReferenceImage& reference) {
+    const FloorFreeError error = error_of(reference);
+    fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(), error.relative_mse,
+               error.standard_error);
+    if (const double share = untrusted_share(reference.doubt); share > 0)
+        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, or one sample "
+                   "makes more than a quarter of them (layer doubt)\n",
+                   100 * share, 100 * most_doubt);
+}
+
+} // namespace
+
 int run_reference(const ReferenceOptions& options) {
     check(options.recipe.settings);
-    if (extension_of(options.output) != ".exr")
-        throw BadInput(fmt::format("{}: the name must end in .exr", options.output.string()));
+    const char* const extension = options.is_share ? ".share" : ".exr";
+    if (extension_of(options.output) != extension)
+        throw BadInput(fmt::format("{}: the name must end in {}", options.output.string(), extension));
+    passes_of(options.recipe);
     check_outputs({{"-o", options.output}},
                   {{"the scene", options.scene.file}, {"--camera", options.scene.camera}});
     check_writable(options.output);
@@ -72,19 +109,42 @@ int run_reference(const ReferenceOptions& options) {
     recipe.settings.max_depth = options.max_depth.value_or(std::min(opened.scene->max_depth(), most_edges));
 
     const InterruptGuard guard;
-    const auto reference = render_reference(options.output, options.scene, opened.scene, recipe, pool);
-    if (!reference) {
-        fmt::print(stderr, "{}: not complete; the same command goes on from its checkpoint\n",
-                   options.output.string());
-        return exit_failure;
+    bool is_complete = false;
+    if (options.is_share) {
+        is_complete = render_share(options.output, options.scene, opened.scene, recipe, pool);
+    } else if (const auto reference =
+                   render_reference(options.output, options.scene, opened.scene, recipe, pool)) {
+        is_complete = true;
+        print_error(options.output, *reference);
     }
-    const FloorFreeError error = error_of(*reference);
-    fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", options.output.string(),
-               error.relative_mse, error.standard_error);
-    if (const double share = untrusted_share(reference->doubt); share > 0)
-        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, or one sample "
-                   "makes more than a quarter of them (layer doubt)\n",
-                   100 * share, 100 * most_doubt);
+    if (is_complete)
+        return exit_ok;
+    fmt::print(stderr, "{}: not complete; the same command goes on from its checkpoint\n",
+               options.output.string());
+    return exit_failure;
+}
+
+void add_merge(CLI::App& app, MergeOptions& options) {
+    CLI::App& command = *app.add_subcommand("merge", "a reference from its shares");
+    command.footer(
+        "Shares are files of `tessera reference --share K/N`, all N of them, in any order. They must be of the "
+        "same scene, camera, settings and version of the program: what is missing, there twice or of "
+        "something else is named. For one N the picture has the same bits, wherever and whenever its "
+        "shares were rendered; whatever N is, it has no more bias than one in one piece. Takes memory "
+        "for two shares, not for all.");
+    command.add_option("shares", options.shares, "files of shares")->required();
+    command.add_option("-o,--output", options.output, "EXR file to write")->required();
+}
+
+int run_merge(const MergeOptions& options) {
+    if (extension_of(options.output) != ".exr")
+        throw BadInput(fmt::format("{}: the name must end in .exr", options.output.string()));
+    std::vector<NamedFile> inputs;
+    for (const std::filesystem::path& share : options.shares)
+        inputs.push_back({"a share", share});
+    check_outputs({{"-o", options.output}}, inputs);
+    check_writable(options.output);
+    print_error(options.output, merge_shares(options.shares, options.output));
     return exit_ok;
 }
 

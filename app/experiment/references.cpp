@@ -13,28 +13,48 @@
 
 namespace tessera {
 
-std::optional<ReferenceImage> render_reference(const std::filesystem::path& output, const SceneSource& source,
-                                               const std::shared_ptr<const Scene>& scene,
-                                               const ReferenceRecipe& recipe, ThreadPool& pool) {
-    ReferenceRender render(output, {source, scene, scene->camera()}, recipe, pool);
-    const int resumed = render.spp_resumed();
+namespace {
+
+/// Renders until it is complete, telling on the terminal how far it is. False: Ctrl-C ended it.
+bool complete(ReferenceRender& render, const std::filesystem::path& output, const SceneSource& source) {
+    const int resumed = render.spp_resumed(), wanted = render.spp_wanted();
     if (resumed > 0)
         fmt::print(stderr, "{}: going on from {} spp\n", reference_checkpoint(output).string(), resumed);
     {
         Progress progress("reference");
         const auto tell = [&](const ReferenceRender& r) {
             if (r.spp() > resumed)
-                progress.update(static_cast<double>(r.spp() - resumed) / (recipe.spp - resumed), r.seconds(),
-                                fmt::format("{} of {} spp", r.spp(), recipe.spp));
+                progress.update(static_cast<double>(r.spp() - resumed) / (wanted - resumed), r.seconds(),
+                                fmt::format("{} of {} spp", r.spp(), wanted));
             return !interrupted();
         };
         if (!render.run(tell))
-            return {};
+            return false;
         tell(render);
     }
     for (const Render& half : render.halves())
         warn_of_refused(source, half);
+    return true;
+}
+
+} // namespace
+
+std::optional<ReferenceImage> render_reference(const std::filesystem::path& output, const SceneSource& source,
+                                               const std::shared_ptr<const Scene>& scene,
+                                               const ReferenceRecipe& recipe, ThreadPool& pool) {
+    ReferenceRender render(output, {source, scene, scene->camera()}, recipe, pool);
+    if (!complete(render, output, source))
+        return {};
     return render.finish();
+}
+
+bool render_share(const std::filesystem::path& output, const SceneSource& source,
+                  const std::shared_ptr<const Scene>& scene, const ReferenceRecipe& recipe, ThreadPool& pool) {
+    ReferenceRender render(output, {source, scene, scene->camera()}, recipe, pool);
+    if (!complete(render, output, source))
+        return false;
+    render.finish_share();
+    return true;
 }
 
 FolderReference::FolderReference(const std::filesystem::path& folder, const std::string& scene_name,

@@ -15,6 +15,11 @@ std::optional<ReferenceImage> render_reference(const std::filesystem::path& outp
                                                const std::shared_ptr<const Scene>& scene,
                                                const ReferenceRecipe& recipe, ThreadPool& pool);
 
+/// Does the same with the recipe's share of one, of which it writes the file that merge_shares reads. False:
+/// Ctrl-C ended it.
+bool render_share(const std::filesystem::path& output, const SceneSource& source,
+                  const std::shared_ptr<const Scene>& scene, const ReferenceRecipe& recipe, ThreadPool& pool);
+
 /// A reference in a folder of many: of one scene, in one size and to one depth.
 class FolderReference {
 public:

@@ -41,6 +41,20 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
                    [passes](const Moments& m) { return variance_of(m, passes); });
 }
 
+/// What two entries at the same place become, in the first image.
+template <class Entry, class Join>
+void join(Image<Entry>& into, const Image<Entry>& other, Join joined) {
+    std::transform(into.begin(), into.end(), other.begin(), into.begin(), joined);
+}
+
+template <class Entry>
+void add_entries(Image<Entry>& into, const Image<Entry>& other) {
+    join(into, other, [](Entry a, const Entry& b) {
+        a += b;
+        return a;
+    });
+}
+
 } // namespace
 
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
@@ -137,6 +151,25 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
         dx_(x, y) += sample.dx;
     if (y + 1 < height())
         dy_(x, y) += sample.dy;
+}
+
+void Film::add(const Film& other) {
+    for (Image<Moments> Film::*sums : {&Film::primal_, &Film::dx_, &Film::dy_})
+        add_entries(this->*sums, other.*sums);
+    for (Image<glm::dvec3> Film::*sums : {&Film::value_, &Film::sampled_albedo_, &Film::albedo_squares_,
+                                          &Film::albedo_values_, &Film::beside_, &Film::very_direct_})
+        add_entries(this->*sums, other.*sums);
+    add_entries(parts_, other.parts_);
+    add_entries(paths_, other.paths_);
+    add_entries(reuse_, other.reuse_);
+    join(brightest_, other.brightest_,
+         [](const Brightest& a, const Brightest& b) { return b.size > a.size ? b : a; });
+    join(albedo_, other.albedo_,
+         [](const AlbedoPoints& a, const AlbedoPoints& b) { return b.count > a.count ? b : a; });
+    join(lamp_edges_, other.lamp_edges_,
+         [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+    projections_ = other.projections_; // the same ones, where this film has had a pass
+    luminance_ = other.luminance_;
 }
 
 void Film::add_albedo(int x, int y, int pass, Rgb albedo, Counters& counters) {

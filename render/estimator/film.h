@@ -63,6 +63,10 @@ class Film {
             sum += v;
             squares += glm::dot(v, v);
         }
+        void operator+=(const Moments& other) {
+            sum += other.sum;
+            squares += other.squares;
+        }
     };
 
 public:
@@ -88,6 +92,11 @@ public:
     void add_albedo(int x, int y, int pass, Rgb albedo, Counters& counters);
     /// Between passes: finds out where more points are needed.
     void ask_for_albedo(int passes);
+
+    /// Adds what another film of the same size and buffers has summed, of other passes of the same render. The
+    /// bits depend on the order in which films are added. Of albedos, whose points are the same ones in each,
+    /// those of the film that has more of a pixel are kept; likewise of luminances the other's.
+    void add(const Film& other);
 
     /// s^l of a pixel, FilmBuffers::parts numbers (basis.h): to be set before its first sample, and never again.
     const float* projection(int x, int y) const { return projections_.row(y) + x * parts_a_pixel_; }
@@ -134,6 +143,12 @@ private:
 
     struct Part {
         Moments primal, dx, dy;
+
+        void operator+=(const Part& other) {
+            primal += other.primal;
+            dx += other.dx;
+            dy += other.dy;
+        }
     };
 
     /// The sample that brought most to a pixel: primal, gradients, and its radiance over the primal.

@@ -51,32 +51,75 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
     temporary.commit();
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path) {
-    const auto fail = [&](const char* why) { throw std::runtime_error(path.string() + ": " + why); };
-    std::ifstream in(path, std::ios::binary);
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* why) {
+    throw std::runtime_error(path.string() + ": " + why);
+}
+
+/// A checkpoint's file, read up to its state.
+struct OpenedCheckpoint {
     CheckpointHeader header;
-    if (!in || !in.read(reinterpret_cast<char*>(&header), sizeof header) ||
+    std::string identity;
+    std::ifstream rest;
+};
+
+OpenedCheckpoint open_checkpoint(const std::filesystem::path& path) {
+    OpenedCheckpoint opened;
+    CheckpointHeader& header = opened.header;
+    opened.rest.open(path, std::ios::binary);
+    if (!opened.rest || !opened.rest.read(reinterpret_cast<char*>(&header), sizeof header) ||
         std::memcmp(header.magic, CheckpointHeader().magic, sizeof header.magic) != 0)
-        fail("is not a checkpoint");
+        fail(path, "is not a checkpoint");
     // Sizes are looked at before memory is asked for.
     const std::uint64_t rest = std::filesystem::file_size(path) - sizeof header;
     if (header.identity_bytes > rest || header.state_bytes != rest - header.identity_bytes)
-        fail("is damaged: its length is not what its head says");
-    Checkpoint checkpoint;
-    checkpoint.identity.resize(header.identity_bytes);
-    checkpoint.state.resize(header.state_bytes);
-    in.read(checkpoint.identity.data(), static_cast<std::streamsize>(header.identity_bytes));
-    in.read(reinterpret_cast<char*>(checkpoint.state.data()), static_cast<std::streamsize>(header.state_bytes));
-    if (!in || checksum(checkpoint.state, checksum(bytes_of(checkpoint.identity))) != header.checksum)
-        fail("is damaged");
+        fail(path, "is damaged: its length is not what its head says");
+    opened.identity.resize(header.identity_bytes);
+    opened.rest.read(opened.identity.data(), static_cast<std::streamsize>(header.identity_bytes));
+    return opened;
+}
+
+/// Reads the state into the memory, which has its size.
+void read_state(OpenedCheckpoint& opened, const std::filesystem::path& path, const Memory& memory) {
+    std::uint32_t sum = checksum(bytes_of(opened.identity));
+    for (std::span<std::byte> piece : memory) {
+        opened.rest.read(reinterpret_cast<char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
+        sum = checksum(piece, sum);
+    }
+    if (!opened.rest || sum != opened.header.checksum)
+        fail(path, "is damaged");
+}
+
+std::uint64_t size_of(const Memory& memory) {
+    std::uint64_t size = 0;
+    for (std::span<std::byte> piece : memory)
+        size += piece.size();
+    return size;
+}
+
+} // namespace
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+    OpenedCheckpoint opened = open_checkpoint(path);
+    Checkpoint checkpoint{opened.identity, std::vector<std::byte>(opened.header.state_bytes)};
+    read_state(opened, path, {std::span(checkpoint.state)});
     return checkpoint;
 }
 
+std::string read_identity(const std::filesystem::path& path) {
+    return open_checkpoint(path).identity;
+}
+
+void restore(const std::filesystem::path& path, const Memory& memory) {
+    OpenedCheckpoint opened = open_checkpoint(path);
+    if (opened.header.state_bytes != size_of(memory))
+        fail(path, "is of another version of the program, or another size");
+    read_state(opened, path, memory);
+}
+
 bool fits(const Checkpoint& checkpoint, const Memory& memory) {
-    std::size_t size = 0;
-    for (std::span<std::byte> piece : memory)
-        size += piece.size();
-    return size == checkpoint.state.size();
+    return size_of(memory) == checkpoint.state.size();
 }
 
 void restore(const Checkpoint& checkpoint, const Memory& memory) {

@@ -20,6 +20,13 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& iden
 /// Reads a checkpoint. Throws std::runtime_error that names the file where it is none, or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
+/// The identity alone. Throws as read_checkpoint does, but does not look at the state.
+std::string read_identity(const std::filesystem::path& path);
+
+/// Fills the memory from the file, of which nothing else is held in memory. Throws std::runtime_error that names
+/// the file where it is no checkpoint, or of another size; or damaged: then the memory holds anything.
+void restore(const std::filesystem::path& path, const Memory& memory);
+
 /// Whether the memory has the size that it had when the checkpoint was written.
 bool fits(const Checkpoint& checkpoint, const Memory& memory);
 

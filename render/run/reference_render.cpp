@@ -5,11 +5,13 @@
 #include "render/run/checkpoint.h"
 #include "render/run/fitting_reconstruction.h"
 #include "render/run/picture_identity.h"
+#include "render/run/reference_share.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -54,7 +56,7 @@ Halves best_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
 Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
     RenderSettings settings = recipe.settings;
     settings.seed += i;
-    return Render(subject.scene, subject.camera, recipe.size, settings);
+    return Render(subject.scene, subject.camera, recipe.size, settings, passes_of(recipe).first);
 }
 
 } // namespace
@@ -76,11 +78,24 @@ std::filesystem::path reference_checkpoint(const std::filesystem::path& output) 
     return output.string() + ".checkpoint";
 }
 
+PassRange passes_of(const ReferenceRecipe& recipe) {
+    const auto [number, count] = recipe.share;
+    const std::int64_t all = (std::int64_t{recipe.spp} + 1) / 2;
+    if (number < 1 || number > count)
+        throw std::invalid_argument(fmt::format("share {} of {}: there is none", number, count));
+    if (count > all)
+        throw std::invalid_argument(fmt::format(
+            "{} shares of {} samples a pixel: at most {}, one a sample of each half", count, recipe.spp, all));
+    const auto begin_of = [&](int share) { return static_cast<int>(all * (share - 1) / count); };
+    return {begin_of(number), begin_of(number + 1) - begin_of(number)};
+}
+
 ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject subject,
                                  const ReferenceRecipe& recipe, ThreadPool& pool)
     : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe),
       pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
-      identity_(picture_identity(subject_, recipe.settings, recipe.size)) {
+      identity_(share_identity(subject_, recipe)),
+      wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();
 }
@@ -103,18 +118,19 @@ bool ReferenceRender::run(const Watch& watch, const std::stop_token& stop) {
 
 double ReferenceRender::seconds_left() const {
     const int done = spp() - spp_resumed_;
-    return done == 0 ? std::numeric_limits<double>::infinity() : seconds() / done * (recipe_.spp - spp());
+    return done == 0 ? std::numeric_limits<double>::infinity() : seconds() / done * (wanted_ - spp());
 }
 
 FloorFreeError ReferenceRender::error_so_far() const {
     return best_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); }).error;
 }
 
-ReferenceImage ReferenceRender::finish() {
+ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
+                            const SceneSource& source, const SceneChecksums& scene) {
     ReferenceImage reference;
-    Image<float> spikes(recipe_.size.x, recipe_.size.y);
-    Halves best = best_halves(recipe_, [&](std::size_t i) {
-        GradientImages images = halves_[i].take_images();
+    Image<float> spikes(recipe.size.x, recipe.size.y);
+    Halves best = best_halves(recipe, [&](std::size_t i) {
+        GradientImages images = halves[i].take_images();
         const RgbImage held = held_light(images);
         for (std::size_t p = 0; p < spikes.size(); ++p)
             spikes.data()[p] = std::max(spikes.data()[p], is_black(held.data()[p]) ? 0.0f : 1.0f);
@@ -122,20 +138,32 @@ ReferenceImage ReferenceRender::finish() {
     });
     for (std::size_t i = 0; i < 2; ++i) {
         reference.halves[i] = std::move(best.images[i]);
-        reference.seeds[i] = halves_[i].settings().seed;
+        reference.seeds[i] = halves[i].settings().seed;
     }
     reference.mean = mean_of(reference.halves[0], reference.halves[1]);
     reference.doubt = doubt_of(reference.halves, spikes);
-    ReconstructionSettings reconstruction = recipe_.reconstruction;
+    ReconstructionSettings reconstruction = recipe.reconstruction;
     reconstruction.norm = best.norm;
-    auto settings = settings_json(subject_.source, recipe_.settings, recipe_.size, spp(), reconstruction);
+    auto settings =
+        settings_json(source, recipe.settings, recipe.size, halves[0].spp() + halves[1].spp(), reconstruction);
     settings["recon"] = to_string(best.norm);
     reference.settings = to_text(settings);
-    reference.camera = camera_json(subject_.camera);
-    reference.scene = checksums_of(subject_.scene->description(), subject_.camera);
+    reference.camera = camera_json(halves[0].camera());
+    reference.scene = scene;
+    return reference;
+}
+
+ReferenceImage ReferenceRender::finish() {
+    ReferenceImage reference = reference_of(halves_, recipe_, subject_.source,
+                                            checksums_of(subject_.scene->description(), subject_.camera));
     write_reference(output_, reference);
     std::filesystem::remove(reference_checkpoint(output_)); // not before the picture is there
     return reference;
+}
+
+void ReferenceRender::finish_share() {
+    write_checkpoint(output_, share_header(subject_, recipe_), memory());
+    std::filesystem::remove(reference_checkpoint(output_)); // not before the share is there
 }
 
 Memory ReferenceRender::memory() {
@@ -160,9 +188,9 @@ void ReferenceRender::resume() {
     if (!fits(checkpoint, memory()))
         refuse("another version of the program");
     restore(checkpoint, memory());
-    if (spp() > recipe_.spp + 1)
+    if (spp() > wanted_ + 1)
         throw std::runtime_error(
-            fmt::format("{} has {} spp already, and {} are asked for", file.string(), spp(), recipe_.spp));
+            fmt::format("{} has {} spp already, and {} are asked for", file.string(), spp(), wanted_));
     spp_resumed_ = spp();
     seconds_resumed_ = seconds_of_halves();
 }

@@ -22,6 +22,15 @@ inline constexpr std::uint64_t first_reference_seed = 1001;
 /// G-PR with large tiles, which few samples of a reference make up for.
 RenderSettings reference_settings();
 
+/// One of so many parts into which the passes of a reference are divided.
+struct PassShare {
+    int number = 1; ///< from 1 to `count`
+    int count = 1;
+
+    bool is_all() const { return count == 1; }
+    bool operator==(const PassShare&) const = default;
+};
+
 /// How a reference is made.
 struct ReferenceRecipe {
     RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
@@ -33,7 +42,19 @@ struct ReferenceRecipe {
     /// rings of light that few samples find, as through glass, where the primal alone is better.
     std::vector<Norm> norms{Norm::l2, Norm::none};
     double checkpoint_seconds = 60; ///< wall time between checkpoints
+    PassShare share;                ///< the part that is rendered; others may be, elsewhere (reference_share.h)
 };
+
+/// The passes of a share in each of the two halves.
+struct PassRange {
+    int first, count;
+};
+/// Throws std::invalid_argument for a share that there is not, and where there are more shares than passes.
+PassRange passes_of(const ReferenceRecipe& recipe);
+
+/// What two halves come to that have all passes of the recipe, and give up what they have summed.
+ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
+                            const SceneSource& source, const SceneChecksums& scene);
 
 /// The file of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
@@ -58,8 +79,8 @@ public:
     /// then writes a last checkpoint. True: it is complete.
     bool run(const Watch& watch, const std::stop_token& stop = {});
 
-    int spp() const { return halves_[0].spp() + halves_[1].spp(); } ///< of both halves
-    int spp_wanted() const { return recipe_.spp; }
+    int spp() const { return halves_[0].spp() + halves_[1].spp(); }           ///< of both halves
+    int spp_wanted() const { return wanted_; }                                ///< of the recipe, or of its share
     int spp_resumed() const { return spp_resumed_; }                          ///< those of the checkpoint
     double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time of passes since
     double seconds_left() const;                                              ///< infinite before the first pass
@@ -71,9 +92,11 @@ public:
 
     /// Writes the reference once it is complete, and only then takes the checkpoint away. Nothing may follow.
     ReferenceImage finish();
+    /// Likewise where it is a share of one: writes the file that merge_shares reads.
+    void finish_share();
 
 private:
-    bool is_complete() const { return spp() >= recipe_.spp && halves_[0].spp() == halves_[1].spp(); }
+    bool is_complete() const { return spp() >= wanted_ && halves_[0].spp() == halves_[1].spp(); }
     double seconds_of_halves() const { return halves_[0].seconds() + halves_[1].seconds(); }
     Memory memory();
     void write();
@@ -85,6 +108,7 @@ private:
     ThreadPool& pool_;
     std::array<Render, 2> halves_;
     std::string identity_;
+    int wanted_;
     int spp_resumed_ = 0;
     double seconds_resumed_ = 0;
 };

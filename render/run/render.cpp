@@ -46,10 +46,10 @@ glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
 } // namespace
 
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
-               const RenderSettings& settings)
+               const RenderSettings& settings, int first_pass)
     : scene_(std::move(scene)), camera_(camera), size_(checked(size, settings)), settings_(settings),
       film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_),
-      newest_plan_(std::make_shared<const ReusePlan>(plan_)) {
+      newest_plan_(std::make_shared<const ReusePlan>(plan_)), first_pass_(first_pass) {
     check(settings);
     done_blocks_.resize(most_blocks(size, settings));
 }
@@ -103,9 +103,11 @@ private:
     std::vector<std::unique_ptr<Worker>> all_;
 };
 
-/// The edges of lamps, and the projections: what is to be known before the first pass. False: stopped; a part of
-/// it tells nothing.
-bool Render::look_first(const Pass& pass, const std::vector<PixelRect>& blocks, Workers& workers) {
+/// The edges of lamps, and the projections: what is to be known before the first pass, whichever that is. False:
+/// stopped; a part of it tells nothing.
+bool Render::look_first(Workers& workers) {
+    const Pass pass(*scene_, camera_, size_, settings_, plan_, 0);
+    const std::vector<PixelRect> blocks = blocks_of(pass);
     const int looks = very_direct_looks(pass);
     for (int look = 0; look < looks; ++look) {
         RgbImage lamps(size_.x, size_.y);
@@ -148,10 +150,10 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     const bool is_begun = spp_ > 0 || done_before > 0;
     if (!is_begun && !send_pilot(pool, stop))
         return false;
-    const Pass pass(*scene_, camera_, size_, settings_, plan_, spp_);
+    const Pass pass(*scene_, camera_, size_, settings_, plan_, first_pass_ + spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
     Workers workers(*this, pool, stop);
-    if (!is_begun && !look_first(pass, blocks, workers))
+    if (!is_begun && !look_first(workers))
         return false;
     std::atomic<std::ptrdiff_t> count = done_before;
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
@@ -179,7 +181,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     ++spp_;
     if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first && std::has_single_bit(unsigned(spp_)))
         plan_.learn_noise(film_.noise(spp_));
-    film_.ask_for_albedo(spp_);
+    film_.ask_for_albedo(first_pass_ + spp_);
     return true;
 }
 
@@ -187,11 +189,19 @@ ReuseMaps Render::reuse_maps() const {
     ReuseMaps maps = film_.reuse_maps(spp_);
     if (maps.empty() || spp_ == 0 || !reuses_paths(settings_.method))
         return maps;
-    maps.sharers = sharers_of(Pass(*scene_, camera_, size_, settings_, plan_, spp_));
+    maps.sharers = sharers_of(Pass(*scene_, camera_, size_, settings_, plan_, first_pass_ + spp_));
     maps.gain = Image<float>(size_.x, size_.y);
     for (int i = 0; i < plan_.cell_count(); ++i)
         for_each_square(plan_.cell(i), 1, [&](PixelRect p) { maps.gain(p.x0, p.y0) = plan_.gain(i); });
     return maps;
+}
+
+void Render::add(const Render& other) {
+    film_.add(other.film_);
+    counters_ += other.counters_;
+    spp_ += other.spp_;
+    seconds_ += other.seconds_;
+    cpu_seconds_ += other.cpu_seconds_;
 }
 
 Memory Render::memory() {

@@ -21,8 +21,11 @@ class Render {
 public:
     /// Throws std::runtime_error for a size, OutOfMemory where its film cannot be had, std::invalid_argument for
     /// settings outside their limits.
+    /// @param scene       may be null where no pass is to be made: for what is restored, or added up
+    /// @param first_pass  from 0 on: passes are those of one that begins with 0, but for what it would have learnt
+    ///                    in the passes before
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
-           const RenderSettings& settings);
+           const RenderSettings& settings, int first_pass = 0);
 
     /// The most memory that a render takes on so many threads, and means of its passes.
     static std::uint64_t bytes(glm::ivec2 size, const RenderSettings& settings, int threads);
@@ -49,6 +52,9 @@ public:
     ReuseMaps reuse_maps() const;
     /// What the newest pass knew of where tiles are to be cut.
     std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
+    /// Adds the passes of another render of the same scene, view, size and settings, which are none of this one's:
+    /// its pictures are then those of all of them. The bits depend on the order. No pass may follow.
+    void add(const Render& other);
     /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
     /// filled with this goes on with the same bits.
     Memory memory();
@@ -57,7 +63,7 @@ private:
     class Workers;
 
     bool send_pilot(ThreadPool& pool, const std::stop_token& stop);
-    bool look_first(const Pass& pass, const std::vector<PixelRect>& blocks, Workers& workers);
+    bool look_first(Workers& workers);
     GradientImages with_patch(GradientImages images) const;
 
     std::shared_ptr<const Scene> scene_;
@@ -69,7 +75,8 @@ private:
     ReusePlan plan_;
     std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
     Counters counters_;
-    int spp_ = 0;
+    int first_pass_;
+    int spp_ = 0; // how many it has made
     double seconds_ = 0;
     double cpu_seconds_ = 0;
 };
