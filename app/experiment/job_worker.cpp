@@ -16,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// So many jobs in a row that others have, and it is time to look at the whole folder instead.
-constexpr int most_misses = 16;
+/// So many jobs in a row that others have, and it is time to look at the whole folder instead; but not before so
+/// many times as long has passed as the last look took.
+constexpr int most_misses = 16, pauses_a_look = 20;
 /// Of the jobs that others do, so many are looked at before the next pause: a thousand that wait for the last ones
 /// would otherwise keep a file server busy.
 constexpr int watched_at_once = 8;
@@ -73,6 +74,7 @@ void JobWorker::set(std::size_t job, State state) {
 /// from anywhere, so that they spread over the list, and each stays with a scene that it has loaded; else from the
 /// first.
 void JobWorker::look() {
+    const auto begin = std::chrono::steady_clock::now();
     std::map<fs::path, Listing> folders;
     bool is_alone = true;
     for (std::size_t job = 0; job < states_.size(); ++job) {
@@ -92,6 +94,8 @@ void JobWorker::look() {
     }
     if (!states_.empty())
         place_ = is_alone ? 0 : std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(chance_);
+    const auto end = std::chrono::steady_clock::now();
+    next_look_ = end + pauses_a_look * (end - begin);
 }
 
 /// The next one of that state, from place_ on and round; there must be one.
@@ -111,11 +115,13 @@ std::unique_ptr<Claim> JobWorker::attempt(std::size_t job) {
 }
 
 std::unique_ptr<Claim> JobWorker::find_open() {
-    for (int misses = 1; open_ > 0; ++misses) {
+    for (int misses = 1; open_ > 0 && !interrupted(); ++misses) {
         if (auto claim = attempt(next(State::open)))
             return claim;
-        if (misses % most_misses == 0 && !interrupted())
+        if (misses >= most_misses && std::chrono::steady_clock::now() > next_look_) {
             look();
+            misses = 0;
+        }
     }
     return {};
 }

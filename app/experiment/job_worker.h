@@ -3,6 +3,7 @@
 
 #include "app/experiment/claim.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -56,6 +57,7 @@ private:
     Claims claims_;
     std::vector<State> states_; ///< as far as this process knows
     std::size_t open_ = 0, done_ = 0;
+    std::chrono::steady_clock::time_point next_look_{};
     std::size_t place_ = 0; ///< in the list, from which on it looks for the next
     std::minstd_rand chance_{std::random_device()()};
 };

@@ -7,14 +7,14 @@
 // (1000), each a worker of its own whose jobs last for MILLISECONDS of sleep (0).
 #include "app/experiment/job_worker.h"
 
-#include <cstdio>
-#include <iterator>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     const fs::path folder = argv[1];
-    const auto jobs = static_cast<std::size_t>(argc > 2 ? std::atoll(argv[2]) : 100000);
+    const auto jobs = static_cast<std::size_t>(argc > 2 ? std::atoi(argv[2]) : 100000);
     const int workers = argc > 3 ? std::atoi(argv[3]) : 1000;
     const double seconds = argc > 4 ? 1e-3 * std::atof(argv[4]) : 0;
     fs::create_directories(folder);
