@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""What it costs to divide a sweep among workers: CPU seconds of eight on one folder, over those of one.
+
+    tests/bench/workers.py PROGRAM SCENE [--workers 8] [--rounds 3] [--spp 256]
+
+Sweeps the scene in 160x90 pixels by samples (64 jobs of one thread each, references made before), by one worker and by
+several in turn, each time in a new folder, and prints the CPU seconds (user and system, loading and reports included) of
+both, their ratio, and what of it was measured as rendering.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+
+def sweep(given, folder, workers):
+    """CPU seconds of all processes, and those that the jobs say they took."""
+    command = [given.program, "sweep", given.scene, "-m", "gpr", "--vary", "tile=2,4,6,8", "--seeds", "16", "--size", "160x90",
+               "--spp", str(given.spp), "--reference-spp", "64", "--threads", "1", "--reference", folder / "refs", "-o",
+               folder / f"out-{workers}-{os.times().elapsed}"]
+    before = os.times()
+    started = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for _ in range(workers)]
+    assert all(process.wait() == 0 for process in started)
+    after = os.times()
+    rows = json.loads((command[-1] / "sweep.json").read_text())["results"]
+    measured = sum(run["cpu_seconds"] for row in rows for run in row["runs"])
+    return after.children_user + after.children_system - before.children_user - before.children_system, measured
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("scene")
+    parser.add_argument("--workers", type=int, default=8)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--spp", type=int, default=256)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        spp, given.spp = given.spp, 1
+        sweep(given, folder, 1)  # the references
+        given.spp = spp
+        for _ in range(given.rounds):
+            one, measured_by_one = sweep(given, folder, 1)
+            many, measured_by_many = sweep(given, folder, given.workers)
+            print(f"one worker {one:.2f} CPU s (rendering {measured_by_one:.2f}), {given.workers} workers {many:.2f} "
+                  f"({measured_by_many:.2f}): {many / one:.3f} ({measured_by_many / measured_by_one:.3f})", flush=True)
+
+
+if __name__ == "__main__":
+    main()
