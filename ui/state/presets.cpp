@@ -14,6 +14,7 @@ PaneSettings plain() {
     s.render.basis = Basis::none;
     s.render.shift_distance = 0;
     s.render.weight_threshold = 0;
+    s.render.roulette_depth = 0;
     s.reconstruction.spikes = Spikes::off;
     return s;
 }
