@@ -165,7 +165,7 @@ TEST_F(ReferenceCommand, RefusesTheCheckpointOfAnother) {
 TEST_F(ReferenceCommand, BadInputGetsAMessage) {
     EXPECT_THAT(reference("-o a.png").output, HasSubstr("a.png: the name must end in .exr"));
     EXPECT_THAT(reference("-o none/a.exr").output, HasSubstr("none/a.exr: cannot be written"));
-    EXPECT_THAT(reference("--recon l2,l3 -o a.exr").output, HasSubstr("--recon l2,l3"));
+    EXPECT_THAT(reference("--recon l2,l3 -o a.exr").output, HasSubstr("--recon l3"));
     EXPECT_EQ(reference("--spp 1 -o a.exr").exit_code, 2);
 }
 
