@@ -12,12 +12,14 @@ namespace tessera {
 namespace {
 
 constexpr float reach = 2;           // bounds in standard errors
-constexpr int radius = 2;            // of the squares of pixels that are asked
+constexpr int variance_radius = 2;   // of the squares of pixels whose variances are asked
+constexpr int lit_radius = 6;        // and of those that are asked for any light: wider than a tile
+constexpr float least_lit = 0.5f;    // share of them
 constexpr float least_share = 1e-6f; // of the mean around, that a variance counts as at least
 constexpr float most = 1e30f, least = 1e-30f; // of variances: sums of 25 stay finite, and so do logarithms
 
-/// Means over the squares of 5x5 pixels, as far as these are within the image.
-Image<float> means_around(const Image<float>& values, const ParallelFor& parallel_for) {
+/// Means over squares of edge 2 radius + 1, as far as these are within the image.
+Image<float> means_around(const Image<float>& values, int radius, const ParallelFor& parallel_for) {
     const int width = values.width(), height = values.height();
     Image<float> rows(width, height), means(width, height);
     parallel_for(height, [&](int y) {
@@ -49,17 +51,25 @@ Image<float> squared_errors(const Image<float>& variances, const ParallelFor& pa
         for (int x = 0; x < width; ++x)
             own(x, y) = std::min(variances(x, y), most);
     });
-    Image<float> around = means_around(own, parallel_for);
+    Image<float> around = means_around(own, variance_radius, parallel_for);
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
             around(x, y) = std::log(std::max(own(x, y) + least_share * around(x, y), least));
     });
-    around = means_around(around, parallel_for);
+    around = means_around(around, variance_radius, parallel_for);
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
             own(x, y) = std::max(own(x, y), std::exp(around(x, y)));
     });
     return own;
+}
+
+/// The share of the pixels around of which any sample has found light.
+Image<float> lit_shares(const RgbImage& radiance, const ParallelFor& parallel_for) {
+    Image<float> lit(radiance.width(), radiance.height());
+    for (std::size_t i = 0; i < lit.size(); ++i)
+        lit.data()[i] = is_black(radiance.data()[i]) ? 0.0f : 1.0f;
+    return means_around(lit, lit_radius, parallel_for);
 }
 
 } // namespace
@@ -70,6 +80,7 @@ bool can_bound(const GradientImages& images) {
 
 RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for) {
     const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
+    const Image<float> lit = lit_shares(images.radiance(), parallel_for);
     RgbImage bounds = images.primal;
     const bool is_demodulated = !images.demodulation.empty();
     if (is_demodulated)
@@ -77,7 +88,8 @@ RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_
     parallel_for(bounds.height(), [&](int y) {
         for (int x = 0; x < bounds.width(); ++x) {
             const Rgb albedo = is_demodulated ? images.demodulation.sampled_albedo(x, y) : Rgb(1);
-            bounds(x, y) = glm::max(bounds(x, y), Rgb(0)) + reach * std::sqrt(squares(x, y)) * albedo;
+            const Rgb p = glm::max(bounds(x, y), glm::max(images.radiance()(x, y), Rgb(0)));
+            bounds(x, y) = lit(x, y) < least_lit ? Rgb(most) : p + reach * std::sqrt(squares(x, y)) * albedo;
         }
     });
     return bounds;

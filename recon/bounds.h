@@ -17,13 +17,15 @@ namespace tessera {
 // among dark ones is held to what it knows, one that is dark by chance among bright ones is not. An arithmetic mean
 // would be ruled by one bright pixel.
 //
-// Where each pixel has paths of its own alone, being dark by chance is the rule, and neighbours do not tell: nothing
+// Where fewer than half the pixels around, in a square wider than a tile, have found any light, whole tiles are dark by
+// chance: there are no bounds. Where each pixel has paths of its own alone, being dark by chance is the rule, and neighbours do not tell: nothing
 // is done there (GradientImages::patch is 1).
 
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// P + 2 s, radiance without very direct light.
+/// P + 2 s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes, or
+/// the mean of its samples where that is more.
 RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
 
 /// Takes what is above the bounds from the image, and returns it.

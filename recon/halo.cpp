@@ -91,12 +91,16 @@ std::optional<Halo> measure_halo(const GradientImages& images, const Reconstruct
     Halo halo{{static_cast<int>(brightest) % width, static_cast<int>(brightest) / width}};
     const PixelRect square{halo.spike.x - reach + 1, halo.spike.y - reach + 1, halo.spike.x + reach,
                            halo.spike.y + reach};
+    if (square.clipped({width, images.primal.height()}) == PixelRect{0, 0, width, images.primal.height()})
+        return {};
     const GradientImages without = without_brightest(images, square);
     const RgbImage with_spike = reconstruct(images, settings, parallel_for).image;
     const RgbImage picture = reconstruct(without, settings, parallel_for).image;
     double mean = 0, own = 0, outside = 0;
     for (Rgb c : picture)
         mean += static_cast<double>(luminance(c)) / static_cast<double>(picture.size());
+    if (!(mean > 0))
+        return {};
     for (std::size_t i = 0; i < picture.size(); ++i) {
         const glm::ivec2 pixel(static_cast<int>(i) % width, static_cast<int>(i) / width);
         if (square.contains(pixel)) {
@@ -107,7 +111,7 @@ std::optional<Halo> measure_halo(const GradientImages& images, const Reconstruct
         const double brightness = std::max(static_cast<double>(luminance(picture.data()[i])), 0.0);
         outside += change;
         if (change > 0)
-            halo.peak = std::max(halo.peak, change / (brightness + least_share * std::abs(mean)));
+            halo.peak = std::max(halo.peak, change / (brightness + least_share * mean));
     }
     halo.energy = own > 0 ? outside / own : 0;
     return halo;

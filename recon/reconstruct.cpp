@@ -92,15 +92,15 @@ void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& p
     });
 }
 
-/// Gives what spikes hold back to the pixels around, and once more what pixels thereby have above the bounds: no light
-/// of spikes is lost, and hardly any goes where it is known to be dark. (Three more times gain nothing.) What the
-/// solver put above the bounds goes.
-void spread_within_bounds(const GradientImages& images, const RgbImage& held, RgbImage& image,
+/// Gives what spikes hold back, and what the solver has put above the bounds, to the pixels around, and once more what
+/// pixels thereby have above the bounds: no light is lost, and hardly any goes where it is known to be dark. (Three
+/// more times gain nothing.)
+void spread_within_bounds(const GradientImages& images, RgbImage held, RgbImage& image,
                           const ParallelFor& parallel_for) {
     if (!can_bound(images))
         return LightSpreader(image, parallel_for).spread(held, image);
     const RgbImage bounds = upper_bounds(images, parallel_for);
-    take_excess(bounds, image);
+    add(held, take_excess(bounds, image));
     const LightSpreader spreader(image, parallel_for);
     spreader.spread(held, image);
     spreader.spread(take_excess(bounds, image), image);

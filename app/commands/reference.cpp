@@ -23,7 +23,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
         "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The layer doubt says "
         "how far each pixel is to be trusted: its relative standard error, or 1 where a single sample makes more "
-        "than a quarter of it. The header has the scene's checksums, too, by which others refuse it for another "
+        "than a quarter of it, or none found light. The header has the scene's checksums, too, by which others refuse it for another "
         "scene.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");
@@ -38,7 +38,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     add_method(command, recipe.settings.method);
     add_setting(command, spp_setting(recipe.spp, 2))
         ->description("samples a pixel, of both halves together; one more if odd");
-    add_norms(command, words.norms, "where there are gradients; of several, the one of least error")
+    add_norms(command, words.norms, "where there are gradients; of several, the one whose halves differ least")
         ->default_str("l2,none");
     limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
           most_seconds)
@@ -85,8 +85,8 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
     fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(), error.relative_mse,
                error.standard_error);
     if (const double share = untrusted_share(reference.doubt); share > 0)
-        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, or one sample "
-                   "makes more than a quarter of them (layer doubt)\n",
+        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, one sample "
+                   "makes more than a quarter of them, or none found light (layer doubt)\n",
                    100 * share, 100 * most_doubt);
 }
 

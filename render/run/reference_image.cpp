@@ -32,7 +32,7 @@ RgbImage variance_of(const ReferenceImage& reference) {
     return variance;
 }
 
-Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& spikes) {
+Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& unknown) {
     const int width = halves[0].width(), height = halves[0].height();
     const auto mean_at = [&](int x, int y) { return 0.5f * (luminance(halves[0](x, y)) + luminance(halves[1](x, y))); };
     double sum = 0;
@@ -53,7 +53,7 @@ Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>&
                 }
             const float scale = brightness / static_cast<float>(count) + least;
             const float error = std::sqrt(squares / static_cast<float>(count));
-            doubt(x, y) = std::max(scale > 0 ? error / scale : 0, spikes(x, y));
+            doubt(x, y) = std::max(scale > 0 ? error / scale : 0, unknown(x, y));
         }
     return doubt;
 }

@@ -40,9 +40,10 @@ inline constexpr float most_doubt = 0.1f;
 
 /// How far each pixel of a reference is not to be trusted: the standard error of the mean over its brightness (and
 /// 1 % of the picture's), from what the halves differ by in the 3x3 pixels around; at least 1 where one sample alone
-/// makes more than a quarter of what a half found, since what such samples miss, both halves may have missed.
-/// @param spikes  1 where one does, else 0
-Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& spikes);
+/// makes more than a quarter of what a half found, or neither has found any: what such samples miss, both halves may
+/// have missed.
+/// @param unknown  1 where that is so, else 0
+Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& unknown);
 
 /// The share of the pixels that are not to be trusted yet.
 double untrusted_share(const Image<float>& doubt);

@@ -30,28 +30,88 @@ using Clock = std::chrono::steady_clock;
 struct Halves {
     std::array<RgbImage, 2> images;
     Norm norm = Norm::none;
-    FloorFreeError error; ///< of their mean
 };
+
+/// By how much two pictures of the same differ: relMSE with an epsilon in units of their own brightness, so that which
+/// of several pairs differ less does not depend on the unit of light.
+double difference_of(const std::array<RgbImage, 2>& halves) {
+    double brightness = 0;
+    for (const RgbImage& half : halves)
+        for (Rgb c : half)
+            brightness += static_cast<double>(luminance(c)) / static_cast<double>(2 * half.size());
+    const double epsilon = relative_mse_epsilon * brightness * brightness;
+    double sum = 0;
+    for (std::size_t i = 0; i < halves[0].size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const auto a = static_cast<double>(halves[0].data()[i][c]), b = static_cast<double>(halves[1].data()[i][c]);
+            if (const double scale = (a + b) * (a + b) / 4 + epsilon; scale > 0)
+                sum += (a - b) * (a - b) / scale;
+        }
+    return sum;
+}
+
+/// What there is to choose from: without gradients all norms make the same picture.
+std::vector<Norm> norms_of(const ReferenceRecipe& recipe) {
+    return has_gradients(recipe.settings.method) ? recipe.norms : std::vector{Norm::none};
+}
 
 /// @param images_of  of half 0, then of half 1, to be reconstructed
 template <class ImagesOf>
 Halves best_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
-    std::vector<Halves> candidates(recipe.norms.size());
+    const std::vector<Norm> norms = norms_of(recipe);
+    std::vector<Halves> candidates(norms.size());
     for (std::size_t i = 0; i < 2; ++i) {
         const GradientImages images = images_of(i);
         for (std::size_t n = 0; n < candidates.size(); ++n) {
             ReconstructionSettings settings = recipe.reconstruction;
-            settings.norm = candidates[n].norm = recipe.norms[n];
+            settings.norm = candidates[n].norm = norms[n];
             Reconstructor reconstructor;
             candidates[n].images[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
         }
     }
-    for (Halves& candidate : candidates)
-        candidate.error = measure_reference_error(candidate.images[0], candidate.images[1]);
+    if (candidates.size() == 1)
+        return std::move(candidates.front());
     return std::move(*std::min_element(candidates.begin(), candidates.end(), [](const Halves& a, const Halves& b) {
-        return a.error.relative_mse < b.error.relative_mse;
+        return difference_of(a.images) < difference_of(b.images);
     }));
 }
+
+/// Which pixels of a reference are known at all.
+class KnownPixels {
+public:
+    explicit KnownPixels(glm::ivec2 size) : ruled_(size.x, size.y), dark_(size.x, size.y, 1.0f) {}
+
+    /// What one half has found.
+    void look_at(const GradientImages& images) {
+        const RgbImage held = held_light(images);
+        for (std::size_t i = 0; i < ruled_.size(); ++i) {
+            if (!is_black(held.data()[i]))
+                ruled_.data()[i] = 1;
+            if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
+                sees_black(images, i))
+                dark_.data()[i] = 0;
+        }
+    }
+
+    /// 1 where a single sample rules one of the halves, or none of both has found light; else 0.
+    Image<float> unknown() const {
+        Image<float> unknown = ruled_;
+        std::transform(unknown.begin(), unknown.end(), dark_.begin(), unknown.begin(),
+                       [](float a, float b) { return std::max(a, b); });
+        return unknown;
+    }
+
+private:
+    /// Whether there is nothing, or a surface that is black: Bsdf::albedo is 0.01 there.
+    static bool sees_black(const GradientImages& images, std::size_t i) {
+        if (images.demodulation.empty())
+            return false;
+        const Rgb a = images.demodulation.albedo.data()[i];
+        return std::max({a.r, a.g, a.b}) <= 0.0101f;
+    }
+
+    Image<float> ruled_, dark_;
+};
 
 Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
     RenderSettings settings = recipe.settings;
@@ -122,18 +182,17 @@ double ReferenceRender::seconds_left() const {
 }
 
 FloorFreeError ReferenceRender::error_so_far() const {
-    return best_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); }).error;
+    const Halves best = best_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); });
+    return measure_reference_error(best.images[0], best.images[1]);
 }
 
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene) {
     ReferenceImage reference;
-    Image<float> spikes(recipe.size.x, recipe.size.y);
+    KnownPixels known(recipe.size);
     Halves best = best_halves(recipe, [&](std::size_t i) {
         GradientImages images = halves[i].take_images();
-        const RgbImage held = held_light(images);
-        for (std::size_t p = 0; p < spikes.size(); ++p)
-            spikes.data()[p] = std::max(spikes.data()[p], is_black(held.data()[p]) ? 0.0f : 1.0f);
+        known.look_at(images);
         return images;
     });
     for (std::size_t i = 0; i < 2; ++i) {
@@ -141,7 +200,7 @@ ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe
         reference.seeds[i] = halves[i].settings().seed;
     }
     reference.mean = mean_of(reference.halves[0], reference.halves[1]);
-    reference.doubt = doubt_of(reference.halves, spikes);
+    reference.doubt = doubt_of(reference.halves, known.unknown());
     ReconstructionSettings reconstruction = recipe.reconstruction;
     reconstruction.norm = best.norm;
     auto settings =

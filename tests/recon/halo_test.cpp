@@ -36,6 +36,9 @@ TEST(Halo, IsThatOfTheBrightestSample) {
     ASSERT_TRUE(halo);
     EXPECT_TRUE((PixelRect{20, 16, 24, 20}.contains(halo->spike)));
     EXPECT_FALSE(measure_halo(wall_with_spike(1), {}, serial_for)); // no sample is above the others
+    GradientImages large = wall_with_spike(1000);
+    large.patch = 48; // the square has the whole picture
+    EXPECT_FALSE(measure_halo(large, {}, serial_for));
     GradientImages unknown = wall_with_spike(1000);
     unknown.brightest = {};
     EXPECT_FALSE(measure_halo(unknown, {}, serial_for));

@@ -19,6 +19,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace tessera::test {
 
@@ -216,6 +217,41 @@ TEST_F(References, DoubtWhatRestsOnOneSample) {
     const ExrFile written = read_exr(folder.path() / "few.exr");
     ASSERT_NE(layer = find_layer(written, "doubt"), nullptr);
     EXPECT_EQ((*layer)(3, 3).x, few.doubt(3, 3));
+}
+
+/// Light that nobody has found may be there all the same; where there is nothing to see, black is right.
+TEST_F(References, DoubtWhatNobodyFoundLightIn) {
+    SceneBuilder builder;
+    const int lamp = builder.light(Texture(Rgb(1)));
+    const int white = builder.diffuse(Rgb(0.7f));
+    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, white); // the left half; the right one is empty
+    builder.quad({-1, -1, -1}, {2, 0, 0}, {0, -2, 0}, white, lamp); // lights nothing that is seen
+    builder.camera({0, 0, 3}, {0, 0, 0}, 30);
+    scene = builder.build();
+    subject = {{}, scene, scene->camera()};
+    const ReferenceImage image = complete("dark.exr");
+    ASSERT_TRUE(is_black(image.mean(3, 8)));
+    EXPECT_EQ(image.doubt(3, 8), 1);
+    EXPECT_EQ(image.doubt(21, 8), 0);
+}
+
+/// Which norm is taken does not depend on the unit of light.
+TEST_F(References, TakeTheSameNormWhateverTheUnit) {
+    const auto norm_of = [&](float scale) {
+        SceneBuilder builder;
+        const int white = builder.diffuse(Rgb(0.7f));
+        builder.room({white, white, builder.mirror(), builder.diffuse({0.6f, 0.1f, 0.1f}), white});
+        const int lamp = builder.light(Texture(Rgb(scale)));
+        builder.quad({-0.3f, 0.99f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, white, lamp);
+        builder.camera({0, 0, 0.9f}, {0, 0, -1}, 70);
+        scene = builder.build();
+        subject = {{}, scene, scene->camera()};
+        const std::string name = fmt::format("{}.exr", scale);
+        return nlohmann::json::parse(complete(name.c_str()).settings).at("recon").get<std::string>();
+    };
+    const std::string usual = norm_of(1);
+    EXPECT_EQ(norm_of(0x1p-20f), usual);
+    EXPECT_EQ(norm_of(0x1p20f), usual);
 }
 
 TEST_F(References, AnotherCameraIsAnotherPicture) {
