@@ -208,7 +208,6 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "--reference wrong", "wrong/box-32x18-d8.exr is 8x4, but 32x18 is to be rendered"},
         {sweep + "--reference plain", "plain/box-32x18-d8.exr has no layer \"half1\""},
         {"sweep --vary tile=2 --reference refs -o out", "scenes"},
-        {"sweep box/scene.xml -o out", "--reference"},
         {"sweep box/scene.xml --reference refs", "--output"},
     };
     for (const auto& [arguments, expected] : cases) {

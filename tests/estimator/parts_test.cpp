@@ -135,6 +135,7 @@ RenderSettings settings_of(const Variant& v, const TestScene& t) {
     s.max_depth = t.max_depth;
     s.shift_threshold = t.shift_threshold;
     s.shift_distance = t.shift_distance;
+    s.roulette_depth = 0; // paths that it lets live weigh more: these runs are too few for that
     return s;
 }
 

@@ -171,7 +171,7 @@ std::vector<TestScene> light_scenes() {
         {"environment_gloss", environment_gloss(), 4, 0.1f},
         {"point_lights", point_lights(), 4},
         {"point_lights_half_vectors", point_lights(), 4, 0.3f},
-        {"slides", slides(), 4},
+        {"slides", slides(), 4, 0.001f, 4},
         {"textured_light", textured_light(), 4},
         {"masks", masks(), 4},
         {"masks_outside", masks_outside(), 4},
