@@ -16,6 +16,7 @@
 
 namespace {
 
+std::mutex synced_mutex;         // the program's other tests have threads that write files
 std::vector<std::string> synced; // names of files and folders, without their folders
 bool disk_is_broken = false;
 
@@ -23,7 +24,10 @@ bool disk_is_broken = false;
 
 /// Stands in this program for the system's.
 extern "C" int fsync(int file) {
-    synced.push_back(std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file)).filename());
+    {
+        const std::lock_guard lock(synced_mutex);
+        synced.push_back(std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file)).filename());
+    }
     if (disk_is_broken) {
         errno = EIO;
         return -1;
