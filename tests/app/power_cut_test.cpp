@@ -3,6 +3,7 @@
 #include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
+#include <mutex>
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
