@@ -3,11 +3,11 @@
 #include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
 
-#include <mutex>
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <string>
 #include <vector>
 
