@@ -1,6 +1,7 @@
 #include "recon/bounds.h"
 
 #include "recon/demodulation.h"
+#include "recon/square_means.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,37 +12,12 @@ namespace tessera {
 
 namespace {
 
-constexpr float reach = 2;           // bounds in standard errors
-constexpr int variance_radius = 2;   // of the squares of pixels whose variances are asked
-constexpr int lit_radius = 6;        // and of those that are asked for any light: wider than a tile
-constexpr float least_lit = 0.5f;    // share of them
-constexpr float least_share = 1e-6f; // of the mean around, that a variance counts as at least
+constexpr float reach = 2;                    // bounds in standard errors
+constexpr int variance_radius = 2;            // of the squares of pixels whose variances are asked
+constexpr int lit_radius = 6;                 // and of those that are asked for any light: wider than a tile
+constexpr float least_lit = 0.5f;             // share of them
+constexpr float least_share = 1e-6f;          // of the mean around, that a variance counts as at least
 constexpr float most = 1e30f, least = 1e-30f; // of variances: sums of 25 stay finite, and so do logarithms
-
-/// Means over squares of edge 2 radius + 1, as far as these are within the image.
-Image<float> means_around(const Image<float>& values, int radius, const ParallelFor& parallel_for) {
-    const int width = values.width(), height = values.height();
-    Image<float> rows(width, height), means(width, height);
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            const int left = std::max(x - radius, 0), right = std::min(x + radius, width - 1);
-            float sum = 0;
-            for (int i = left; i <= right; ++i)
-                sum += values(i, y);
-            rows(x, y) = sum / static_cast<float>(right - left + 1);
-        }
-    });
-    parallel_for(height, [&](int y) {
-        const int top = std::max(y - radius, 0), bottom = std::min(y + radius, height - 1);
-        for (int x = 0; x < width; ++x) {
-            float sum = 0;
-            for (int j = top; j <= bottom; ++j)
-                sum += rows(x, j);
-            means(x, y) = sum / static_cast<float>(bottom - top + 1);
-        }
-    });
-    return means;
-}
 
 /// s^2 of the primal, summed over the channels.
 Image<float> squared_errors(const Image<float>& variances, const ParallelFor& parallel_for) {
@@ -51,12 +27,12 @@ Image<float> squared_errors(const Image<float>& variances, const ParallelFor& pa
         for (int x = 0; x < width; ++x)
             own(x, y) = std::min(variances(x, y), most);
     });
-    Image<float> around = means_around(own, variance_radius, parallel_for);
+    Image<float> around = square_means(own, variance_radius, 0, 0, parallel_for);
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
             around(x, y) = std::log(std::max(own(x, y) + least_share * around(x, y), least));
     });
-    around = means_around(around, variance_radius, parallel_for);
+    around = square_means(around, variance_radius, 0, 0, parallel_for);
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
             own(x, y) = std::max(own(x, y), std::exp(around(x, y)));
@@ -69,7 +45,7 @@ Image<float> lit_shares(const RgbImage& radiance, const ParallelFor& parallel_fo
     Image<float> lit(radiance.width(), radiance.height());
     for (std::size_t i = 0; i < lit.size(); ++i)
         lit.data()[i] = is_black(radiance.data()[i]) ? 0.0f : 1.0f;
-    return means_around(lit, lit_radius, parallel_for);
+    return square_means(lit, lit_radius, 0, 0, parallel_for);
 }
 
 } // namespace

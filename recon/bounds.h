@@ -5,27 +5,27 @@
 
 namespace tessera {
 
-// How bright a pixel may be, as far as its own samples know. A solver gives a dark pixel beside a bright one some of
-// the noise about, and spikes that are held back are given to the pixels around (recon/spikes.h): little for a bright
-// pixel, far too much for the bar of a window in front of the sky. But where pixels share their paths, a dark pixel has
-// seen what its neighbours have seen, and knows that it is dark. So the picture is kept below
+// How bright a pixel may be, as far as its own samples know. A solver gives a dark pixel beside a bright one some
+// of the noise about, and spikes that are held back are given to the pixels around (recon/spikes.h): little for a
+// bright pixel, far too much for the bar of a window in front of the sky. But where pixels share their paths, a
+// dark pixel has seen what its neighbours have seen, and knows that it is dark. So the picture is kept below
 //     P + 2 s ,
-// where P is what the primal alone says, and s its standard error; what is above goes to the pixels around. This is
-// consistent, as s goes to 0 with the samples; and the picture is not linear in them.
+// where P is what the primal alone says, and s its standard error; what is above goes to the pixels around. This
+// is consistent, as s goes to 0 with the samples; and the picture is not linear in them.
 //
 // s^2 is the variance of P, or its geometric mean over the 5x5 pixels around, whichever is larger: a dark pixel
-// among dark ones is held to what it knows, one that is dark by chance among bright ones is not. An arithmetic mean
-// would be ruled by one bright pixel.
+// among dark ones is held to what it knows, one that is dark by chance among bright ones is not. An arithmetic
+// mean would be ruled by one bright pixel.
 //
-// Where fewer than half the pixels around, in a square wider than a tile, have found any light, whole tiles are dark by
-// chance: there are no bounds. Where each pixel has paths of its own alone, being dark by chance is the rule, and neighbours do not tell: nothing
-// is done there (GradientImages::patch is 1).
+// Where fewer than half the pixels around, in a square wider than a tile, have found any light, whole tiles are
+// dark by chance: there are no bounds. Where each pixel has paths of its own alone, being dark by chance is the
+// rule, and neighbours do not tell: nothing is done there (GradientImages::patch is 1).
 
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// P + 2 s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes, or
-/// the mean of its samples where that is more.
+/// P + 2 s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes,
+/// or the mean of its samples where that is more.
 RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
 
 /// Takes what is above the bounds from the image, and returns it.

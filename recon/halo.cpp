@@ -19,8 +19,8 @@ void replace(Rgb& mean, float* variance, Rgb& sample, int samples) {
     const double n = samples;
     const glm::dvec3 m(mean), x(sample), others = (n * m - x) / (n - 1);
     if (variance) {
-        const double squares =
-            n * (n - 1) * static_cast<double>(*variance) + n * glm::dot(m, m) - glm::dot(x, x) + glm::dot(others, others);
+        const double squares = n * (n - 1) * static_cast<double>(*variance) + n * glm::dot(m, m) - glm::dot(x, x) +
+                               glm::dot(others, others);
         *variance = static_cast<float>(std::max(0.0, (squares - n * glm::dot(others, others)) / (n * (n - 1))));
     }
     mean = sample = Rgb(others);

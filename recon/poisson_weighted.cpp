@@ -1,5 +1,6 @@
 #include "recon/poisson_weighted.h"
 
+#include "recon/square_means.h"
 #include "recon/weighted_rows.h"
 
 #include <algorithm>
@@ -52,22 +53,13 @@ Image<float> variances_from_neighbours(const RgbImage& values, int columns, int 
 /// measured there: not in the last `columns` and `rows`, where the result is 0, too.
 Image<float> blended(const Image<float>& values, float own_share, int radius, int columns, int rows,
                      const ParallelFor& parallel_for) {
-    const int width = values.width() - columns, height = values.height() - rows;
-    Image<float> blend(values.width(), values.height());
-    parallel_for(height, [&](int y) {
-        std::vector<float> sums(static_cast<std::size_t>(width)); // sums of the columns of the squares
-        const int top = std::max(y - radius, 0), bottom = std::min(y + radius, height - 1);
-        for (int row = top; row <= bottom; ++row)
-            for (int x = 0; x < width; ++x)
-                sums[x] += std::min(values(x, row), largest_variance);
-        for (int x = 0; x < width; ++x) {
-            const int left = std::max(x - radius, 0), right = std::min(x + radius, width - 1);
-            float sum = 0;
-            for (int i = left; i <= right; ++i)
-                sum += sums[i];
-            const float mean = sum / static_cast<float>((right - left + 1) * (bottom - top + 1));
-            blend(x, y) = own_share * std::min(values(x, y), largest_variance) + (1 - own_share) * mean;
-        }
+    Image<float> own = values;
+    for (float& v : own)
+        v = std::min(v, largest_variance);
+    Image<float> blend = square_means(own, radius, columns, rows, parallel_for);
+    parallel_for(values.height() - rows, [&](int y) {
+        for (int x = 0; x < values.width() - columns; ++x)
+            blend(x, y) = own_share * own(x, y) + (1 - own_share) * blend(x, y);
     });
     return blend;
 }

@@ -92,18 +92,18 @@ void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& p
     });
 }
 
-/// Gives what spikes hold back, and what the solver has put above the bounds, to the pixels around, and once more what
-/// pixels thereby have above the bounds: no light is lost, and hardly any goes where it is known to be dark. (Three
-/// more times gain nothing.)
+/// Gives what spikes hold back, and what the solver has put above the bounds, to the pixels around, and once more
+/// what pixels thereby have above the bounds: no light is lost, and hardly any goes where it is known to be dark.
+/// (Three more times gain nothing.)
 void spread_within_bounds(const GradientImages& images, RgbImage held, RgbImage& image,
                           const ParallelFor& parallel_for) {
     if (!can_bound(images))
-        return LightSpreader(image, parallel_for).spread(held, image);
+        return LightSpreader(image, parallel_for).spread(held, image, parallel_for);
     const RgbImage bounds = upper_bounds(images, parallel_for);
     add(held, take_excess(bounds, image));
     const LightSpreader spreader(image, parallel_for);
-    spreader.spread(held, image);
-    spreader.spread(take_excess(bounds, image), image);
+    spreader.spread(held, image, parallel_for);
+    spreader.spread(take_excess(bounds, image), image, parallel_for);
 }
 
 } // namespace

@@ -161,8 +161,8 @@ int mirrored(int i, int count) {
     return i < 0 ? -1 - i : i >= count ? 2 * count - 1 - i : i;
 }
 
-/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives. Sums are
-/// made anew for each pixel: running ones would leave the rounding of a bright pixel behind it.
+/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives. Sums
+/// are made anew for each pixel: running ones would leave the rounding of a bright pixel behind it.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     const int width = image.width(), height = image.height();
@@ -197,7 +197,7 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
 } // namespace
 
 LightSpreader::LightSpreader(const RgbImage& image, const ParallelFor& parallel_for)
-    : parallel_for_(parallel_for), brightness_(image.width(), image.height()) {
+    : brightness_(image.width(), image.height()) {
     double sum = 0;
     for (Rgb c : image)
         sum += std::max(0.0, static_cast<double>(luminance(c)));
@@ -211,13 +211,13 @@ LightSpreader::LightSpreader(const RgbImage& image, const ParallelFor& parallel_
 }
 
 /// With brightness s, what a pixel q has goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
-void LightSpreader::spread(const RgbImage& light, RgbImage& image) const {
+void LightSpreader::spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const {
     if (std::all_of(light.begin(), light.end(), [](Rgb c) { return c == Rgb(0); }))
         return;
     RgbImage ratio = light;
     for (std::size_t i = 0; i < image.size(); ++i)
         ratio.data()[i] /= around_.data()[i];
-    blur(ratio, spread_radius, parallel_for_);
+    blur(ratio, spread_radius, parallel_for);
     for (std::size_t i = 0; i < image.size(); ++i)
         image.data()[i] += brightness_.data()[i] * ratio.data()[i];
 }

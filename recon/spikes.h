@@ -37,10 +37,9 @@ public:
     LightSpreader(const RgbImage& image, const ParallelFor& parallel_for);
 
     /// Adds as much light to the image as there is in `light`, but for rounding.
-    void spread(const RgbImage& light, RgbImage& image) const;
+    void spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const;
 
 private:
-    const ParallelFor& parallel_for_;
     Image<float> brightness_; ///< about each pixel
     Image<float> around_;     ///< the same, as wide as light is spread
 };

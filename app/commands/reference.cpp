@@ -23,7 +23,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
         "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
         "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The layer doubt says "
         "how far each pixel is to be trusted: its relative standard error, or 1 where a single sample makes more "
-        "than a quarter of it, or none found light. The header has the scene's checksums, too, by which others refuse it for another "
+        "than a quarter of it, or none found light. The header has the scene's checksums, too, by which others "
+        "refuse it for another "
         "scene.\n"
         "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
         "there, to the same bits.");

@@ -85,8 +85,9 @@ struct StabilityScene {
 std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
 /// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at
-/// hand, of the program's, or of one that either lies in. Where there are none, those within the program, which are
-/// written to $XDG_CACHE_HOME/tessera/stability (else ~/.cache). Throws std::exception where that cannot be done.
+/// hand, of the program's, or of one that either lies in. Where there are none, those within the program, which
+/// are written to $XDG_CACHE_HOME/tessera/stability (else ~/.cache). Throws std::exception where that cannot be
+/// done.
 std::vector<std::filesystem::path> built_in_stability_scenes();
 
 /// Writes the scenes within the program, and what they are made of, to a folder.

@@ -166,9 +166,10 @@ const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurv
 
 /// The whole reference with frames around the crops.
 std::string overview(const RgbImage& reference, float exposure, const std::vector<PixelRect>& rects) {
-    std::string html = fmt::format(R"(<div style="position:relative; width:{}px; max-width:100%">)",
-                                   reference.width());
-    html += inline_image(reference, exposure, R"(alt="the reference" style="width:100%; height:auto; display:block")");
+    std::string html =
+        fmt::format(R"(<div style="position:relative; width:{}px; max-width:100%">)", reference.width());
+    html +=
+        inline_image(reference, exposure, R"(alt="the reference" style="width:100%; height:auto; display:block")");
     html += fmt::format(R"(<svg style="position:absolute; left:0; top:0; width:100%; height:100%" )"
                         R"(viewBox="0 0 {0} {1}">)",
                         reference.width(), reference.height());
@@ -204,7 +205,8 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     const float exposure = usual_exposure(truth);
     std::string html = fmt::format(
         "<h3>At equal time</h3>\n<p class=\"note\">The two squares where the pictures below err most, all of them "
-        "together, each at an exposure that shows it. Exposure of the whole {:+.1f} stops, sRGB. These are pictures "
+        "together, each at an exposure that shows it. Exposure of the whole {:+.1f} stops, sRGB. These are "
+        "pictures "
         "of seed {}, and so are the figures below them; the table has means over all seeds.</p>\n",
         exposure, experiment.options().settings.render.seed);
     html += overview(truth, exposure, rects);

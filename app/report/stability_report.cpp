@@ -200,13 +200,14 @@ std::string table(const std::vector<Row>& rows) {
         "| --- | --- | --- | --- | --- | ---: | --- | ---: | ---: | ---: | --- | ---: | --- | ---: |\n";
     for (const Row& row : rows) {
         const Findings& f = row.findings;
-        text += fmt::format(
-            "| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {:.3g} | {:.3g} | {} ({}) | "
-            "{} | {:.3g} ± {:.1g} | {:.4g} |\n",
-            name_of(row.result), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high), percent(f.energy),
-            bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x, f.worst_pixel.y, 100 * f.worst_share,
-            100 * f.tenfold, 1000 * f.tone_mapped, cell(f.halo_energy), cell(f.halo_peak), cell(f.tile_edges),
-            f.error, f.error_error, spp_of(row.result));
+        text += fmt::format("| {} | {} | {} ({} to {}) | {} | {} | {:.3g} | {:.3g} at {},{} | {:.0f} % | {:.3g} | "
+                            "{:.3g} | {} ({}) | "
+                            "{} | {:.3g} ± {:.1g} | {:.4g} |\n",
+                            name_of(row.result), verdict_cell(row), cell(f.factor), cell(f.low), cell(f.high),
+                            percent(f.energy), bias_cell(f.squared_bias), f.spike, f.worst, f.worst_pixel.x,
+                            f.worst_pixel.y, 100 * f.worst_share, 100 * f.tenfold, 1000 * f.tone_mapped,
+                            cell(f.halo_energy), cell(f.halo_peak), cell(f.tile_edges), f.error, f.error_error,
+                            spp_of(row.result));
     }
     return text;
 }
@@ -244,8 +245,10 @@ std::string introduction(const ExperimentOptions& suite, double level) {
         "relative errors, all seeds together. bias: root of the squared bias, without noise, and its upper end (2 "
         "standard errors). worst pixels' share: of relMSE, what about 1 in 1000 pixels (16 at the least) have. "
         "off tenfold: pixels of more than ten times the reference's luminance, or less than a tenth. tone-mapped: "
-        "1000 times the mean squared error of x / (1 + x), which no spike rules. halo: what the brightest spike puts "
-        "outside of its tile, over its own energy, and the largest change of a pixel there, over its brightness (a "
+        "1000 times the mean squared error of x / (1 + x), which no spike rules. halo: what the brightest spike "
+        "puts "
+        "outside of its tile, over its own energy, and the largest change of a pixel there, over its brightness "
+        "(a "
         "ring or a blob; spread light has much of the former and little of the latter). tile edges: spectrum of "
         "squared steps at the tile frequency, 1 where no grid shows.\n\n",
         size.x, size.y, to_string(suite.effort), suite.seeds, cpu_model(), sigmas(level), level);

@@ -1,5 +1,6 @@
 #include "render/run/reference_image.h"
 
+#include "recon/spikes.h"
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 
@@ -17,6 +18,14 @@ namespace {
 constexpr const char* reference_attribute = "tessera:reference";
 constexpr const char* scene_attribute = "tessera:scene";
 
+/// Whether there is nothing, or a surface that is black: Bsdf::albedo is 0.01 there.
+bool sees_black(const GradientImages& images, std::size_t i) {
+    if (images.demodulation.empty())
+        return false;
+    const Rgb a = images.demodulation.albedo.data()[i];
+    return std::max({a.r, a.g, a.b}) <= 0.0101f;
+}
+
 } // namespace
 
 FloorFreeError error_of(const ReferenceImage& reference) {
@@ -32,9 +41,29 @@ RgbImage variance_of(const ReferenceImage& reference) {
     return variance;
 }
 
+void KnownPixels::look_at(const GradientImages& images) {
+    const RgbImage held = held_light(images);
+    for (std::size_t i = 0; i < ruled_.size(); ++i) {
+        if (!is_black(held.data()[i]))
+            ruled_.data()[i] = 1;
+        if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
+            sees_black(images, i))
+            dark_.data()[i] = 0;
+    }
+}
+
+Image<float> KnownPixels::unknown() const {
+    Image<float> unknown = ruled_;
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+        unknown.data()[i] = std::max(unknown.data()[i], dark_.data()[i]);
+    return unknown;
+}
+
 Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& unknown) {
     const int width = halves[0].width(), height = halves[0].height();
-    const auto mean_at = [&](int x, int y) { return 0.5f * (luminance(halves[0](x, y)) + luminance(halves[1](x, y))); };
+    const auto mean_at = [&](int x, int y) {
+        return 0.5f * (luminance(halves[0](x, y)) + luminance(halves[1](x, y)));
+    };
     double sum = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)

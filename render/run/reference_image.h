@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/image.h"
 #include "recon/metrics.h"
 #include "render/io/exr.h"
 #include "render/scene/scene_checksums.h"
@@ -9,6 +10,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -35,13 +38,29 @@ FloorFreeError error_of(const ReferenceImage& reference);
 /// the halves are independent, but has one degree of freedom: it says something only when blurred, or as a mean.
 RgbImage variance_of(const ReferenceImage& reference);
 
+/// What is to be looked for in the halves of a reference before they are pictures: pixels of which next to nothing
+/// is known, however well the halves agree.
+class KnownPixels {
+public:
+    explicit KnownPixels(glm::ivec2 size) : ruled_(size.x, size.y), dark_(size.x, size.y, 1.0f) {}
+
+    /// Looks at what one half has found.
+    void look_at(const GradientImages& images);
+    /// 1 where one sample makes more than a quarter of what a half has found, or no half has found light although
+    /// there is something to see; else 0.
+    Image<float> unknown() const;
+
+private:
+    Image<float> ruled_, dark_;
+};
+
 /// A pixel of a reference with a doubt above this is not to be trusted yet.
 inline constexpr float most_doubt = 0.1f;
 
 /// How far each pixel of a reference is not to be trusted: the standard error of the mean over its brightness (and
-/// 1 % of the picture's), from what the halves differ by in the 3x3 pixels around; at least 1 where one sample alone
-/// makes more than a quarter of what a half found, or neither has found any: what such samples miss, both halves may
-/// have missed.
+/// 1 % of the picture's), from what the halves differ by in the 3x3 pixels around; at least 1 where one sample
+/// alone makes more than a quarter of what a half found, or neither has found any: what such samples miss, both
+/// halves may have missed.
 /// @param unknown  1 where that is so, else 0
 Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& unknown);
 
@@ -55,7 +74,8 @@ RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
 /// An EXR file: the mean as plain RGB, the layers half1, half2, variance and doubt (see above), and in its header
-/// the mean's error, the share of untrusted pixels and the scene's checksums. Throws std::runtime_error that names the file.
+/// the mean's error, the share of untrusted pixels and the scene's checksums. Throws std::runtime_error that names
+/// the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
 /// Whether the file is one of these, as its header says: no pixels are read. Throws std::runtime_error that names

@@ -1,6 +1,5 @@
 #include "render/run/reference_render.h"
 
-#include "recon/spikes.h"
 #include "render/io/json_text.h"
 #include "render/run/checkpoint.h"
 #include "render/run/fitting_reconstruction.h"
@@ -32,8 +31,8 @@ struct Halves {
     Norm norm = Norm::none;
 };
 
-/// By how much two pictures of the same differ: relMSE with an epsilon in units of their own brightness, so that which
-/// of several pairs differ less does not depend on the unit of light.
+/// By how much two pictures of the same differ: relMSE with an epsilon in units of their own brightness, so that
+/// which of several pairs differ less does not depend on the unit of light.
 double difference_of(const std::array<RgbImage, 2>& halves) {
     double brightness = 0;
     for (const RgbImage& half : halves)
@@ -43,7 +42,8 @@ double difference_of(const std::array<RgbImage, 2>& halves) {
     double sum = 0;
     for (std::size_t i = 0; i < halves[0].size(); ++i)
         for (int c = 0; c < 3; ++c) {
-            const auto a = static_cast<double>(halves[0].data()[i][c]), b = static_cast<double>(halves[1].data()[i][c]);
+            const auto a = static_cast<double>(halves[0].data()[i][c]),
+                       b = static_cast<double>(halves[1].data()[i][c]);
             if (const double scale = (a + b) * (a + b) / 4 + epsilon; scale > 0)
                 sum += (a - b) * (a - b) / scale;
         }
@@ -75,43 +75,6 @@ Halves best_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
         return difference_of(a.images) < difference_of(b.images);
     }));
 }
-
-/// Which pixels of a reference are known at all.
-class KnownPixels {
-public:
-    explicit KnownPixels(glm::ivec2 size) : ruled_(size.x, size.y), dark_(size.x, size.y, 1.0f) {}
-
-    /// What one half has found.
-    void look_at(const GradientImages& images) {
-        const RgbImage held = held_light(images);
-        for (std::size_t i = 0; i < ruled_.size(); ++i) {
-            if (!is_black(held.data()[i]))
-                ruled_.data()[i] = 1;
-            if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
-                sees_black(images, i))
-                dark_.data()[i] = 0;
-        }
-    }
-
-    /// 1 where a single sample rules one of the halves, or none of both has found light; else 0.
-    Image<float> unknown() const {
-        Image<float> unknown = ruled_;
-        std::transform(unknown.begin(), unknown.end(), dark_.begin(), unknown.begin(),
-                       [](float a, float b) { return std::max(a, b); });
-        return unknown;
-    }
-
-private:
-    /// Whether there is nothing, or a surface that is black: Bsdf::albedo is 0.01 there.
-    static bool sees_black(const GradientImages& images, std::size_t i) {
-        if (images.demodulation.empty())
-            return false;
-        const Rgb a = images.demodulation.albedo.data()[i];
-        return std::max({a.r, a.g, a.b}) <= 0.0101f;
-    }
-
-    Image<float> ruled_, dark_;
-};
 
 Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
     RenderSettings settings = recipe.settings;

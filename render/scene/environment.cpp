@@ -16,7 +16,8 @@ namespace tessera {
 
 namespace {
 
-/// Cells a map is sampled by at most: about as wide as the sun. More are beyond a core's own cache, and bring little.
+/// Cells a map is sampled by at most: about as wide as the sun. More are beyond a core's own cache, and bring
+/// little.
 constexpr glm::ivec2 most_cells(512, 256);
 
 /// The pixel at column x, which runs around, and row y, which ends at the poles.

@@ -34,7 +34,8 @@ RgbImage bounded(const GradientImages& images, float value) {
     return image;
 }
 
-/// The sky behind a window whose bar is dark and sure of it: its pixels are held to that, the sky keeps its freedom.
+/// The sky behind a window whose bar is dark and sure of it: its pixels are held to that, the sky keeps its
+/// freedom.
 TEST(Bounds, DarkAmongDarkStaysDark) {
     GradientImages images = even_images();
     for (int y = 0; y < height; ++y)
@@ -133,8 +134,8 @@ TEST(Bounds, HaveTheSameBitsWithThreads) {
     EXPECT_TRUE(std::equal(alone.begin(), alone.end(), image.begin()));
 }
 
-/// The light that a spike's tile holds back is spread: over the floor, but little over a dark bar in front of it. None
-/// of it is lost.
+/// The light that a spike's tile holds back is spread: over the floor, but little over a dark bar in front of it.
+/// None of it is lost.
 TEST(Bounds, KeepSpreadLightOffWhatIsSureToBeDark) {
     GradientImages images = even_images();
     BrightestSamples& b = images.brightest;

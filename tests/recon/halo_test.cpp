@@ -12,8 +12,8 @@ namespace {
 
 constexpr int width = 48, height = 36, samples = 10;
 
-/// A wall of 1 in tiles of 4; in one sample of the tile at (20, 16) light of 1000. Its gradients know nothing of that
-/// inside the tile, and all of it at the border.
+/// A wall of 1 in tiles of 4; in one sample of the tile at (20, 16) light of 1000. Its gradients know nothing of
+/// that inside the tile, and all of it at the border.
 GradientImages wall_with_spike(float spike) {
     GradientImages images;
     BrightestSamples& b = images.brightest;
@@ -44,8 +44,8 @@ TEST(Halo, IsThatOfTheBrightestSample) {
     EXPECT_FALSE(measure_halo(unknown, {}, serial_for));
 }
 
-/// Without a solver and without spreading nothing leaves the tile; what L2 makes of it does, and far more strongly so
-/// than light that is held back and spread.
+/// Without a solver and without spreading nothing leaves the tile; what L2 makes of it does, and far more strongly
+/// so than light that is held back and spread.
 TEST(Halo, TellsBlobsFromSpreadLight) {
     const GradientImages images = wall_with_spike(1000);
     const auto halo = [&](Norm norm, Spikes spikes) {

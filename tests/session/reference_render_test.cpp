@@ -167,7 +167,8 @@ TEST_F(References, TheFileHasAVarianceForEachPixel) {
     EXPECT_NEAR(relative / static_cast<double>(variance.size()) / error_of(whole).relative_mse, 1, 1e-4);
 }
 
-/// Whatever is to be chosen from, the halves of the one of least error are those in the file, whose header names it.
+/// Whatever is to be chosen from, the halves of the one of least error are those in the file, whose header names
+/// it.
 TEST_F(References, TakeTheNormOfLeastError) {
     std::map<Norm, double> errors;
     for (Norm norm : {Norm::l2, Norm::none}) {
@@ -224,7 +225,7 @@ TEST_F(References, DoubtWhatNobodyFoundLightIn) {
     SceneBuilder builder;
     const int lamp = builder.light(Texture(Rgb(1)));
     const int white = builder.diffuse(Rgb(0.7f));
-    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, white); // the left half; the right one is empty
+    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, white);         // the left half; the right one is empty
     builder.quad({-1, -1, -1}, {2, 0, 0}, {0, -2, 0}, white, lamp); // lights nothing that is seen
     builder.camera({0, 0, 3}, {0, 0, 0}, 30);
     scene = builder.build();

@@ -356,7 +356,8 @@ TEST(Session, APaneThatFollowsAnotherReconstructsItsPassesByItself) {
     EXPECT_EQ(session.follow(1, 0), generation);
     const auto has_all = [&](int pane, Norm norm) {
         const auto s = session.latest(pane);
-        return s && !s->coarse() && s->spp == 4 && s->reconstruction_spp == 4 && s->reconstructed_with.norm == norm;
+        return s && !s->coarse() && s->spp == 4 && s->reconstruction_spp == 4 &&
+               s->reconstructed_with.norm == norm;
     };
     ASSERT_TRUE(eventually([&] { return has_all(0, Norm::l2) && has_all(1, Norm::l1); }));
     EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "one render";

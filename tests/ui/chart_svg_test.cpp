@@ -188,7 +188,8 @@ TEST(Chart, EveryMethodAndNormHasALookOfItsOwn) {
     for (Method method : all_methods)
         for (Norm norm : all_norms)
             for (int marker = 0; marker < (has_gradients(method) || norm == Norm::none ? 2 : 0); ++marker)
-                lines.push_back({std::to_string(lines.size()), {{1, 1}, {2, 1}}, false, true, {method, norm, marker}});
+                lines.push_back(
+                    {std::to_string(lines.size()), {{1, 1}, {2, 1}}, false, true, {method, norm, marker}});
     ASSERT_GT(lines.size(), 20u);
     const pugi::xml_document document = parse(to_svg({"t", {{"x", "y", Scale::log, Scale::log, {}, lines}}}));
     std::set<std::string> strokes;
@@ -200,7 +201,8 @@ TEST(Chart, EveryMethodAndNormHasALookOfItsOwn) {
     EXPECT_EQ(strokes.size(), std::size(all_methods)) << "a colour a method";
     EXPECT_EQ(dashes.size(), 2 + 2 * all_norms.size()) << "dashes for norms, of methods that have any";
     EXPECT_GT(count(document, "circle"), 0);
-    EXPECT_EQ(count(document, "circle") + 2, count(document, "rect")) << "ground and frame, and the second markers";
+    EXPECT_EQ(count(document, "circle") + 2, count(document, "rect"))
+        << "ground and frame, and the second markers";
 }
 
 TEST(Chart, NamesStandAtTheirPlaces) {

@@ -1,4 +1,5 @@
-// Automatic exposure, the list of commands, undo by keys, what is said over the pictures, where panes lie, presets.
+// Automatic exposure, the list of commands, undo by keys, what is said over the pictures, where panes lie,
+// presets.
 
 #include "render/scene/scene.h"
 #include "tests/ui/current_folder.h"

@@ -223,7 +223,8 @@ private:
                                   ink >> IM_COL32_G_SHIFT & 255, ink >> IM_COL32_B_SHIFT & 255);
         style.marker = series.look.marker;
         for (float length : dashes_of(series.look)) // in widths of the line, which is of two pixels
-            style.dashes += fmt::format("{}{:g}", style.dashes.empty() ? R"( stroke-dasharray=")" : " ", 2 * length);
+            style.dashes +=
+                fmt::format("{}{:g}", style.dashes.empty() ? R"( stroke-dasharray=")" : " ", 2 * length);
         style.dashes += style.dashes.empty() ? "" : "\"";
         return style;
     }

@@ -125,7 +125,7 @@ ImU32 readable(ImU32 colour, Theme theme) {
 ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
     const Method method = method_of(state, pane);
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(state.layout.theme == Theme::light ? method_ink(method)
-                                                                                : method_colour(method));
+                                                                                 : method_colour(method));
     for (std::size_t i = 0; i < pane; ++i)
         if (method_of(state, i) == method)
             c.w *= 0.6f;

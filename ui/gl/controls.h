@@ -73,8 +73,8 @@ public:
 
     /// A row's label, for what is drawn without these widgets: the item after it fills the row.
     void label(const char* text) const;
-    /// Says where the item just drawn is, and explains it: for what is drawn without these widgets. Without help only what
-    /// explains itself, such as a menu.
+    /// Says where the item just drawn is, and explains it: for what is drawn without these widgets. Without help
+    /// only what explains itself, such as a menu.
     void place(const char* id, const char* help);
 
     /// Says where an area is that is no item, without explaining it.

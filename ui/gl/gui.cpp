@@ -155,7 +155,8 @@ void Gui::begin_frame(glm::vec2 size, float pixels_a_unit, float seconds) {
 
 void Gui::begin_window_frame() {
     ImGui_ImplOpenGL3_NewFrame();
-    // Steps in lists come as a gamepad's: keys are not read from Dear ImGui. The window's backend forgets it each time.
+    // Steps in lists come as a gamepad's: keys are not read from Dear ImGui. The window's backend forgets it each
+    // time.
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
     do_list_step();

@@ -92,7 +92,8 @@ void HelpPage::draw(glm::vec2 screen, Controls& controls, ViewerState& state) {
     if (ImGui::Begin("Help", nullptr, overlay_flags)) {
         ImGui::SetNextItemWidth(-FLT_MIN);
         ImGui::InputTextWithHint("##help.text", "Find a key or a command", text_.data(), text_.size());
-        controls.place("help.text", "Words of what is looked for, in any order. Ctrl+Shift+P finds a command and does it.");
+        controls.place("help.text",
+                       "Words of what is looked for, in any order. Ctrl+Shift+P finds a command and does it.");
         // Field and button stay where they are while the page is scrolled.
         ImGui::BeginChild("page", {0, -ImGui::GetFrameHeightWithSpacing()});
         const char* previous = "";

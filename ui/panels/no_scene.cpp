@@ -23,7 +23,8 @@ void draw_no_scene(const ScreenRect& where, Controls& controls, ViewerState& sta
         ImGui::PopStyleColor();
         controls.place("no_scene.why", "Why the scene could not be loaded.");
         ImGui::Spacing();
-        if (controls.button("no_scene.open", "Open a scene ...", "Chooses a Mitsuba scene, an .xml file (Ctrl+O)."))
+        if (controls.button("no_scene.open", "Open a scene ...",
+                            "Chooses a Mitsuba scene, an .xml file (Ctrl+O)."))
             state.layout.choosing = FilePurpose::scene;
         ImGui::SameLine();
         if (controls.button("no_scene.again", "Try again", "Loads the same one again (F5)."))

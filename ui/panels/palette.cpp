@@ -36,7 +36,8 @@ void CommandPalette::draw(glm::vec2 screen, Controls& controls, ViewerState& sta
         ImGui::SetNextItemWidth(-FLT_MIN);
         if (ImGui::InputTextWithHint("##palette", "What do you want to do?", text_.data(), text_.size()))
             chosen_ = 0;
-        controls.place("palette.text", "Words of a command, in any order. Arrows choose, Return does it, Esc closes.");
+        controls.place("palette.text",
+                       "Words of a command, in any order. Arrows choose, Return does it, Esc closes.");
         draw_list(controls, state);
     }
     ImGui::End();

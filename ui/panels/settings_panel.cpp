@@ -25,13 +25,15 @@ namespace {
 
 /// What the panel begins with; all else is for experts.
 bool is_essential(const Setting& setting) {
-    static constexpr std::string_view ids[] = {"tile", "roulette", "rr_scale", "rr_delta", "norm", "alpha", "max_depth"};
+    static constexpr std::string_view ids[] = {"tile", "roulette", "rr_scale", "rr_delta",
+                                               "norm", "alpha",    "max_depth"};
     return std::find(std::begin(ids), std::end(ids), setting.id) != std::end(ids);
 }
 
-/// Draws a setting, with a mark where it is not as `usual`: a right click brings that back. Of what has no `usual`,
-/// draws the setting alone.
-bool draw_marked(Controls& controls, Setting setting, const std::optional<std::string>& usual, const Preset& preset) {
+/// Draws a setting, with a mark where it is not as `usual`: a right click brings that back. Of what has no
+/// `usual`, draws the setting alone.
+bool draw_marked(Controls& controls, Setting setting, const std::optional<std::string>& usual,
+                 const Preset& preset) {
     if (!usual || *usual == setting.text())
         return draw_setting(controls, setting);
     const std::string help = std::string(setting.help) + "\n\n" + std::string(preset.label) + " has " + *usual +
@@ -60,7 +62,8 @@ std::optional<std::string> usual_value(const Setting& setting, const ViewerState
 
 /// Draws the essential settings, or the others. What makes no difference as the others are is left out, but for
 /// alpha, so that what follows does not jump between norms.
-bool draw_settings(Controls& controls, const ViewerState& state, const std::vector<Setting>& settings, bool essential) {
+bool draw_settings(Controls& controls, const ViewerState& state, const std::vector<Setting>& settings,
+                   bool essential) {
     const Preset& preset = presets()[static_cast<std::size_t>(state.preset)];
     bool changed = false;
     for (const Setting& setting : settings) {
@@ -79,7 +82,8 @@ bool begin_section(Controls& controls, ViewerState& state, PanelSection section,
     ImGui::Spacing();
     ImGui::PushFont(bold_font());
     ImGui::SetNextItemOpen(state.layout.is_open(section));
-    const bool open = ImGui::TreeNodeEx(title, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    const bool open =
+        ImGui::TreeNodeEx(title, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
     ImGui::PopFont();
     controls.place(id, help);
     if (open != state.layout.is_open(section))
@@ -218,9 +222,10 @@ void draw_preset(Controls& controls, ViewerState& state) {
     const std::string shown = std::string(held_against.label) + (is_pure ? "" : ", changed");
     int index = state.preset;
     controls.label("Preset");
-    if (controls.bare_choice("preset", shown.c_str(), items, index, -FLT_MIN,
-                             "Settings that belong together, for the active pane, or for all that have the same. Marked "
-                             "is what differs from them. Chosen again, it takes all changes back.") ||
+    if (controls.bare_choice(
+            "preset", shown.c_str(), items, index, -FLT_MIN,
+            "Settings that belong together, for the active pane, or for all that have the same. Marked "
+            "is what differs from them. Chosen again, it takes all changes back.") ||
         (index == state.preset && !is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
         state.preset = index;
         apply(presets()[static_cast<std::size_t>(index)], state.active().settings);
@@ -260,7 +265,8 @@ void draw_contents(Controls& controls, ViewerState& state) {
     if (begin_section(controls, state, Section::display, "section.display", "Display", "How pictures are seen."))
         draw_display_settings(controls, state);
     if (state.compared_with(state.active_pane) != state.active_pane &&
-        begin_section(controls, state, Section::compare, "section.compare", "Compare", "One pane against another."))
+        begin_section(controls, state, Section::compare, "section.compare", "Compare",
+                      "One pane against another."))
         draw_comparison_settings(controls, state);
     if (begin_section(controls, state, Section::reference, "section.reference", "Reference",
                       "What errors are measured against."))

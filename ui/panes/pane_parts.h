@@ -23,8 +23,9 @@ struct PaneTools {
 /// The strip above a pane's picture: its method, with what tells it from the other panes, and buffer.
 void draw_pane_header(int index, Controls& controls, ViewerState& state);
 
-/// The text of the line below a picture: method, what tells it from the other panes, why it rests, samples a pixel, seconds, rays a second,
-/// reconstruction with its solver's steps and time, or one that is under way for long.
+/// The text of the line below a picture: method, what tells it from the other panes, why it rests, samples a
+/// pixel, seconds, rays a second, reconstruction with its solver's steps and time, or one that is under way for
+/// long.
 std::string status_text(const ViewerState& state, int pane);
 
 /// "waiting for pane 2 (3:10 of 10:00)": another pane catches up with what this one has had. Empty: it does not

@@ -50,7 +50,8 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
     static const std::vector<ChoiceItem> tiles = [] {
         std::vector<ChoiceItem> list;
         for (int edge = 1; edge <= most_tile; ++edge)
-            list.push_back({std::to_string(edge), "tile " + std::to_string(edge), "Pixels that share their paths, along an edge."});
+            list.push_back({std::to_string(edge), "tile " + std::to_string(edge),
+                            "Pixels that share their paths, along an edge."});
         return list;
     }();
     static const std::vector<ChoiceItem> norms = choice_items(norm_choices());
@@ -59,15 +60,17 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
     if (reuses_paths(pane.settings.render.method)) {
         int tile = pane.settings.render.tile - 1;
         ImGui::SameLine();
-        changed |= controls.bare_choice((id + ".tile").c_str(), tiles[static_cast<std::size_t>(tile)].label.c_str(),
-                                        tiles, tile, font * 5.5f, "Edge of this pane's tiles, pixels.");
+        changed |=
+            controls.bare_choice((id + ".tile").c_str(), tiles[static_cast<std::size_t>(tile)].label.c_str(),
+                                 tiles, tile, font * 5.5f, "Edge of this pane's tiles, pixels.");
         pane.settings.render.tile = tile + 1;
     }
     if (has_gradients(pane.settings.render.method)) {
         int norm = static_cast<int>(pane.settings.reconstruction.norm);
         ImGui::SameLine();
-        changed |= controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(),
-                                        norms, norm, font * 7, "How this pane's picture is reconstructed.");
+        changed |=
+            controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(),
+                                 norms, norm, font * 7, "How this pane's picture is reconstructed.");
         pane.settings.reconstruction.norm = all_norms[static_cast<std::size_t>(norm)];
     }
     if (changed && state.panes.size() > 1)
@@ -96,7 +99,8 @@ void draw_pane_header(int index, Controls& controls, ViewerState& state) {
     const std::string label = pane_label(state, index);
     const bool has_more = label != paper_name(pane.settings.render.method);
     const std::string& shown = has_more ? label : method_items()[static_cast<std::size_t>(method)].label;
-    if (controls.bare_choice((id + ".method").c_str(), shown.c_str(), method_items(), method, method_width, "How this pane's light paths are sampled (M)."))
+    if (controls.bare_choice((id + ".method").c_str(), shown.c_str(), method_items(), method, method_width,
+                             "How this pane's light paths are sampled (M)."))
         pane.settings.render.method = all_methods[method];
     ImGui::SameLine();
     int buffer = static_cast<int>(pane.settings.buffer);

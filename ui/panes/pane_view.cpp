@@ -48,13 +48,15 @@ std::string notice_of(const Showing& showing, const PaneTools& tools) {
         return "";
     const PaneState& pane = state.panes[static_cast<std::size_t>(showing.pane)];
     if (pane.failed)
-        return "The render failed: " + pane.failure + "\n\nAnother size, setting or scene starts it anew, and so does R.";
+        return "The render failed: " + pane.failure +
+               "\n\nAnother size, setting or scene starts it anew, and so does R.";
     const bool is_done = pane.snapshot && pane.snapshot->generation == pane.generation && !pane.snapshot->coarse();
     if (!is_done || showing.subtrahend >= 0 || !tools.images[static_cast<std::size_t>(showing.pane)].is_black())
         return "";
     if (state.scene->triangle_count() == 0)
         return "The scene is empty: nothing in it has a surface.";
-    return "The camera sees no light.\n\nHome: back to the camera of the file; Shift+2: what it sees, without light";
+    return "The camera sees no light.\n\nHome: back to the camera of the file; Shift+2: what it sees, without "
+           "light";
 }
 
 std::string pane_id(int index) {

@@ -148,7 +148,8 @@ std::optional<float> exposure_of(const Showing& showing, const PaneImages& image
         }
     if (values.empty())
         return std::nullopt;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share_below * static_cast<float>(values.size() - 1));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share_below * static_cast<float>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return std::log2(brightness / *at);
 }

@@ -59,12 +59,12 @@ constexpr Action table[] = {
     {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.wishes.quit = true; },
      nullptr},
 
-    {"Edit", "Undo", "Takes back the last change of settings, panes, exposure or camera.", ctrl(Key::z), no_shortcut,
-     [](State& s) { s.history.undo(s); }, nullptr},
+    {"Edit", "Undo", "Takes back the last change of settings, panes, exposure or camera.", ctrl(Key::z),
+     no_shortcut, [](State& s) { s.history.undo(s); }, nullptr},
     {"Edit", "Redo", "Makes again what was taken back.", ctrl_shift(Key::z), ctrl(Key::y),
      [](State& s) { s.history.redo(s); }, nullptr},
-    {"Edit", "Find a command ...", "The list of all commands, to be found by words.", ctrl_shift(Key::p), no_shortcut,
-     [](State& s) { s.layout.show_palette = !s.layout.show_palette; },
+    {"Edit", "Find a command ...", "The list of all commands, to be found by words.", ctrl_shift(Key::p),
+     no_shortcut, [](State& s) { s.layout.show_palette = !s.layout.show_palette; },
      [](const State& s) { return s.layout.show_palette; }},
 
     {"Render", "Pause", "Stops and resumes the rendering; what is on show stays.", key(Key::space), no_shortcut,
@@ -214,10 +214,10 @@ constexpr Action table[] = {
 
     {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
      has_panes<1>},
-    {"Panes", "Two panes", "Renders two panes, as their pictures are larger.", ctrl(Key::digit2), no_shortcut, set_panes<2>,
-     has_panes<2>},
-    {"Panes", "Four panes", "Renders four panes: PT and PR above G-PT and G-PR.", ctrl(Key::digit4), no_shortcut, set_panes<4>,
-     has_panes<4>},
+    {"Panes", "Two panes", "Renders two panes, as their pictures are larger.", ctrl(Key::digit2), no_shortcut,
+     set_panes<2>, has_panes<2>},
+    {"Panes", "Four panes", "Renders four panes: PT and PR above G-PT and G-PR.", ctrl(Key::digit4), no_shortcut,
+     set_panes<4>, has_panes<4>},
     {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
     {"Panes", "Compare reconstructions",
      "One render in four panes: its primal, and the pictures that L2, L1 and the weighted norm make of the same "

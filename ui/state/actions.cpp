@@ -22,8 +22,8 @@ std::string name(Key key) {
         return std::string(1, static_cast<char>('0' + place(key) - place(Key::digit0)));
     if (key >= Key::f1 && key <= Key::f12)
         return "F" + std::to_string(1 + place(key) - place(Key::f1));
-    static constexpr std::array names = {"Left", "Right", "Up", "Down", "Home", "Space", "Tab", "Esc", "Shift",
-                                         "Return"};
+    static constexpr std::array names = {"Left",  "Right", "Up",  "Down",  "Home",
+                                         "Space", "Tab",   "Esc", "Shift", "Return"};
     static_assert(names.size() == static_cast<std::size_t>(place(Key::enter) - place(Key::left) + 1));
     const int index = place(key) - place(Key::left);
     return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
@@ -142,8 +142,8 @@ bool counts_in_text(const Shortcut& typed) {
 
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
-                     state.layout.show_help || state.layout.show_palette || state.layout.large_charts || state.reference_making.show ||
-                     state.layout.sample_form.show || state.layout.choosing;
+                     state.layout.show_help || state.layout.show_palette || state.layout.large_charts ||
+                     state.reference_making.show || state.layout.sample_form.show || state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
     const bool is_busy = loads || state.reference_read ||

@@ -123,9 +123,9 @@ static void arrange(Document& document, int count) {
     std::sort(panes.begin(), panes.end(),
               [&](const PaneState& a, const PaneState& b) { return place(a) < place(b); });
     const auto index_of = [&](int slot) {
-        return static_cast<int>(std::find_if(panes.begin(), panes.end(),
-                                             [&](const PaneState& pane) { return pane.slot == slot; }) -
-                                panes.begin());
+        return static_cast<int>(
+            std::find_if(panes.begin(), panes.end(), [&](const PaneState& pane) { return pane.slot == slot; }) -
+            panes.begin());
     };
     document.active_pane = index_of(active);
     for (PaneState& pane : panes) // what each is compared with moves as well

@@ -58,9 +58,9 @@ struct PaneState {
     std::uint64_t generation = 0;                           ///< of the request that is out
     glm::ivec2 canvas_size{0};                              ///< pixels of the place for its picture, as last drawn
     std::optional<ReconstructionUnderWay> reconstructing{}; ///< of its newest picture; empty: none is under way
-    bool failed = false; ///< its render went wrong: nothing more will come of the request
+    bool failed = false;   ///< its render went wrong: nothing more will come of the request
     std::string failure{}; ///< of a failed one: why
-    float pass_share = 0; ///< of the pass under way that is done, [0, 1]
+    float pass_share = 0;  ///< of the pass under way that is done, [0, 1]
     int slot = 0; ///< the session's pane that renders it: no other has it, and it keeps it wherever it is shown
 };
 
@@ -110,7 +110,7 @@ struct Message {
 
 /// Why there is no scene although one was asked for.
 struct SceneProblem {
-    std::string text; ///< empty: there is one, or it is on its way
+    std::string text;     ///< empty: there is one, or it is on its way
     bool is_error = true; ///< or it was given up
 };
 
@@ -159,7 +159,8 @@ struct Document {
     const PaneState& active() const { return panes[static_cast<std::size_t>(active_pane)]; }
 
     /// Adds panes, with the settings of those taken away or a method that no pane has yet, or takes the last away;
-    /// the active one stays. `count` of 1 to most_panes. Four methods lie as a table: PT and PR above G-PT and G-PR.
+    /// the active one stays. `count` of 1 to most_panes. Four methods lie as a table: PT and PR above G-PT and
+    /// G-PR.
     void set_pane_count(int count);
 
     /// The pane that the session's slot renders; null: none is.

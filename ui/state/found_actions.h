@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-/// The actions whose menu, name, help or key has all words of the text, in either case; those whose name begins with
-/// the first word come first. All of them for an empty text.
+/// The actions whose menu, name, help or key has all words of the text, in either case; those whose name begins
+/// with the first word come first. All of them for an empty text.
 std::vector<const Action*> actions_with(const std::string& text);
 
 /// Whether something with these words is meant by a text, as above.

@@ -30,7 +30,8 @@ struct LastingLayout {
     float text_factor = 1;  ///< of text and controls, against the display's: another one has as large a text
     float panel_width = 20; ///< of the panels at the side, in heights of a line
     bool show_panel = true;
-    unsigned open_sections = 0b0011111; ///< a bit for each PanelSection: limits and expert are folded away at first
+    unsigned open_sections =
+        0b0011111; ///< a bit for each PanelSection: limits and expert are folded away at first
     bool show_statistics = false;
     bool show_charts = false;
 

@@ -56,7 +56,8 @@ PaneSettings fang() {
 constexpr Preset table[] = {
     {"ours", "Tessera", "The settings that the program begins with.", [] { return PaneSettings(); }},
     {"bekaert2002", "Bekaert 2002",
-     "PR as first published: N-rooks patterns of 8, x1 joined to x2, direct light each pixel's own, no roulette on "
+     "PR as first published: N-rooks patterns of 8, x1 joined to x2, direct light each pixel's own, no roulette "
+     "on "
      "reuse.",
      bekaert},
     {"kettunen2015", "Kettunen 2015",
@@ -64,7 +65,8 @@ constexpr Preset table[] = {
      "albedo, and spikes count in full.",
      kettunen},
     {"bauszat2017", "Bauszat 2017",
-     "PR and G-PR in tiles of 6, with the absolute roulette (RR delta 0.1, q min 0.1), L1 with alpha 0.2.", bauszat},
+     "PR and G-PR in tiles of 6, with the absolute roulette (RR delta 0.1, q min 0.1), L1 with alpha 0.2.",
+     bauszat},
     {"fang2024", "Fang 2024",
      "Gradients of the light over the albedo; least absolute differences of the gradients, least squares of the "
      "primal.",

@@ -134,7 +134,8 @@ void SessionLink::send_panes(ViewerState& state) {
     std::vector<std::size_t> renders(state.panes.size());
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         renders[i] = renders_for(state, i);
-    // Who has rendered for others until now may do something else, or be no more: one of these takes its samples on.
+    // Who has rendered for others until now may do something else, or be no more: one of these takes its samples
+    // on.
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         PaneState& pane = state.panes[i];
         const int followed = sent_of(pane).followed;

@@ -224,8 +224,9 @@ void Viewer::draw_panes(const ScreenRect& where) {
                 act(pane_views_[static_cast<std::size_t>(i)], i);
         }
     };
-    each(
-        [&](PaneView& view, int i) { view.take_input(i, alone < 0 ? pane_rect(where, i, panes, picture) : where, tools); });
+    each([&](PaneView& view, int i) {
+        view.take_input(i, alone < 0 ? pane_rect(where, i, panes, picture) : where, tools);
+    });
     each([&](PaneView& view, int i) { view.draw(i, tools); });
 }
 

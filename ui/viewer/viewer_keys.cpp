@@ -21,9 +21,9 @@ bool has_open_list() {
 
 /// Takes what was typed to the open list.
 void step_in_list(const std::vector<Shortcut>& typed) {
-    constexpr std::pair<Key, ListStep> steps[] = {
-        {Key::left, ListStep::left}, {Key::right, ListStep::right}, {Key::up, ListStep::up},
-        {Key::down, ListStep::down}, {Key::enter, ListStep::take},  {Key::escape, ListStep::close}};
+    constexpr std::pair<Key, ListStep> steps[] = {{Key::left, ListStep::left},  {Key::right, ListStep::right},
+                                                  {Key::up, ListStep::up},      {Key::down, ListStep::down},
+                                                  {Key::enter, ListStep::take}, {Key::escape, ListStep::close}};
     for (const Shortcut& shortcut : typed)
         for (const auto& [key, step] : steps)
             if (shortcut == Shortcut{key})
