@@ -75,7 +75,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     add_setting(command, spp_setting(words.spp))->default_str(std::to_string(usual_spp));
     limit_to_seconds(command.add_option("--time", words.time, "seconds of rendering, without loading"));
     add_clock(command, words.clock);
-    add_norms(command, words.norms, "or several: one layer each (default weighted with gradients)");
+    add_norms(command, words.norms, "or several: one layer each (default guided with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");

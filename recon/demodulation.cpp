@@ -8,17 +8,16 @@
 
 namespace tessera {
 
+Rgb known_albedo(const Demodulation& d, int x, int y) {
+    return d.albedo(x, y) + d.sampled_share(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
+}
+
 namespace {
 
 /// V = A E + m(v) - A m(e), of pixel (x, y).
 Rgb unbiased(const GradientImages& images, const RgbImage& image, int x, int y) {
     const Demodulation& d = images.demodulation;
     return d.value(x, y) + d.albedo(x, y) * (image(x, y) - images.primal(x, y));
-}
-
-/// The mean of all albedos that are known of a pixel.
-Rgb albedo_of(const Demodulation& d, int x, int y) {
-    return d.albedo(x, y) + d.sampled_share(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
 }
 
 /// The sum over the pixels of the 3x3 about (x, y).
@@ -39,7 +38,7 @@ Rgb slope(const GradientImages& images, Rgb light, int x, int y) {
     const auto sum = [&](const RgbImage& image) {
         return around<Rgb>(x, y, image.width(), image.height(), [&](int i, int j) { return image(i, j); });
     };
-    const Rgb albedo = albedo_of(d, x, y);
+    const Rgb albedo = known_albedo(d, x, y);
     const Rgb weight = prior * d.albedo_variance(x, y) / 3 + least * albedo * albedo;
     return (sum(d.value_covariance) + weight * light) / glm::max(sum(d.sampled_variance) + weight, 1e-20f);
 }
@@ -47,7 +46,7 @@ Rgb slope(const GradientImages& images, Rgb light, int x, int y) {
 /// rho = m(v) - A m(e) - b (m(a) - A).
 Rgb covariance(const GradientImages& images, Rgb light, int x, int y) {
     const Demodulation& d = images.demodulation;
-    const Rgb albedo = albedo_of(d, x, y);
+    const Rgb albedo = known_albedo(d, x, y);
     return d.value(x, y) - albedo * images.primal(x, y) -
            slope(images, light, x, y) * (d.sampled_albedo(x, y) - albedo);
 }
@@ -89,7 +88,7 @@ void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image,
     }
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            image(x, y) *= albedo_of(d, x, y);
+            image(x, y) *= known_albedo(d, x, y);
             if (!rho.empty())
                 image(x, y) += trust(images, rho, x, y) * rho(x, y);
         }

@@ -26,6 +26,9 @@ namespace tessera {
 /// variances, k = 0.
 void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image, const ParallelFor& parallel_for);
 
+/// A of pixel (x, y) where the answer is not unbiased: the mean of all albedos that are known of it.
+Rgb known_albedo(const Demodulation& demodulation, int x, int y);
+
 /// The memory that remodulate() takes.
 std::uint64_t bytes_to_remodulate(int width, int height);
 

@@ -126,9 +126,44 @@ struct CoefficientPart {
 struct BrightestSamples {
     RgbImage primal, dx, dy; ///< of GradientImages; dx and dy empty where these are
     RgbImage albedo;         ///< what its primal was divided by; empty without Demodulation
+    Image<float> half;       ///< its weight in HalfDifferences, about 1 or -1; empty without these
     int samples = 0;         ///< that each pixel has, this one among them
 
-    static constexpr std::size_t bytes_a_pixel = 4 * sizeof(Rgb);
+    static constexpr std::size_t bytes_a_pixel = 4 * sizeof(Rgb) + sizeof(float);
+    bool empty() const { return primal.empty(); }
+};
+
+/// What a pixel shows first that is not a mere mirror or clear glass, followed through these: pixels that look
+/// alike in it have about the same light.
+struct Guide {
+    Rgb albedo{0};       ///< of what is seen, times what mirrors and glass on the way leave; 1: nothing is met
+    glm::vec3 normal{0}; ///< of shading, unit, in the world; 0: nothing is met
+    float nearness = 0;  ///< inverse length of the way, in units of the scene; 0: nothing is met
+
+    void operator+=(const Guide& other) {
+        albedo += other.albedo;
+        normal += other.normal;
+        nearness += other.nearness;
+    }
+};
+
+/// Means of guides over the points of each pixel. All images of one size, or all empty: unknown.
+struct GuideImages {
+    RgbImage albedo;
+    Image<glm::vec3> normal;
+    Image<float> nearness;
+
+    static constexpr std::size_t bytes_a_pixel = 2 * sizeof(Rgb) + sizeof(float);
+    bool empty() const { return albedo.empty(); }
+};
+
+/// Half the difference between what one half of the passes and what the other says, each in the mean: noise alone,
+/// and as much of it as is in the mean of all. All images of one size; dx and dy empty without gradients, all
+/// empty where they are unknown.
+struct HalfDifferences {
+    RgbImage primal, dx, dy; ///< of those of GradientImages
+
+    static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb);
     bool empty() const { return primal.empty(); }
 };
 
@@ -146,6 +181,8 @@ struct GradientImages {
     Demodulation demodulation{};
     std::vector<CoefficientPart> parts{}; ///< none: the coefficient is reconstructed as a whole
     BrightestSamples brightest{};         ///< empty: unknown
+    HalfDifferences halves{};
+    GuideImages guides{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.

@@ -2,6 +2,8 @@
 
 #include "recon/bounds.h"
 #include "recon/demodulation.h"
+#include "recon/guided.h"
+#include "recon/oidn.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_parts.h"
@@ -49,12 +51,19 @@ void check_sizes(const GradientImages& images) {
     };
     const Demodulation& d = images.demodulation;
     const BrightestSamples& b = images.brightest;
+    const HalfDifferences& h = images.halves;
+    const GuideImages& g = images.guides;
+    if (g.albedo.empty() != g.normal.empty() || g.albedo.empty() != g.nearness.empty() ||
+        (images.has_gradients() && !h.empty() && (h.dx.empty() || h.dy.empty())))
+        throw std::invalid_argument("the guides, or the halves' differences, are not complete");
     for (const RgbImage* image :
          {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo, &d.sampled_variance,
-          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo})
+          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &images.halves.primal, &images.halves.dx,
+          &images.halves.dy, &images.guides.albedo, &images.guides.normal})
         check(*image);
-    for (const Image<float>* variance : {&images.primal_variance, &images.dx_variance, &images.dy_variance,
-                                         &d.albedo_variance, &d.sampled_share, &d.unexplained_variance})
+    for (const Image<float>* variance :
+         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
+          &d.unexplained_variance, &b.half, &images.guides.nearness})
         check(*variance);
     for (const CoefficientPart& part : images.parts) {
         for (const RgbImage* image : {&part.primal, &part.dx, &part.dy})
@@ -121,6 +130,7 @@ struct Reconstructor::Solvers {
     std::optional<PoissonSolver> l2;
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
+    std::optional<WeightedSolver> noise; ///< of guided
     std::optional<PartsSolver> parts;
     bool has_variances = false; ///< the last images that were weighted
 };
@@ -133,8 +143,9 @@ void Reconstructor::forget() {
         return;
     if (solvers_->l1)
         solvers_->l1->forget();
-    if (solvers_->weighted)
-        solvers_->weighted->forget();
+    for (std::optional<WeightedSolver>* solver : {&solvers_->weighted, &solvers_->noise})
+        if (*solver)
+            (*solver)->forget();
 }
 
 std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts) const {
@@ -158,6 +169,16 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     case Norm::weighted:
         return image + EdgeWeights::bytes(width, height) +
                (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
+    case Norm::guided: { // the smoothing comes when both are solved
+        const std::uint64_t solver = WeightedSolver::bytes(width, height, threads);
+        return 2 * image + bytes_to_smooth(width, height) + (kept && kept->weighted ? 0 : solver) +
+               (kept && kept->noise ? 0 : solver);
+    }
+    case Norm::smoothed:
+        return 2 * image + bytes_to_smooth(width, height);
+    case Norm::oidn:
+        return 5 * image + bytes_of_oidn(width, height) +
+               (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
     }
     return 0;
 }
@@ -176,6 +197,12 @@ std::string_view to_string(Norm norm) {
         return "uniform";
     case Norm::weighted:
         return "weighted";
+    case Norm::guided:
+        return "guided";
+    case Norm::smoothed:
+        return "smoothed";
+    case Norm::oidn:
+        return "oidn";
     }
     return "?";
 }
@@ -199,6 +226,46 @@ bool is_linear(Norm norm) {
     return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
 }
 
+int Reconstructor::solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
+                                  const ParallelFor& parallel_for, const SolveWatch& watch) {
+    WeightedSolver& solver = solvers_->made(solvers_->weighted);
+    if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
+        forget(); // weights from neighbours are unlike those from samples
+    const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
+    return solver.solve(problem, weights, {}, image, parallel_for, watch);
+}
+
+/// The noise of a picture that was made by the same equations, radiance: what the halves of the samples make of
+/// it, with what of `held` is in one or the other. Empty: stopped, or unknown.
+RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
+                                 const RgbImage& held, const RgbImage& picture, const ParallelFor& parallel_for,
+                                 const SolveWatch& watch) {
+    if (images.halves.empty())
+        return {};
+    RgbImage noise = images.halves.primal;
+    if (images.has_gradients() && settings.norm == Norm::guided) {
+        const float alpha = alpha_of_patches(settings.alpha, images.patch);
+        const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
+        const EdgeWeights weights = weights_of_gradients(images, alpha, parallel_for);
+        // Noise need not be known better than it is alike from one half to another.
+        constexpr WeightedSettings quick{.cold_iterations = 6, .warm_iterations = 2};
+        solvers_->made(solvers_->noise).solve(halves, weights, quick, noise, parallel_for, watch);
+        if (watch.is_stopped())
+            return {};
+    }
+    const Demodulation& d = images.demodulation;
+    for (int y = 0; y < noise.height() && !d.empty(); ++y)
+        for (int x = 0; x < noise.width(); ++x)
+            noise(x, y) *= known_albedo(d, x, y);
+    if (!held.empty() && !images.brightest.half.empty()) {
+        RgbImage held_noise = held;
+        for (std::size_t i = 0; i < held.size(); ++i)
+            held_noise.data()[i] *= images.brightest.half.data()[i];
+        LightSpreader(picture, parallel_for).spread(held_noise, noise, parallel_for);
+    }
+    return noise;
+}
+
 /// Reconstructs without very direct light, and takes no time.
 Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
                                     const ParallelFor& parallel_for, const SolveWatch& watch) {
@@ -220,6 +287,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     }
     switch (images.has_gradients() ? settings.norm : Norm::none) {
     case Norm::none:
+    case Norm::smoothed:
         result.image = images.primal;
         break;
     case Norm::l2:
@@ -236,15 +304,12 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     case Norm::uniform:
         result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, watch);
         break;
-    case Norm::weighted: {
-        WeightedSolver& solver = solvers_->made(solvers_->weighted);
-        if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
-            solver.forget(); // weights from neighbours are unlike those from samples
+    case Norm::weighted:
+    case Norm::guided: // what comes after these is reconstruct()'s
+    case Norm::oidn:
         problem.alpha = alpha_of_patches(settings.alpha, images.patch);
-        const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
-        result.iterations = solver.solve(problem, weights, {}, result.image, parallel_for, watch);
+        result.iterations = solve_weighted(images, problem, result.image, parallel_for, watch);
         break;
-    }
     }
     if (watch.is_stopped())
         result.image = {};
@@ -263,24 +328,44 @@ Reconstruction Reconstructor::picture_of(const GradientImages& images, const Rec
     return result;
 }
 
+/// What is done to a picture without very direct light after it is solved. Empties it: stopped.
+void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
+                           const RgbImage& held, RgbImage& picture, const ParallelFor& parallel_for,
+                           const SolveWatch& watch) {
+    if (settings.norm == Norm::oidn)
+        picture = denoised_by_oidn(picture, images.guides);
+    const bool smooths =
+        settings.norm == Norm::smoothed || (settings.norm == Norm::guided && images.has_gradients());
+    if (smooths && !images.guides.empty()) {
+        RgbImage noise = noise_of(images, settings, held, picture, parallel_for, watch);
+        if (!noise.empty())
+            picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
+    }
+    if (watch.is_stopped())
+        picture = {};
+}
+
 Reconstruction Reconstructor::reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const auto start = std::chrono::steady_clock::now();
     check_sizes(images);
+    if (settings.norm != Norm::guided && solvers_ && solvers_->noise)
+        solvers_->noise->forget(); // its last noise is long ago
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    Reconstruction result;
-    if (settings.spikes == Spikes::consistent && can_limit(images)) {
-        RgbImage held;
-        const GradientImages limited_images = limited(images, held, parallel_for);
-        result = picture_of(limited_images, settings, parallel_for, watch);
+    RgbImage held;
+    const bool limits = settings.spikes == Spikes::consistent && can_limit(images);
+    const GradientImages limited_images = limits ? limited(images, held, parallel_for) : GradientImages();
+    const GradientImages& counted = limits ? limited_images : images;
+    Reconstruction result = picture_of(counted, settings, parallel_for, watch);
+    if (limits) {
         if (!result.image.empty())
-            spread_within_bounds(limited_images, held, result.image, parallel_for);
+            spread_within_bounds(counted, held, result.image, parallel_for);
         const double all = sum_of(images.radiance());
         result.held_share = all > 0 ? sum_of(held) / all : 0;
-    } else {
-        result = picture_of(images, settings, parallel_for, watch);
     }
+    if (!result.image.empty())
+        finish(counted, settings, held, result.image, parallel_for, watch);
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

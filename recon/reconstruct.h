@@ -25,18 +25,26 @@ namespace tessera {
 int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
                        const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
-/// mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours (average_neighbours; alpha does
-/// not matter). weighted: L2, where gradients count the less the noisier they are (weights_of_gradients). All but
-/// l1 keep the primal's mean (with parts: nearly), until what l1, mixed and weighted leave below black is lifted
-/// to it, unless the primal is below, too.
-enum class Norm { none, l2, l1, mixed, uniform, weighted };
+/// How a picture is made. mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours
+/// (average_neighbours; alpha does not matter). weighted: L2, where gradients count the less the noisier they are
+/// (weights_of_gradients). guided: weighted, then smoothed where pixels look alike as far as two halves of the
+/// samples disagree (recon/guided.h). smoothed: the primal, smoothed so. oidn: weighted, then what Open Image
+/// Denoise makes of it (recon/oidn.h). Without gradients, these last two smooth the primal, and all others are
+/// none. All but oidn and l1 keep the primal's mean (with parts: nearly), until what l1, mixed, weighted
+/// and these leave below black is lifted to it, unless the primal is below, too.
+enum class Norm { none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn };
 
 /// All of them, in the order above.
-inline constexpr std::array all_norms = {Norm::none,  Norm::l2,      Norm::l1,
-                                         Norm::mixed, Norm::uniform, Norm::weighted};
+inline constexpr std::array all_norms = {Norm::none,     Norm::l2,     Norm::l1,       Norm::mixed, Norm::uniform,
+                                         Norm::weighted, Norm::guided, Norm::smoothed, Norm::oidn};
 static_assert(all_norms.size() == enumerator_count<Norm>);
 
-/// "none", "l2", "l1", "mixed", "uniform", "weighted".
+/// What it comes to for a method without gradients.
+inline Norm without_gradients(Norm norm) {
+    return norm == Norm::smoothed || norm == Norm::oidn ? norm : Norm::none;
+}
+
+/// "none", "l2", "l1", "mixed", "uniform", "weighted", "guided", "smoothed", "oidn".
 std::string_view to_string(Norm norm);
 /// Empty: no such norm.
 std::optional<Norm> norm_from_name(std::string_view name);
@@ -58,7 +66,7 @@ enum class Spikes {
 std::string_view to_string(Spikes spikes);
 
 struct ReconstructionSettings {
-    Norm norm = Norm::weighted;
+    Norm norm = Norm::guided;
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
     bool joint_colour = true; ///< L1 and mixed: lengths of colours, not absolute values of each channel
     Spikes spikes = Spikes::consistent;
@@ -98,8 +106,14 @@ public:
 
 private:
     struct Solvers;
+    void finish(const GradientImages& images, const ReconstructionSettings& settings, const RgbImage& held,
+                RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const ParallelFor& parallel_for, const SolveWatch& watch);
+    int solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
+                       const ParallelFor& parallel_for, const SolveWatch& watch);
+    RgbImage noise_of(const GradientImages& images, const ReconstructionSettings& settings, const RgbImage& held,
+                      const RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
                          const ParallelFor& parallel_for, const SolveWatch& watch);
 

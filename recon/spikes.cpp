@@ -98,6 +98,18 @@ glm::dvec3 held_of(const BrightestSamples& b, std::size_t i, double t) {
     return (1 - t) / b.samples * a * glm::dvec3(b.primal.data()[i]);
 }
 
+/// The half differences lack as much of the sample, with its weight in them.
+void limit_halves(HalfDifferences& halves, const BrightestSamples& b, std::size_t i, Limits t) {
+    if (halves.empty() || b.half.empty())
+        return;
+    const double n = b.samples, weight = static_cast<double>(b.half.data()[i]);
+    limit(halves.primal.data()[i], weight * glm::dvec3(b.primal.data()[i]), t.primal, n);
+    if (halves.dx.empty())
+        return;
+    limit(halves.dx.data()[i], weight * glm::dvec3(b.dx.data()[i]), t.gradients, n);
+    limit(halves.dy.data()[i], weight * glm::dvec3(b.dy.data()[i]), t.gradients, n);
+}
+
 template <class Visit>
 void for_each_limited(const GradientImages& images, const ParallelFor& parallel_for, Visit&& visit) {
     const Image<float> sizes = sizes_of_others(images);
@@ -120,6 +132,7 @@ GradientImages limited(const GradientImages& images, RgbImage& held, const Paral
     GradientImages result = images;
     for_each_limited(images, parallel_for, [&](std::size_t i, Limits t) {
         const double n = b.samples;
+        limit_halves(result.halves, b, i, t);
         if (images.has_gradients()) {
             limit(result.dx.data()[i], b.dx.data()[i], t.gradients, n);
             limit(result.dy.data()[i], b.dy.data()[i], t.gradients, n);
@@ -225,7 +238,8 @@ void LightSpreader::spread(const RgbImage& light, RgbImage& image, const Paralle
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
     const std::size_t copies = (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) + sizeof(Rgb) +
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
-                               BrightestSamples::bytes_a_pixel;
+                               BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
+                               GuideImages::bytes_a_pixel;
     // Two images of light to be spread, one on its way, the bounds, and the spreader's own.
     const std::size_t spreading = 4 * sizeof(Rgb) + 2 * sizeof(float);
     return copies + spreading;

@@ -11,4 +11,8 @@ namespace tessera {
 Image<float> square_means(const Image<float>& values, int radius, int columns, int rows,
                           const ParallelFor& parallel_for);
 
+/// The same of numbers that are not negative, at a cost that does not depend on the radius: by running sums
+/// in double.
+Image<float> wide_means(const Image<float>& values, int radius, const ParallelFor& parallel_for);
+
 } // namespace tessera

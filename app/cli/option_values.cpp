@@ -1,6 +1,7 @@
 #include "app/cli/option_values.h"
 
 #include "app/cli/terminal.h"
+#include "recon/oidn.h"
 #include "render/io/files.h"
 #include "render/io/text.h"
 #include "ui/state/inspected.h"
@@ -65,7 +66,10 @@ std::vector<Enum> parse_list(const std::string& option, const std::string& text,
 } // namespace
 
 std::vector<Norm> parse_norms(const std::string& text) {
-    return parse_list<Norm>("--recon", text, norm_choices());
+    const std::vector<Norm> norms = parse_list<Norm>("--recon", text, norm_choices());
+    if (std::ranges::find(norms, Norm::oidn) != norms.end() && !oidn_problem().empty())
+        throw BadInput("--recon oidn: " + oidn_problem());
+    return norms;
 }
 
 std::vector<Method> parse_methods(const std::string& text) {

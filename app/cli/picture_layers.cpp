@@ -41,12 +41,19 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add("dx_variance", grey(images.dx_variance));
     add("dy_variance", grey(images.dy_variance));
     file.attributes[patch_attribute] = fmt::format("{}", images.patch);
+    add_layer(file, "half_primal", std::move(images.halves.primal));
+    add_layer(file, "half_dx", std::move(images.halves.dx));
+    add_layer(file, "half_dy", std::move(images.halves.dy));
+    add_layer(file, "guide_albedo", std::move(images.guides.albedo));
+    add_layer(file, "guide_normal", std::move(images.guides.normal));
+    add_layer(file, "guide_nearness", grey(images.guides.nearness));
     BrightestSamples& b = images.brightest;
     if (!b.empty()) {
         add_layer(file, "brightest_primal", std::move(b.primal));
         add_layer(file, "brightest_dx", std::move(b.dx));
         add_layer(file, "brightest_dy", std::move(b.dy));
         add_layer(file, "brightest_albedo", std::move(b.albedo));
+        add_layer(file, "brightest_half", grey(b.half));
         file.attributes[samples_attribute] = fmt::format("{}", b.samples);
     }
     if (!is_demodulated)
@@ -87,18 +94,19 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
     const bool gradients = has_gradients(settings.method), demodulated = is_demodulated(settings);
     const int parts = is_expanded(settings) ? part_count(settings.basis) : 0;
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::uint64_t images = pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel +
-                                           (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
-                                           (demodulated ? Demodulation::bytes_a_pixel : 0) +
-                                           static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
+    const std::uint64_t images =
+        pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
+                  GuideImages::bytes_a_pixel + (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
+                  (demodulated ? Demodulation::bytes_a_pixel : 0) +
+                  static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
     const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
     const std::uint64_t limits =
         wanted.settings.spikes == Spikes::consistent ? pixels * bytes_to_limit(gradients, demodulated) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most = std::max(
-            most, images + remodulation + limits + done +
-                      Reconstructor().bytes_for(size.x, size.y, gradients ? norm : Norm::none, threads, parts));
+        most = std::max(most, images + remodulation + limits + done +
+                                  Reconstructor().bytes_for(
+                                      size.x, size.y, gradients ? norm : without_gradients(norm), threads, parts));
         done += pixels * sizeof(Rgb);
     }
     return most;
@@ -113,9 +121,11 @@ ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& 
     for (Norm norm : wanted.norms) {
         settings.norm = norm;
         Reconstructor solver; // its memory goes before the next norm's comes
-        const double cpu = pool.cpu_seconds();
+        // The denoiser has threads of its own.
+        const auto cpu_seconds = [&] { return norm == Norm::oidn ? process_cpu_seconds() : pool.cpu_seconds(); };
+        const double cpu = cpu_seconds();
         Reconstruction r = reconstruct_if_it_fits(solver, images, settings, parallel_for, pool.size());
-        stats.push_back({norm, r.seconds, pool.cpu_seconds() - cpu, r.iterations, r.residual});
+        stats.push_back({norm, r.seconds, cpu_seconds() - cpu, r.iterations, r.residual});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
     if (wanted.buffers)

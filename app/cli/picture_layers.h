@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/reconstruct.h"
-#include "render/estimator/film.h"
+#include "render/film/film.h"
 #include "render/io/exr.h"
 #include "render/run/thread_pool.h"
 #include "render/settings/settings.h"

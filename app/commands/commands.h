@@ -72,7 +72,7 @@ struct RenderOptions {
     std::optional<double> time;   ///< seconds of rendering, without loading
     ClockChoice clock = ClockChoice::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
-    ReconstructionLayers layers;    ///< without norms: weighted where there are gradients
+    ReconstructionLayers layers;    ///< without norms: guided where there are gradients
     int threads = 0;                ///< 0: one a hardware thread
     std::filesystem::path output;
     std::filesystem::path stats; ///< empty: none
@@ -128,7 +128,7 @@ int run_merge(const MergeOptions& options);
 /// What `tessera reconstruct` is asked for.
 struct ReconstructOptions {
     std::vector<std::filesystem::path> inputs; ///< as read_gradients takes them
-    ReconstructionLayers layers{{Norm::weighted}};
+    ReconstructionLayers layers{{Norm::guided}};
     bool repair = false; ///< pixels that are not finite count as 0
     int threads = 0;     ///< 0: one a hardware thread
     std::filesystem::path output;
@@ -143,7 +143,7 @@ int run_reconstruct(const ReconstructOptions& options);
 struct ReconstructWords {
     std::vector<std::string> inputs;
     std::string primal, dx, dy, direct; ///< the inputs by their names instead
-    std::string norms = "weighted";
+    std::string norms = "guided";
     ReconstructOptions options; ///< all that is not above
 };
 

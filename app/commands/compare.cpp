@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/experiment/artefacts.h"
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
+#include "recon/metrics/seen_error.h"
 #include "render/io/available_memory.h"
 #include "render/io/exr.h"
 #include "render/io/json_text.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct ImageComparison {
     ErrorMetrics metrics;
+    double psnr = 0, flip = 0; // recon/metrics/seen_error.h
     std::optional<FloorFreeError> floor_free;
     std::optional<std::array<double, 4>> energy_change;
     std::optional<TileSpectrum> tiles;
@@ -78,9 +80,13 @@ ImageComparison compare(const CompareOptions& options) {
         check_size(options, image, options.reference2, *references.second);
         result.floor_free = measure_floor_free_error(image, references.first, *references.second);
         result.energy_change = measure_energy_change(image, references.first, *references.second);
+        result.psnr = psnr(image, references.first, *references.second);
         references.first = mean_of(references.first, *references.second);
+    } else {
+        result.psnr = psnr(image, references.first, references.first);
     }
     result.metrics = measure_error(image, references.first);
+    result.flip = mean_flip(image, references.first);
     if (options.tile > 0) {
         if (options.tile < 2 || std::min(image.width(), image.height()) < 4 * options.tile)
             throw std::runtime_error(options.image.string() + ": a spectrum of tiles takes tiles of 2 pixels and "
@@ -98,6 +104,8 @@ void print_text(const ImageComparison& c) {
     std::printf("MSE                  %.6g\n", c.metrics.mse);
     std::printf("MAPE                 %.6g\n", c.metrics.mape);
     std::printf("mean ratio           %.6f\n", c.metrics.mean_ratio);
+    std::printf("PSNR                 %.2f dB   as shown on a screen (sRGB, exposure 0)\n", c.psnr);
+    std::printf("FLIP                 %.4f   likewise, in the mean\n", c.flip);
     if (c.floor_free)
         std::printf("relMSE, floor-free   %.6g +- %.2g   mean of (I - r1)(I - r2) / (r^2 + %g)\n",
                     c.floor_free->relative_mse, c.floor_free->standard_error, relative_mse_epsilon);
@@ -135,6 +143,8 @@ void print_json(const CompareOptions& options, const ImageComparison& c) {
     out["mse"] = c.metrics.mse;
     out["mape"] = c.metrics.mape;
     out["mean_ratio"] = c.metrics.mean_ratio;
+    out["psnr"] = c.psnr;
+    out["flip"] = c.flip;
     out["bad_pixels"] = c.metrics.bad_pixels;
     out["share_without_light"] = c.share_without_light;
     if (c.floor_free) {

@@ -161,6 +161,15 @@ struct LayerReader {
         repaired += make_finite(layer, repair);
         return std::move(layer.image);
     }
+    /// Numbers of any sign; empty: the file has none.
+    Image<float> numbers(const std::string& name) const {
+        if (!find_layer(file, name))
+            return {};
+        const RgbImage layer = image(name);
+        Image<float> result(layer.width(), layer.height());
+        std::transform(layer.begin(), layer.end(), result.begin(), [](Rgb value) { return value.r; });
+        return result;
+    }
     /// Variances. A bad one is repaired with `careful`.
     Image<float> variances(const std::string& name, float careful, int columns = 0, int rows = 0) const {
         return read_variance(file, name, path, primal.image, columns, rows,
@@ -189,9 +198,19 @@ Demodulation read_demodulation(const LayerReader& reader) {
 BrightestSamples read_brightest(const LayerReader& reader, bool has_coefficient, int samples) {
     if (!find_layer(reader.file, "brightest_primal"))
         return {};
-    return {reader.image("brightest_primal"), reader.image("brightest_dx", 1, 0),
+    return {reader.image("brightest_primal"),   reader.image("brightest_dx", 1, 0),
             reader.image("brightest_dy", 0, 1), has_coefficient ? reader.image("brightest_albedo") : RgbImage(),
-            samples};
+            reader.numbers("brightest_half"),   samples};
+}
+
+/// What it has of two halves of the samples, and of what pixels look like.
+void read_guides(const LayerReader& reader, GradientImages& images) {
+    if (find_layer(reader.file, "half_primal"))
+        images.halves = {reader.image("half_primal"), reader.image("half_dx", 1, 0),
+                         reader.image("half_dy", 0, 1)};
+    if (find_layer(reader.file, "guide_albedo"))
+        images.guides = {reader.image("guide_albedo"), reader.image("guide_normal"),
+                         reader.numbers("guide_nearness")};
 }
 
 /// The parts of the coefficient that the file has. Their projections may be below 0.
@@ -257,6 +276,7 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     }
     input.images.brightest = read_brightest(
         reader, has_coefficient, number_of(input.attributes, samples_attribute, most_spp, files.front()));
+    read_guides(reader, input.images);
     if (has_variances) {
         // Gradients are trusted least where they are noisy and the primal is not.
         input.images.primal_variance = reader.variances(named("primal_variance"), 0);

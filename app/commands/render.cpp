@@ -29,12 +29,17 @@ struct ResolvedRender {
     ReconstructionLayers layers;
 };
 
+/// Parts of coefficients have a solver of their own, and are not smoothed.
+Norm default_norm(const RenderSettings& s) {
+    return is_expanded(s) ? Norm::weighted : has_gradients(s.method) ? Norm::guided : Norm::none;
+}
+
 ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
     ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.layers};
     wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
     wanted.spp = options.spp.value_or(options.time ? 0 : usual_spp);
     if (wanted.layers.norms.empty())
-        wanted.layers.norms = {has_gradients(wanted.settings.method) ? Norm::weighted : Norm::none};
+        wanted.layers.norms = {default_norm(wanted.settings)};
     return wanted;
 }
 

@@ -1,6 +1,6 @@
 #include "app/experiment/artefacts.h"
 
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 
 #include <algorithm>
 #include <cmath>

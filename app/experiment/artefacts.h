@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 
 #include <cstddef>
 #include <limits>

@@ -98,7 +98,7 @@ void add_sweep(CLI::App& app, ExperimentWords& words) {
 
 void add_bench(CLI::App& app, ExperimentWords& words) {
     words.methods = "pt,pr,gpt,gpr";
-    words.norms = "l2,l1,mixed,weighted";
+    words.norms = "l2,l1,mixed,weighted,guided";
     words.options.effort = {60, Effort::Unit::cpu_seconds};
     words.options.halvings = 6;
     words.options.seeds = 5;
@@ -118,7 +118,7 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
 void add_stability(CLI::App& app, ExperimentWords& words) {
     ExperimentOptions& options = words.options;
     words.methods = "pt,pr,gpt,gpr";
-    words.norms = "none,l2,l1,mixed,weighted";
+    words.norms = "none,l2,l1,mixed,weighted,guided";
     options.settings.size = {96, 72};
     options.effort = {1, Effort::Unit::cpu_seconds};
     options.seeds = 20;

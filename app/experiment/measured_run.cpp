@@ -2,7 +2,8 @@
 
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
-#include "recon/halo.h"
+#include "recon/metrics/halo.h"
+#include "recon/metrics/seen_error.h"
 #include "render/run/fitting_reconstruction.h"
 
 #include <algorithm>
@@ -129,13 +130,16 @@ void MeasuredRun::measure(int halvings) {
                                     tiles_of(r.image, reference_.mean, render_.settings()),
                                     render_.counters(),
                                     {}});
+        Measurement& m = measurements_[i].back();
+        m.psnr = psnr(r.image, reference_.halves[0], reference_.halves[1]);
+        m.flip = mean_flip(r.image, reference_.mean, parallel_for);
         if (measures_artefacts_) {
             Artefacts artefacts = measure_artefacts(r.image, reference_.halves[0], reference_.halves[1]);
             if (const auto halo = measure_halo(buffers, reconstructions_[i], parallel_for)) {
                 artefacts.halo_energy = halo->energy;
                 artefacts.halo_peak = halo->peak;
             }
-            measurements_[i].back().artefacts = std::move(artefacts);
+            m.artefacts = std::move(artefacts);
         }
         images_[i] = std::move(r.image);
     }

@@ -3,12 +3,13 @@
 #include "app/experiment/artefacts.h"
 #include "app/experiment/references.h"
 #include "app/experiment/setup.h"
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "recon/reconstruct.h"
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
 #include "render/run/reference_image.h"
 #include "render/run/render.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,6 +46,9 @@ struct Measurement {
     Counters counters;
     std::optional<Artefacts> artefacts; ///< where they are measured
     std::string machine = {};           ///< the kind of machine that it was rendered on
+    // As seen on a screen (recon/metrics/seen_error.h); not numbers in journals from before.
+    double psnr = std::numeric_limits<double>::quiet_NaN(); ///< decibels, to the reference's halves
+    double flip = std::numeric_limits<double>::quiet_NaN(); ///< in the mean, to the mean of the halves
 };
 
 /// The measurement as JSON; numbers that are not finite become null.

@@ -115,7 +115,9 @@ nlohmann::ordered_json to_json(const Measurement& m) {
             {"tiles", to_json(m.tiles)},
             {"counters", to_json(m.counters)},
             {"artefacts", to_json(m.artefacts)},
-            {"machine", m.machine}};
+            {"machine", m.machine},
+            {"psnr", m.psnr},
+            {"flip", m.flip}};
 }
 
 Measurement measurement_from_json(const nlohmann::json& json) {
@@ -130,7 +132,9 @@ Measurement measurement_from_json(const nlohmann::json& json) {
             tiles_from_json(json.at("tiles")),
             counters_from_json(json.at("counters")),
             artefacts_from_json(json.value("artefacts", nlohmann::json())),
-            json.value("machine", "")};
+            json.value("machine", ""),
+            number(json.value("psnr", nlohmann::json())),
+            number(json.value("flip", nlohmann::json()))};
 }
 
 } // namespace tessera

@@ -107,6 +107,8 @@ const ResultColumn columns[] = {
      [](const Result& r) {
          return mean(r, [](const Measurement& m) { return m.tiles ? m.tiles->edge_ratio : none; });
      }},
+    {"psnr", [](const Result& r) { return mean(r, [](const Measurement& m) { return m.psnr; }); }},
+    {"flip", [](const Result& r) { return mean(r, [](const Measurement& m) { return m.flip; }); }},
     {"rays", [](const Result& r) { return static_cast<double>(total(r).all_rays()) / count(r); }},
 };
 

@@ -1,6 +1,7 @@
 #include "app/experiment/setup.h"
 
 #include "app/cli/terminal.h"
+#include "recon/oidn.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
@@ -16,7 +17,9 @@ std::vector<Setting> settings_of(PictureSettings& s) {
     for (Setting& setting : settings_of(s.reconstruction)) {
         if (setting.id == "joint_colour") // journals and names of pictures do not tell it
             continue;
-        setting.matters = setting.matters && (setting.id == "spikes" || has_gradients(s.render.method));
+        const bool smooths = without_gradients(s.reconstruction.norm) != Norm::none;
+        const bool is_of_all = setting.id == "spikes" || (setting.id == "norm" && smooths);
+        setting.matters = setting.matters && (is_of_all || has_gradients(s.render.method));
         if (setting.id == "norm") {
             setting.id = "recon";
             setting.label = "Reconstruction";
@@ -68,10 +71,11 @@ std::vector<PictureSettings> varied(const std::vector<PictureSettings>& all, con
     return result;
 }
 
-/// Without gradients there is nothing to reconstruct from: all settings of that are one.
+/// Without gradients there is nothing to solve: all settings of that are one.
 PictureSettings plain(PictureSettings settings) {
     if (!has_gradients(settings.render.method))
-        settings.reconstruction = {.norm = Norm::none, .spikes = settings.reconstruction.spikes};
+        settings.reconstruction = {.norm = without_gradients(settings.reconstruction.norm),
+                                   .spikes = settings.reconstruction.spikes};
     return settings;
 }
 
@@ -112,6 +116,8 @@ std::vector<Setup> setups_of(const PictureSettings& base, const std::vector<Meth
     std::vector<Setup> setups;
     for (const PictureSettings& settings : all) {
         Setup setup{plain(settings), {}};
+        if (setup.settings.reconstruction.norm == Norm::oidn && !oidn_problem().empty())
+            throw BadInput(oidn_problem());
         for (const Variation& v : variations)
             setup.values.push_back(v.variable.matters(settings) ? v.variable.text(settings) : "");
         const auto is_same = [&](const Setup& p) {
@@ -125,7 +131,7 @@ std::vector<Setup> setups_of(const PictureSettings& base, const std::vector<Meth
 
 std::string name_of(const Setup& setup) {
     std::string name(short_name(setup.settings.render.method));
-    if (has_gradients(setup.settings.render.method))
+    if (has_gradients(setup.settings.render.method) || setup.settings.reconstruction.norm != Norm::none)
         name += fmt::format("-{}", to_string(setup.settings.reconstruction.norm));
     return name;
 }

@@ -43,8 +43,8 @@ struct SceneCurves {
 /// have reached.
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results);
 
-/// The exponent b of error ~ (CPU seconds)^b of the certain results (recon/metrics.h): -1 for methods without
-/// bias. Not a number for fewer than two.
+/// The exponent b of error ~ (CPU seconds)^b of the certain results (recon/metrics/metrics.h): -1 for methods
+/// without bias. Not a number for fewer than two.
 double slope_of(const Curve& curve);
 
 /// The result after the most time.

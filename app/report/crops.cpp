@@ -1,5 +1,5 @@
 #include "app/report/reports.h"
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "render/io/exr.h"
 
 #include <algorithm>

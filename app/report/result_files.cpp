@@ -144,7 +144,8 @@ std::string file_name(const std::string& title) {
 std::string line_label(const ExperimentOptions& options, const Result& result) {
     const PictureSettings& s = result.setup.settings;
     std::string label(short_name(s.render.method));
-    if (options.norms.size() > 1 && has_gradients(s.render.method))
+    const bool has_norm = has_gradients(s.render.method) || s.reconstruction.norm != Norm::none;
+    if (options.norms.size() > 1 && has_norm)
         label += fmt::format(" {}", to_string(s.reconstruction.norm));
     for (std::size_t i = 1; i < options.variations.size(); ++i)
         if (!result.setup.values[i].empty())

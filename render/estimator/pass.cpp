@@ -166,13 +166,13 @@ CameraSample point_from(glm::vec2 subpixel, glm::vec2 lens, int point) {
 
 } // namespace
 
-Rgb Pass::albedo_at(const Tracer& tracer, int x, int y, int point) const {
+Look Pass::look_at(const Tracer& tracer, int x, int y, int point) const {
     const Random start(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
     const CameraSample sample =
         point_from(start.draw_2d(0, Draw::direction), start.draw_2d(1, Draw::direction), point);
-    Vertex seen;
-    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera) ? seen.bsdf.albedo(seen.to_previous)
-                                                                           : Rgb(0);
+    const Random numbers(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
+                         0xfffffffeu - static_cast<std::uint32_t>(point)); // no pass's either
+    return look_along(tracer, camera_ray(x, y, sample), numbers);
 }
 
 bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const {
@@ -296,9 +296,9 @@ void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& work
         return worker.means.add(x, y, sample);
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
-    for (int more = film.more_albedo_points(x, y); more > 0; --more)
-        film.add_albedo(x, y, pass.index, pass.albedo_at(worker.tracer, x, y, film.albedo_points(x, y)),
-                        worker.counters);
+    for (int more = film.looks().wanted(x, y); more > 0; --more)
+        film.add_look(x, y, pass.index, pass.look_at(worker.tracer, x, y, film.looks().count(x, y)),
+                      worker.counters);
     film.add(x, y, pass.index, sample, worker.counters);
 }
 

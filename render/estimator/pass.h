@@ -1,10 +1,10 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/film.h"
 #include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/tile_grid.h"
+#include "render/film/film.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>
@@ -109,9 +109,9 @@ public:
             return Rgb(1);
         return path.empty() ? Rgb(0) : path.albedo;
     }
-    /// The same at a point of its own of a pixel. The points of a pixel are a low-discrepancy sequence, which has
+    /// A look at a point of its own of a pixel. The points of a pixel are a low-discrepancy sequence, which has
     /// nothing to do with where samples lie: means of albedos are independent of the samples.
-    Rgb albedo_at(const Tracer& tracer, int x, int y, int point) const;
+    Look look_at(const Tracer& tracer, int x, int y, int point) const;
     /// What is seen at a point of a pixel, the same for all seeds; false: nothing.
     bool look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const;
 

@@ -137,4 +137,31 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
     v.emitter_pdf_a = shape.emitter_pdf_a;
 }
 
+Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
+    constexpr int most_bounces = 8; // what is seen beyond so many mirrors is as good a guide as any
+    Look look{Rgb(0), {Rgb(1)}};
+    Guide& guide = look.guide;
+    float length = 0;
+    Vertex x;
+    for (int i = 1; tracer.closest(ray, x, RayKind::camera); ++i) {
+        length += glm::distance(ray.origin, x.position);
+        if (i == 1)
+            look.albedo = x.bsdf.albedo(x.to_previous);
+        const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
+        const auto s =
+            is_mirror_or_glass && i < most_bounces
+                ? x.bsdf.sample(x.to_previous, random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
+                : std::nullopt;
+        if (!s) {
+            guide.albedo *= x.bsdf.albedo(x.to_previous);
+            guide.normal = x.to_world({0, 0, 1});
+            guide.nearness = length > 0 ? 1 / length : 0;
+            break;
+        }
+        guide.albedo *= s->f_cos / s->pdf_w;
+        ray = tracer.leave(x, x.to_world(s->to_next));
+    }
+    return look;
+}
+
 } // namespace tessera

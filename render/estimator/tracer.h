@@ -1,6 +1,7 @@
 #pragma once
 
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
+#include "render/film/pixel_looks.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/light.h"
 #include "render/scene/scene.h"
@@ -142,5 +143,8 @@ struct Tracer {
         scene.intersector().occluded(segments, asked, count, blocked);
     }
 };
+
+/// Looks along a camera ray, through mirrors and clear glass, where it takes one way of several with `random`.
+Look look_along(const Tracer& tracer, Ray ray, const Random& random);
 
 } // namespace tessera

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/shift_onlooker.h"
 #include "render/settings/settings.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "render/io/exr.h"
 #include "render/scene/scene_checksums.h"
 
@@ -20,7 +20,7 @@ inline constexpr const char* half_names[] = {"half1", "half2"};
 
 /// What pictures are measured by: two renders of a scene that are independent of each other and alike in all
 /// else, and their mean. The difference of the halves tells how far the mean is from the truth, whatever method
-/// and reconstruction made them; and against both, an error has no floor (recon/metrics.h).
+/// and reconstruction made them; and against both, an error has no floor (recon/metrics/metrics.h).
 struct ReferenceImage {
     RgbImage mean;
     std::array<RgbImage, 2> halves;

@@ -57,7 +57,8 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
 std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int threads) {
     // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
     const std::size_t a_pixel =
-        sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel +
+        sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
+        GuideImages::bytes_a_pixel +
         static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     return Film::bytes(size.x, size.y, buffers_of(settings)) +
@@ -178,10 +179,10 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     plan_.learn(film_.path_luminance());
+    film_.finish(first_pass_ + spp_);
     ++spp_;
     if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first && std::has_single_bit(unsigned(spp_)))
         plan_.learn_noise(film_.noise(spp_));
-    film_.ask_for_albedo(first_pass_ + spp_);
     return true;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/film.h"
+#include "render/film/film.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"

@@ -2,8 +2,8 @@
 
 #include "recon/image.h"
 #include "recon/reconstruct.h"
-#include "render/estimator/counters.h"
-#include "render/estimator/film.h"
+#include "render/film/counters.h"
+#include "render/film/film.h"
 #include "render/scene/camera.h"
 #include "render/settings/settings.h"
 

@@ -52,13 +52,13 @@ constexpr SettingChoice bases[] = {
     {"none", "none", "The radiance itself."},
     {"albedo", "albedo",
      "The radiance over the albedo: the light that arrives is alike where textures differ. The picture is "
-     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 208 bytes a pixel more."},
+     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 168 bytes a pixel more."},
     {"sh1", "harmonics, 4",
      "The light over the albedo in parts, by where it comes from: these are alike where normals differ, too "
-     "[Fang 2024]. Four spherical harmonics, up to degree 1. Takes 608 bytes a pixel more."},
-    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes 1108 bytes a pixel more."},
-    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes 1808 bytes a pixel more."},
-    {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1108 bytes a pixel more."},
+     "[Fang 2024]. Four spherical harmonics, up to degree 1. Takes 568 bytes a pixel more."},
+    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes 1068 bytes a pixel more."},
+    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes 1768 bytes a pixel more."},
+    {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1068 bytes a pixel more."},
 };
 constexpr SettingChoice primals[] = {
     {"reuse", "shared paths", "What the pixels of a set share out: less noise, alike for neighbours."},
@@ -100,6 +100,14 @@ std::span<const SettingChoice> norm_choices() {
         {to_string(Norm::weighted), "weighted",
          "Least squares, where gradients count the less the noisier they are (control variates weighted by "
          "variances): few outliers, and as bright as the primal."},
+        {to_string(Norm::guided), "guided",
+         "Weighted, then smoothed where pixels look alike, as far as two halves of the samples disagree: clean at "
+         "few samples, and the more like weighted the more there are."},
+        {to_string(Norm::smoothed), "smoothed",
+         "The primal, smoothed as guided is: for methods without gradients, too."},
+        {to_string(Norm::oidn), "OIDN",
+         "Weighted, or the primal without gradients, then Intel's Open Image Denoise, where its library is found: "
+         "the denoiser that most would take."},
     }};
     return norms;
 }
@@ -213,7 +221,8 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
         {"alpha", "Alpha",
          "Weight of the primal against the gradients (no unit). Small: gradients alone decide on all but the "
          "mean, as far as they are trusted.",
-         Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10}, s.norm != Norm::none && s.norm != Norm::uniform},
+         Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10},
+         s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed},
         {"joint_colour", "Joint colour",
          "On: misfits are lengths of colours, and the channels agree on what is an outlier. Off: each channel is "
          "on its own.",

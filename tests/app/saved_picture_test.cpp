@@ -85,7 +85,7 @@ TEST_F(SavedPictureTest, TheReconstructionIsTheOneOnShow) {
     EXPECT_EQ(stats.at("iterations"), 42);
     EXPECT_EQ(stats.at("wall"), 1.5);
     EXPECT_TRUE(stats.at("cpu").is_null());
-    EXPECT_EQ(stats.at("norm"), "weighted");
+    EXPECT_EQ(stats.at("norm"), "guided");
     EXPECT_NE(find_layer(exr, "primal"), nullptr);
 }
 

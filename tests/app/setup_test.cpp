@@ -45,6 +45,8 @@ TEST(Setups, HaveEveryReconstructionWhereThereAreGradients) {
                 ElementsAre("pt", "gpt-l2", "gpt-l1"));
     EXPECT_THAT(labels({Method::pr, Method::gpr}, {Norm::l2}, {"recon=none,mixed", "alpha=0.1,0.2"}),
                 ElementsAre("pr  ", "gpr-none none ", "gpr-mixed mixed 0.1", "gpr-mixed mixed 0.2"));
+    EXPECT_THAT(labels({Method::pt, Method::gpt}, {Norm::guided, Norm::smoothed}, {}),
+                ElementsAre("pt", "pt-smoothed", "gpt-guided", "gpt-smoothed"));
     EXPECT_THAT(labels({Method::gpr}, {Norm::uniform}, {"alpha=0.1,0.2"}), ElementsAre("gpr-uniform "))
         << "averages of neighbours know no alpha";
 }

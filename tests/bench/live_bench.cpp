@@ -1,6 +1,7 @@
 // live_bench SCENE.xml [SECONDS]: how far reconstructions are behind a render of 1280x720 pixels in the viewer's
 // session, on all hardware threads. Wall time: other work on the machine counts.
 
+#include "recon/oidn.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
     try {
         const auto scene = std::make_shared<const Scene>(load_mitsuba_xml(argv[1]).description);
         for (const Norm norm : all_norms)
-            measure(scene, norm, argc > 2 ? std::atof(argv[2]) : 10);
+            if (norm != Norm::oidn || oidn_problem().empty())
+                measure(scene, norm, argc > 2 ? std::atof(argv[2]) : 10);
     } catch (const std::exception& error) {
         return std::fprintf(stderr, "live_bench: %s\n", error.what()), EXIT_FAILURE;
     }

@@ -1,6 +1,6 @@
 // The film: what it refuses, and sums that hold 10^5 passes.
-#include "render/estimator/film.h"
 #include "render/estimator/pass.h"
+#include "render/film/film.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +115,49 @@ TEST(Film, NoiseIsRelativeToBrightness) {
     EXPECT_EQ(noise(2, 0), 0);
 }
 
+/// Half the difference of two halves has their noise and nothing else, for odd numbers of passes, too; and the
+/// brightest sample is known by its weight in it.
+TEST(Film, HalvesDifferByTheirNoise) {
+    const float values[] = {3, 1, 2, 8, 6}, signs[] = {1, -1, -1, 1, -1}; // of Thue and Morse
+    for (const int passes : {2, 4, 5}) {
+        Film film(1, 1, {});
+        Counters counters;
+        double mean = 0;
+        for (int pass = 0; pass < passes; ++pass) {
+            film.add(0, 0, pass, {Rgb(values[pass])}, counters);
+            film.finish(pass);
+            mean += static_cast<double>(values[pass]) / passes;
+        }
+        double balance = 0, expected = 0;
+        for (int pass = 0; pass < passes; ++pass)
+            balance += static_cast<double>(signs[pass]) / passes;
+        for (int pass = 0; pass < passes; ++pass)
+            expected += (static_cast<double>(signs[pass]) - balance) * static_cast<double>(values[pass]) / passes;
+        const GradientImages images = film.means(passes);
+        EXPECT_NEAR(images.halves.primal(0, 0).r, expected, 1e-5) << passes;
+        EXPECT_NEAR(images.brightest.half(0, 0), 1 - balance, 1e-6) << passes; // 3 and 8 have a plus
+        EXPECT_TRUE(images.halves.dx.empty());
+    }
+    EXPECT_TRUE(Film(1, 1, {}).means(1).halves.empty());
+}
+
+/// Whatever all passes have alike is in no half more than in the other.
+TEST(Film, HalvesOfEqualSamplesDoNotDiffer) {
+    Film film(2, 2, {.gradients = true}), more(2, 2, {.gradients = true});
+    Counters counters;
+    for (int pass = 0; pass < 7; ++pass) {
+        Film& to = pass < 3 ? film : more; // the shares of two renders
+        for (int i = 0; i < 4; ++i)
+            to.add(i % 2, i / 2, pass, {Rgb(2), Rgb(0.5f), Rgb(-0.25f)}, counters);
+        to.finish(pass);
+    }
+    film.add(more);
+    const HalfDifferences halves = film.means(7).halves;
+    for (const RgbImage* image : {&halves.primal, &halves.dx, &halves.dy})
+        for (Rgb c : *image)
+            EXPECT_NEAR(c.r, 0, 1e-6);
+}
+
 TEST(SampleMeans, AreOfAllThatSamplesHave) {
     SampleMeans means;
     means.begin({3, 5, 5, 6}, 2);
@@ -159,9 +202,9 @@ TEST(Film, RefusesAlbedosThatAreNotFinite) {
     for (const float bad : {infinity, -infinity, nan}) {
         Film film(2, 1, {.albedo = true});
         Counters counters;
-        film.add_albedo(0, 0, 3, Rgb(0.5f), counters);
-        film.add_albedo(0, 0, 3, Rgb(0.5f, bad, 0.5f), counters);
-        EXPECT_EQ(film.albedo_points(0, 0), 2);
+        film.add_look(0, 0, 3, {Rgb(0.5f), {}}, counters);
+        film.add_look(0, 0, 3, {Rgb(0.5f, bad, 0.5f), {}}, counters);
+        EXPECT_EQ(film.looks().count(0, 0), 2);
         EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
         ASSERT_EQ(counters.refused_samples, 1u);
         EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{3, 0, 0}));
@@ -169,9 +212,9 @@ TEST(Film, RefusesAlbedosThatAreNotFinite) {
 }
 
 /// The settings table tells people what it takes.
-TEST(Film, AlbedosTake208BytesAPixel) {
+TEST(Film, AlbedosTake168BytesAPixel) {
     EXPECT_EQ(Film::bytes(10, 1, {.albedo = true}) - Film::bytes(10, 1, {}) + 10 * Demodulation::bytes_a_pixel,
-              2080u);
+              1680u);
 }
 
 TEST(Film, AddsTheLargestFloat) {

@@ -1,5 +1,5 @@
 // The maps of how sharing went, from a pixel's counts.
-#include "render/estimator/film.h"
+#include "render/film/film.h"
 
 #include <gtest/gtest.h>
 

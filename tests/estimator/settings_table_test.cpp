@@ -124,7 +124,7 @@ TEST(SettingsTable, SaysWhatMatters) {
     for (Norm norm : all_norms) {
         reconstruction.norm = norm;
         EXPECT_EQ(setting_named(settings_of(reconstruction), "alpha").matters,
-                  norm != Norm::none && norm != Norm::uniform)
+                  norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed)
             << to_string(norm);
         EXPECT_EQ(setting_named(settings_of(reconstruction), "joint_colour").matters,
                   norm == Norm::l1 || norm == Norm::mixed)

@@ -45,6 +45,8 @@ TEST(Remodulation, ByAnAlbedoOfOneChangesNoBit) {
     GradientImages demodulated = plain;
     demodulated.demodulation = demodulation_by(plain.primal, RgbImage(width, height, Rgb(1)));
     for (const Norm norm : all_norms) {
+        if (norm == Norm::oidn)
+            continue; // takes a library that may not be there
         if (is_linear(norm))
             continue; // exact, but for the rounding of value - primal + image
         const RgbImage a = reconstruct(plain, {norm}).image, b = reconstruct(demodulated, {norm}).image;
@@ -72,6 +74,8 @@ TEST(Remodulation, OfEvenLightIsTheAlbedo) {
     const RgbImage albedo = random_image(8, 0.1f, 1);
     images.demodulation = demodulation_by(images.primal, albedo);
     for (const Norm norm : all_norms) {
+        if (norm == Norm::oidn)
+            continue; // takes a library that may not be there
         const RgbImage image = reconstruct(images, {norm}).image;
         for (std::size_t i = 0; i < image.size(); ++i)
             EXPECT_LT(glm::distance(image.data()[i], albedo.data()[i] * Rgb(3, 2, 1)), 1e-4f) << to_string(norm);

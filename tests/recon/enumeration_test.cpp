@@ -18,7 +18,7 @@ concept HasEntries = requires(const Table& table) {
 
 static_assert(enumerator_count<Colour> == 3);
 static_assert(enumerator_count<Single> == 1);
-static_assert(enumerator_count<Norm> == 6);
+static_assert(enumerator_count<Norm> == 9);
 static_assert(HasEntries<int[3]>);
 static_assert(!HasEntries<int[2]> && !HasEntries<int[4]>,
               "a table that is too short or too long is no such table");

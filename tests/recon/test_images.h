@@ -88,7 +88,8 @@ inline double relative_rms_difference(const RgbImage& image, const RgbImage& exp
     return std::sqrt(difference / square);
 }
 
-/// Steps and ramps with noise, and gradients with less noise but some outliers; with variances that tell.
+/// Steps and ramps with noise, and gradients with less noise but some outliers; with variances, halves and guides
+/// that tell.
 inline GradientImages noisy_images(int width, int height, float scale = 1, std::uint32_t seed = 3) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
@@ -105,6 +106,17 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     for (RgbImage* image : {&images.primal, &images.dx, &images.dy})
         for (Rgb& c : *image)
             c *= scale;
+    // Halves that differ as means of such noise do; and guides that see the steps.
+    const RgbImage half = random_image(width, height, seed + 1000, 0, scale);
+    images.halves = {half, half, half};
+    images.guides = {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height), Image<float>(width, height, 1)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            images.halves.primal(x, y) *= 0.1f;
+            images.halves.dx(x, y) *= x + 1 < width ? 0.02f : 0;
+            images.halves.dy(x, y) *= y + 1 < height ? 0.02f : 0;
+            images.guides.normal(x, y) = (x / 10 + y / 8) % 2 == 0 ? Rgb(0, 0, 1) : Rgb(1, 0, 0);
+        }
     images.primal_variance = Image<float>(width, height, 0.03f * scale * scale);
     images.dx_variance = images.dy_variance = Image<float>(width, height, 0.0012f * scale * scale);
     for (std::size_t i = 0; i < truth.size(); i += 97)

@@ -159,7 +159,7 @@ TEST_F(References, TheFileHasAVarianceForEachPixel) {
     const ExrFile file = read_exr(folder.path() / "a.exr");
     const RgbImage& variance = *find_layer(file, "variance");
     ASSERT_EQ(variance.size(), whole.mean.size());
-    double relative = 0; // as in recon/metrics.h, from the file's layers alone
+    double relative = 0; // as in recon/metrics/metrics.h, from the file's layers alone
     for (std::size_t i = 0; i < variance.size(); ++i)
         for (int c = 0; c < 3; ++c)
             relative += variance.data()[i][c] /

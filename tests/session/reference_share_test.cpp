@@ -1,6 +1,6 @@
 // Shares of a reference: added up they are the same bits, whoever rendered them when; and what does not belong
 // together is not added up.
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
 #include "render/run/checkpoint.h"
 #include "render/run/reference_render.h"
 #include "render/run/reference_share.h"

@@ -1,4 +1,4 @@
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "render/run/first_hits.h"
 #include "ui/state/buffer.h"
 #include "ui/state/inspected.h"

@@ -52,17 +52,17 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     state().pace.spp_limit = 16;
     wait_for_errors(1, 16);
     EXPECT_EQ(state().charts[1].curves[0].points().size(), weighted);
-    EXPECT_EQ(state().charts[1].curves[0].reconstruction.norm, Norm::weighted);
+    EXPECT_EQ(state().charts[1].curves[0].reconstruction.norm, Norm::guided);
     EXPECT_EQ(state().charts[1].curves[1].reconstruction.norm, Norm::l1);
     EXPECT_EQ(state().charts[0].curves.size(), 1u); // PT reconstructs nothing
     const std::string csv = chart_csv(state());
     for (const char* line :
-         {"1,pt,none,,,16,", "2,gpr,weighted,0.2,1,8,", "2,gpr,l1,0.3,1,8,", "2,gpr,l1,0.3,1,16,"})
+         {"1,pt,none,,,16,", "2,gpr,guided,0.2,1,8,", "2,gpr,l1,0.3,1,8,", "2,gpr,l1,0.3,1,16,"})
         EXPECT_NE(csv.find(line), std::string::npos) << line << "\n" << csv;
-    EXPECT_EQ(csv.find("weighted,0.2,1,16"), std::string::npos) << csv;
+    EXPECT_EQ(csv.find("guided,0.2,1,16"), std::string::npos) << csv;
     const Chart chart = viewer_chart(state());
     ASSERT_EQ(chart.plots.at(0).series.size(), 3u);
-    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, weighted, alpha 0.2");
+    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, guided, alpha 0.2");
     EXPECT_EQ(chart.plots[0].series[2].label, "2  G-PR, L1, alpha 0.3");
     EXPECT_NE(chart.plots[0].series[1].look, chart.plots[0].series[2].look);
     EXPECT_EQ(line_colours(state()).size(), 3u);
@@ -77,13 +77,13 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     }
     EXPECT_EQ(state().charts[1].curves.size(), 3u);
     state().panes[1].settings.reconstruction = {};
-    wait_until([&] { return state().charts[1].curves.back().reconstruction.norm == Norm::weighted; });
+    wait_until([&] { return state().charts[1].curves.back().reconstruction.norm == Norm::guided; });
     EXPECT_EQ(errors(1).size(), weighted + 1);
 
     // Until another method's pictures have been measured, the points are still the old one's.
     state().panes[1].settings.render.method = Method::pr;
     EXPECT_EQ(chart_csv(state()).find("2,pr,"), std::string::npos);
-    EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label.rfind("2  G-PR, weighted", 0), 0u);
+    EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label.rfind("2  G-PR, guided", 0), 0u);
 }
 
 TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
@@ -101,7 +101,7 @@ TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
     ASSERT_EQ(viewer_chart(state()).plots.at(0).series.size(), 1u);
     EXPECT_EQ(viewer_chart(state()).plots[0].series[0].label, "1  G-PR");
     EXPECT_EQ(viewer_chart(state()).plots[0].series[0].points.size(), before.size());
-    EXPECT_NE(chart_csv(state()).find("1,gpr,weighted"), std::string::npos);
+    EXPECT_NE(chart_csv(state()).find("1,gpr,guided"), std::string::npos);
     state().set_pane_count(2);
     wait_for_errors(1, 8);
     EXPECT_EQ(errors(0).size(), before.size());
@@ -214,7 +214,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     EXPECT_TRUE(has("charts.histogram"));
     const std::string csv = chart_csv(state());
     EXPECT_NE(csv.find("1,pt,none,,,16,"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("2,gpr,weighted,0.2,1,16,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("2,gpr,guided,0.2,1,16,"), std::string::npos) << csv;
     choose("charts.axis", "spp");
     EXPECT_TRUE(state().layout.charts_by_spp);
 

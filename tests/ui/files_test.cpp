@@ -161,7 +161,7 @@ TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
         {"{\"panes\": [{}, {\n\"settings\": {\"tile\": \"99\"}}]}", "bad.json:2:22: "},
         {"{\"panes\": [{\n \"alpha\": 0}]}", "bad.json:2:11: alpha is out of range"},
         {"{\"panes\": [{\n \"norm\": \"l3\"}]}",
-         "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, mixed, uniform, weighted"},
+         "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn"},
         {"{\"panes\": [{}],\n \"pace\": {\"spp_limit\": -1}}", "bad.json:2:24: spp_limit is out of range"},
         {"{\"panes\": [{},\n 3]}", "bad.json:2:2: this must be an object"},
         {"{\"panes\": [{}],\n \"camera\": {\"fov\": 1}}", "bad.json:2:12: the camera has no 'to_world'"},

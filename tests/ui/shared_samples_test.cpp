@@ -78,7 +78,7 @@ TEST_F(SharedSamples, ReconstructionsBesideEachOtherInTwoClicks) {
     settle(4);
     save("reconstructions.png");
     ASSERT_EQ(state().panes.size(), 4u);
-    const Norm norms[] = {Norm::none, Norm::l2, Norm::l1, Norm::weighted};
+    const Norm norms[] = {Norm::none, Norm::l1, Norm::weighted, Norm::guided};
     for (int i = 0; i < 4; ++i) {
         EXPECT_TRUE(shares(0, i)) << i;
         EXPECT_EQ(norm(i), norms[i]) << i;

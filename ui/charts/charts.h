@@ -58,7 +58,7 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state);
 /// How many pixels of the active pane's picture have which luminance; without lines where it is not known yet.
 ChartPlot histogram_plot(const ViewerState& state);
 
-/// The slope over the last decade of x; not a number while there are too few points (recon/metrics.h).
+/// The slope over the last decade of x; not a number while there are too few points (recon/metrics/metrics.h).
 double slope_of_last_decade(const ChartSeries& series);
 
 /// 1 / (relMSE x seconds), 1/s.

@@ -11,9 +11,12 @@ namespace tessera {
 
 std::span<const float> dashes_of(const LineLook& look) {
     static constexpr float dots[] = {1, 2}, dashes[] = {5, 3}, short_dashes[] = {2.5f, 2},
-                           dash_dots[] = {6, 2, 1, 2}, long_dashes[] = {9, 2};
-    static constexpr std::span<const float> by_norm[] = {dots, dashes, short_dashes, dash_dots, long_dashes, {}};
-    const bool has_norm = look.method && has_gradients(*look.method);
+                           dash_dots[] = {6, 2, 1, 2}, long_dashes[] = {9, 2},
+                           dash_dot_dots[] = {6, 2, 1, 2, 1, 2}, sparse_dots[] = {1, 4}, sparse_dashes[] = {4, 5};
+    static constexpr std::span<const float> by_norm[] = {
+        dots, dashes, short_dashes, dash_dots, long_dashes, {}, dash_dot_dots, sparse_dots, sparse_dashes};
+    const bool has_norm =
+        look.method && (has_gradients(*look.method) || without_gradients(look.norm) != Norm::none);
     return has_norm ? entry_of(by_norm, look.norm) : std::span<const float>{};
 }
 

@@ -1,4 +1,4 @@
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "ui/charts/charts.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"

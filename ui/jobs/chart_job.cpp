@@ -48,7 +48,8 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     const Snapshot& s = *pane.snapshot;
     Request request{source, reference, wants_histogram, s.generation, s.settings.method, s.reconstructed_with};
     if (!has_gradients(request.method))
-        request.reconstruction = {.norm = Norm::none, .spikes = request.reconstruction.spikes};
+        request.reconstruction = {.norm = without_gradients(request.reconstruction.norm),
+                                  .spikes = request.reconstruction.spikes};
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {

@@ -30,7 +30,7 @@ private:
         bool wants_histogram = false;
         std::uint64_t generation = 0; // of the pane's request
         Method method = Method::gpr;
-        ReconstructionSettings reconstruction; // Norm::none where the method has no gradients
+        ReconstructionSettings reconstruction; // without_gradients() where the method has none
         bool operator==(const Request&) const = default;
     };
     struct Measured {

@@ -41,8 +41,7 @@ const std::vector<ChoiceItem>& buffer_items() {
 /// The width of what a pane's header has beside method and buffer; 0: nothing.
 float extras_width(const PaneSettings& settings) {
     const float font = ImGui::GetFontSize(), spacing = ImGui::GetStyle().ItemSpacing.x;
-    return (reuses_paths(settings.render.method) ? font * 5.5f + spacing : 0) +
-           (has_gradients(settings.render.method) ? font * 7 + spacing : 0);
+    return (reuses_paths(settings.render.method) ? font * 5.5f + spacing : 0) + font * 7 + spacing;
 }
 
 /// Draws a pane's own tile and norm. A choice here is for this pane alone: the panes are then no longer the same.
@@ -65,13 +64,15 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
                                  tiles, tile, font * 5.5f, "Edge of this pane's tiles, pixels.");
         pane.settings.render.tile = tile + 1;
     }
-    if (has_gradients(pane.settings.render.method)) {
-        int norm = static_cast<int>(pane.settings.reconstruction.norm);
-        ImGui::SameLine();
-        changed |=
-            controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(),
-                                 norms, norm, font * 7, "How this pane's picture is reconstructed.");
-        pane.settings.reconstruction.norm = all_norms[static_cast<std::size_t>(norm)];
+    const bool solves = has_gradients(pane.settings.render.method);
+    Norm& chosen = pane.settings.reconstruction.norm;
+    int norm = static_cast<int>(solves ? chosen : without_gradients(chosen));
+    ImGui::SameLine();
+    if (controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(), norms,
+                             norm, font * 7, "How this pane's picture is reconstructed.")) {
+        const Norm wanted = all_norms[static_cast<std::size_t>(norm)];
+        chosen = solves ? wanted : without_gradients(wanted);
+        changed = true;
     }
     if (changed && state.panes.size() > 1)
         state.linked = false;
@@ -207,7 +208,9 @@ std::string status_text(const ViewerState& state, int index) {
     line += text + error_text(state, pane);
     if (snapshot.coarse())
         line += "   first look";
-    else if (!reconstructs_long && snapshot.reconstruction && has_gradients(snapshot.settings.method))
+    else if (!reconstructs_long && snapshot.reconstruction &&
+             (has_gradients(snapshot.settings.method) ||
+              without_gradients(snapshot.reconstructed_with.norm) != Norm::none))
         line += "   " + reconstruction_text(snapshot);
     if (const double held =
             snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->held_share : 0;

@@ -46,7 +46,7 @@ void compare_reconstructions(ViewerState& state) {
     state.linked = false; // they differ in what linked panes share
     state.layout.alone = false;
     state.set_pane_count(most_panes);
-    constexpr Norm norms[] = {Norm::none, Norm::l2, Norm::l1, Norm::weighted};
+    constexpr Norm norms[] = {Norm::none, Norm::l1, Norm::weighted, Norm::guided};
     for (std::size_t i = 0; i < std::size(norms); ++i) {
         state.panes[i].settings = shown;
         state.panes[i].settings.reconstruction.norm = norms[i];

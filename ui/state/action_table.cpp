@@ -220,7 +220,7 @@ constexpr Action table[] = {
      set_panes<4>, has_panes<4>},
     {"Panes", "Next grid", "One, two, four panes, in turn.", key(Key::g), no_shortcut, next_grid, nullptr},
     {"Panes", "Compare reconstructions",
-     "One render in four panes: its primal, and the pictures that L2, L1 and the weighted norm make of the same "
+     "One render in four panes: its primal, and the pictures that L1, weighted and guided make of the same "
      "samples.",
      shift(Key::g), no_shortcut, compare_reconstructions, nullptr},
     {"Panes", "Next pane", "Makes the next pane the active one.", key(Key::tab), no_shortcut, next_pane, nullptr},

@@ -1,6 +1,6 @@
 #include "ui/state/companions.h"
 
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 
 #include <algorithm>
 #include <cmath>

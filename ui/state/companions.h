@@ -2,7 +2,7 @@
 
 #include "recon/image.h"
 #include "recon/reconstruct.h"
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
 #include "render/scene/scene_checksums.h"
 #include "render/settings/settings.h"
 
@@ -24,7 +24,7 @@ struct Reference {
     RgbImage image;
     float mean = 0; ///< of its luminance
     /// Two renders that are independent of each other, whose mean is the image: errors against both are free of
-    /// the reference's own (recon/metrics.h). Empty: it has none, and how noisy it is is not known.
+    /// the reference's own (recon/metrics/metrics.h). Empty: it has none, and how noisy it is is not known.
     std::array<RgbImage, 2> halves{};
     std::size_t not_finite = 0;            ///< pixels that errors cannot be measured at
     std::optional<SceneChecksums> scene{}; ///< what it shows; empty: its file does not say
@@ -132,7 +132,7 @@ private:
 /// The errors of a pane's pictures that were made in one way: a line of the chart.
 struct ErrorCurve {
     Method method = Method::gpr;
-    ReconstructionSettings reconstruction; ///< Norm::none where the method has no gradients
+    ReconstructionSettings reconstruction; ///< without_gradients() where the method has none
     PassHistory<ErrorPoint> history;
 
     const std::vector<ErrorPoint>& points() const { return history.points(); }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/film.h"
+#include "render/film/film.h"
 #include "render/scene/camera.h"
 #include "render/settings/settings.h"
 #include "ui/gl/image_view.h"

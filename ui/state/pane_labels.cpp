@@ -17,7 +17,9 @@ std::vector<Setting> picture_settings(PaneSettings& pane) {
     std::vector<Setting> all = settings_of(pane.render);
     const bool has_choice = has_gradients(pane.render.method);
     for (Setting& setting : settings_of(pane.reconstruction)) {
-        setting.matters = setting.matters && (has_choice || setting.id == "spikes");
+        const bool smooths = without_gradients(pane.reconstruction.norm) != Norm::none;
+        setting.matters =
+            setting.matters && (has_choice || setting.id == "spikes" || (setting.id == "norm" && smooths));
         all.push_back(setting);
     }
     all.push_back(seed_setting(pane.render.seed));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/metrics.h"
+#include "recon/metrics/metrics.h"
 #include "render/settings/settings.h"
 
 #include <array>

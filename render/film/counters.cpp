@@ -1,4 +1,4 @@
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "recon/halo.h"
+#include "recon/metrics/halo.h"
 
 #include "recon/spikes.h"
 
@@ -30,8 +30,20 @@ float* at(Image<float>& variances, std::size_t i) {
     return variances.empty() ? nullptr : variances.data() + i;
 }
 
+/// The half differences with the mean of the others in place of the brightest sample x, too.
+void replace_in_halves(RgbImage& half, const RgbImage& mean, const RgbImage& x, const BrightestSamples& b,
+                       std::size_t i) {
+    if (half.empty() || b.half.empty())
+        return;
+    const double n = b.samples;
+    const glm::dvec3 sample(x.data()[i]), others = (n * glm::dvec3(mean.data()[i]) - sample) / (n - 1);
+    const double weight = static_cast<double>(b.half.data()[i]) / n;
+    half.data()[i] = Rgb(glm::dvec3(half.data()[i]) - weight * (sample - others));
+}
+
 void replace_primal(GradientImages& images, std::size_t i) {
     BrightestSamples& b = images.brightest;
+    replace_in_halves(images.halves.primal, images.primal, b.primal, b, i);
     const glm::dvec3 before(images.primal.data()[i]);
     replace(images.primal.data()[i], at(images.primal_variance, i), b.primal.data()[i], b.samples);
     Demodulation& d = images.demodulation;
@@ -68,6 +80,8 @@ GradientImages without_brightest(const GradientImages& images, PixelRect square)
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(images.primal.width()) +
                            static_cast<std::size_t>(x);
             if (images.has_gradients()) {
+                replace_in_halves(result.halves.dx, result.dx, b.dx, b, i);
+                replace_in_halves(result.halves.dy, result.dy, b.dy, b, i);
                 replace(result.dx.data()[i], at(result.dx_variance, i), b.dx.data()[i], b.samples);
                 replace(result.dy.data()[i], at(result.dy_variance, i), b.dy.data()[i], b.samples);
             }

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/counters.h"
+#include "render/film/counters.h"
+#include "render/film/pixel_looks.h"
 #include "render/io/memory.h"
 
 #include <algorithm>
@@ -82,16 +83,13 @@ public:
     /// is kept but its base path's luminance.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
-    bool keeps_albedo() const { return !albedo_.empty(); }
-    /// At how many points of a pixel, none of them a sample's, its albedo is known, and how many more it takes in
-    /// this pass.
-    int albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).count; }
-    int more_albedo_points(int x, int y) const { return albedo_.empty() ? 0 : albedo_(x, y).more; }
-    /// Adds the albedo at one more, in pass `pass`. One that is not finite is refused and counted, and black takes
-    /// its place, so that the next point is another.
-    void add_albedo(int x, int y, int pass, Rgb albedo, Counters& counters);
-    /// Between passes: finds out where more points are needed.
-    void ask_for_albedo(int passes);
+    const PixelLooks& looks() const { return looks_; }
+    /// Adds one more look at a pixel, in pass `pass`. One that is not finite is refused and counted, and black
+    /// takes its place, so that the next point is another.
+    void add_look(int x, int y, int pass, const Look& look, Counters& counters);
+
+    /// To be called between passes, after each: what the next is to look for, and which half this one was of.
+    void finish(int pass);
 
     /// Adds what another film of the same size and buffers has summed, of other passes of the same render. The
     /// bits depend on the order in which films are added. Of albedos, whose points are the same ones in each,
@@ -125,22 +123,6 @@ public:
     Memory memory();
 
 private:
-    /// The albedo at points of a pixel, low-discrepancy ones: the variance of their mean falls about as
-    /// count^-1.5.
-    struct AlbedoPoints {
-        Moments moments{glm::dvec3(0), 0};
-        int count = 0;
-        int more = 4; ///< wanted in the next pass
-
-        void add(Rgb albedo) {
-            moments += albedo;
-            ++count;
-        }
-        void operator+=(const AlbedoPoints& other);
-        double variance() const;    ///< of one point, summed over the channels
-        double mean_square() const; ///< of the mean's length
-    };
-
     struct Part {
         Moments primal, dx, dy;
 
@@ -151,23 +133,40 @@ private:
         }
     };
 
+    /// Sums over one half of the passes less those over the other. (They do not grow with the passes: floats will
+    /// do.)
+    struct Difference {
+        Rgb primal{0}, dx{0}, dy{0};
+
+        void operator+=(const Difference& other) {
+            primal += other.primal;
+            dx += other.dx;
+            dy += other.dy;
+        }
+    };
+
     /// The sample that brought most to a pixel: primal, gradients, and its radiance over the primal.
     struct Brightest {
         Rgb primal{0}, dx{0}, dy{0}, albedo{0};
+        float sign = 1; ///< of its pass in Difference
         float size = 0; ///< the largest luminance of its primal and gradients, whatever their signs
     };
 
     bool is_good(const PixelSample& sample) const;
     void add_parts(int x, int y, const PixelSample& sample);
-    void remember_if_brightest(int x, int y, const PixelSample& sample);
+    void remember_if_brightest(int x, int y, int pass, const PixelSample& sample);
     BrightestSamples brightest_samples(int passes) const;
+    HalfDifferences half_differences(int passes) const;
+    double share_of_balance(int passes) const { return passes > 0 ? static_cast<double>(balance_) / passes : 0; }
     std::vector<CoefficientPart> part_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;
 
     Image<Moments> primal_, dx_, dy_;
     Image<Brightest> brightest_;
-    Image<AlbedoPoints> albedo_;
+    Image<Difference> differences_;
+    int balance_ = 0; // passes of the one half less those of the other
+    PixelLooks looks_;
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
     Image<std::uint32_t> paths_; // of their own that pixels have taken
     Image<glm::dvec3> beside_;   // what of v is not e a

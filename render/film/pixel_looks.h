@@ -1,0 +1,69 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/io/memory.h"
+
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+/// What one camera ray tells of a pixel.
+struct Look {
+    Rgb albedo{0}; ///< at x_1; black where it meets nothing
+    Guide guide;
+};
+
+/// What is known of the pixels from camera rays of their own, none of them a sample's. The points of a pixel are
+/// low-discrepancy ones: the variance of their mean falls about as count^-1.5. They are the same for all passes of
+/// a render, and each pixel has as many as it takes to know it well.
+class PixelLooks {
+public:
+    PixelLooks(int width, int height) : points_(width, height) {}
+
+    static std::uint64_t bytes(int width, int height) {
+        return sizeof(Points) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
+
+    /// At how many points a pixel is known, and how many more it takes in this pass.
+    int count(int x, int y) const { return points_(x, y).count; }
+    int wanted(int x, int y) const { return points_(x, y).wanted; }
+    void add(int x, int y, const Look& look) { points_(x, y) += look; }
+
+    /// Between passes: finds out where more points are needed.
+    void ask_for_more(int passes);
+
+    /// Takes those of another render of the same picture, whose points are the same ones, where it has more.
+    void take_more_of(const PixelLooks& other);
+
+    /// Of pixel i: the mean of the albedo, and the variance of one point, summed over the channels.
+    Rgb albedo(std::size_t i) const;
+    float albedo_variance(std::size_t i) const;
+    int count(std::size_t i) const { return points_.data()[i].count; }
+
+    GuideImages guides() const;
+    /// Gives all memory up.
+    void clear() { points_ = {}; }
+    Memory memory() { return {memory_of(points_)}; }
+
+private:
+    struct Points {
+        glm::dvec3 albedo{0};
+        double albedo_squares = 0; ///< of the lengths of colours
+        Guide guide{};
+        float guide_squares = 0; ///< of the lengths of followed albedos and of normals
+        int count = 0;
+        int wanted = 4; ///< more, in the next pass
+
+        void operator+=(const Look& look);
+        void operator+=(const Points& other);
+        double relative_albedo_variance() const;
+        double guide_variance() const;
+    };
+
+    Image<Points> points_;
+};
+
+} // namespace tessera

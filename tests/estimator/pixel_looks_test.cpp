@@ -1,0 +1,69 @@
+// What pixels show: guides followed through mirrors, as well known as they need to be.
+#include "render/film/pixel_looks.h"
+#include "render/run/render.h"
+#include "tests/support/scene_builder.h"
+
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+/// A mirror three units ahead of the camera shows a wall two units behind it; around the mirror there is nothing.
+std::shared_ptr<const Scene> room() {
+    SceneBuilder scene;
+    const int wall = scene.diffuse({0.6f, 0.3f, 0.1f});
+    scene.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, scene.mirror());
+    scene.quad({-20, -20, 5}, {0, 40, 0}, {40, 0, 0}, wall, scene.light(Rgb(1)));
+    scene.camera({0, 0, 3}, {0, 0, 0}, 60);
+    return scene.build();
+}
+
+TEST(PixelLooks, AMirrorShowsWhatIsSeenInIt) {
+    for (const Method method : all_methods) {
+        const auto scene = room();
+        RenderSettings settings;
+        settings.method = method;
+        Render render(scene, scene->camera(), {33, 33}, settings);
+        ThreadPool pool(1);
+        render.pass(pool);
+        render.pass(pool);
+        const GradientImages images = render.images();
+        const GuideImages& guides = images.guides;
+        const Rgb mirror = is_demodulated(settings) ? images.demodulation.albedo(16, 16) : Rgb(1);
+        const float near = is_demodulated(settings) ? 1e-3f : 0.1f; // the mirror takes a little of each colour
+        EXPECT_LT(glm::distance(guides.albedo(16, 16), mirror * Rgb(0.6f, 0.3f, 0.1f)), near)
+            << short_name(method);
+        EXPECT_NEAR(guides.normal(16, 16).z, -1, 1e-4f);
+        EXPECT_NEAR(guides.nearness(16, 16), 1 / 8.0f, 1e-3f); // three there and five back
+        EXPECT_LT(glm::distance(guides.albedo(0, 0), Rgb(1)), 1e-6f) << "beside the mirror there is nothing";
+        EXPECT_EQ(guides.normal(0, 0), Rgb(0));
+        EXPECT_EQ(guides.nearness(0, 0), 0);
+    }
+}
+
+/// Pixels that see one thing need few looks, those at an edge more.
+TEST(PixelLooks, AreManyWherePixelsSeeMoreThanOneThing) {
+    PixelLooks looks(9, 9);
+    const auto pass = [&](int index) {
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 9; ++x)
+                for (int more = looks.wanted(x, y); more > 0; --more) {
+                    const bool other = x > 4 || (x == 4 && looks.count(x, y) % 2 == 0);
+                    looks.add(x, y, {Rgb(0.5f), {Rgb(0.5f), other ? Rgb(0, 0, 1) : Rgb(1, 0, 0), 1}});
+                }
+        looks.ask_for_more(index + 1);
+    };
+    for (int i = 0; i < 10; ++i)
+        pass(i);
+    EXPECT_EQ(looks.count(0, 0), 4);
+    EXPECT_EQ(looks.count(8, 8), 4);
+    EXPECT_GT(looks.count(4, 4), 20);
+    EXPECT_LT(looks.count(4, 4), 100);
+    EXPECT_NEAR(looks.guides().normal(4, 4).z, 0.5f, 0.05f);
+}
+
+} // namespace
+} // namespace tessera::test

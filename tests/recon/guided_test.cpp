@@ -1,0 +1,223 @@
+// Smoothing by guides: what is noise goes, what is not stays, and nothing crosses what looks different.
+#include "recon/guided.h"
+#include "recon/reconstruct.h"
+#include "tests/recon/test_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr int width = 96, height = 80;
+
+GuideImages even_guides() {
+    return {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height, Rgb(0, 0, 1)),
+            Image<float>(width, height, 1)};
+}
+
+double rms(const RgbImage& image, Rgb truth, int margin = 0) {
+    double sum = 0, count = 0;
+    for (int y = margin; y < image.height() - margin; ++y)
+        for (int x = margin; x < image.width() - margin; ++x, ++count) {
+            const glm::dvec3 d(image(x, y) - truth);
+            sum += glm::dot(d, d);
+        }
+    return std::sqrt(sum / count);
+}
+
+RgbImage plus(const RgbImage& a, const RgbImage& b) {
+    RgbImage sum = a;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum.data()[i] += b.data()[i];
+    return sum;
+}
+
+RgbImage noise(std::uint32_t seed, float deviation) {
+    return random_image(width, height, seed, 0, deviation);
+}
+
+/// The same noise in squares of 6x6 pixels, as tiles have it.
+RgbImage noise_in_tiles(std::uint32_t seed, float deviation) {
+    const RgbImage values = noise(seed, deviation);
+    RgbImage tiles(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            tiles(x, y) = values(x / 6, y / 6);
+    return tiles;
+}
+
+TEST(Guided, NoiseGoes) {
+    const RgbImage truth(width, height, Rgb(1));
+    for (const bool tiles : {false, true}) {
+        const auto make = [tiles](std::uint32_t seed) {
+            return tiles ? noise_in_tiles(seed, 0.3f) : noise(seed, 0.3f);
+        };
+        const RgbImage picture = plus(truth, make(1));
+        const RgbImage smooth = smooth_by_guides({picture, make(2)}, even_guides(), serial_for);
+        EXPECT_LT(rms(smooth, Rgb(1)), (tiles ? 0.4 : 0.1) * rms(picture, Rgb(1))) << tiles;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean_color(smooth)[c], mean_color(picture)[c], 0.01) << tiles;
+    }
+}
+
+/// What both halves agree on is no noise, whatever guides say: a picture without any is kept.
+TEST(Guided, WithoutNoiseNothingChanges) {
+    const RgbImage picture = random_image(width, height, 5, 1, 0.2f), none(width, height, Rgb(0));
+    EXPECT_LT(relative_difference(smooth_by_guides({picture, none}, even_guides(), serial_for), picture), 1e-5);
+}
+
+/// As samples grow, the picture goes to that of the solver: a hundredth of the noise leaves the edge of a shadow
+/// that no guide shows.
+TEST(Guided, IsConsistent) {
+    RgbImage shadow(width, height, Rgb(1));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width / 2; ++x)
+            shadow(x, y) = Rgb(0.3f);
+    double last = 1;
+    for (const float deviation : {0.3f, 0.03f, 0.003f}) {
+        const RgbImage picture = plus(shadow, noise(1, deviation));
+        const RgbImage smooth = smooth_by_guides({picture, noise(2, deviation)}, even_guides(), serial_for);
+        const double error = relative_rms_difference(smooth, shadow);
+        EXPECT_LT(error, relative_rms_difference(picture, shadow)) << deviation;
+        EXPECT_LT(error, 0.2 * last) << deviation;
+        last = error;
+    }
+}
+
+/// Light does not cross to what looks different: nor does it get into the black.
+TEST(Guided, GuidesHoldLight) {
+    for (const int guide : {0, 1, 2}) {
+        GuideImages guides = even_guides();
+        RgbImage picture = plus(RgbImage(width, height, Rgb(1)), noise(1, 0.3f)), half = noise(2, 0.3f);
+        for (int y = 0; y < height; ++y)
+            for (int x = width / 2; x < width; ++x) {
+                picture(x, y) = half(x, y) = Rgb(0);
+                if (guide == 0)
+                    guides.normal(x, y) = Rgb(1, 0, 0);
+                else if (guide == 1)
+                    guides.nearness(x, y) = 0.2f;
+                else
+                    guides.normal(x, y) = Rgb(0), guides.nearness(x, y) = 0, guides.albedo(x, y) = Rgb(1);
+            }
+        const RgbImage smooth = smooth_by_guides({picture, half}, guides, serial_for);
+        for (int y = 0; y < height; ++y)
+            for (int x = width / 2; x < width; ++x)
+                ASSERT_NEAR(smooth(x, y).g, 0, 1e-6) << guide << ": " << x << " " << y;
+    }
+}
+
+/// A texture under even light stays one.
+TEST(Guided, LightIsSmoothedTexturesAreNot) {
+    GuideImages guides = even_guides();
+    RgbImage truth(width, height), picture = noise(1, 0.2f), half = noise(2, 0.2f);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            guides.albedo(x, y) = (x + y) % 2 == 0 ? Rgb(0.8f, 0.2f, 0.3f) : Rgb(0.4f);
+            truth(x, y) = guides.albedo(x, y);
+            picture(x, y) = truth(x, y) * (1.0f + picture(x, y));
+            half(x, y) *= truth(x, y);
+        }
+    const RgbImage smooth = smooth_by_guides({picture, half}, guides, serial_for);
+    EXPECT_LT(relative_rms_difference(smooth, truth), 0.15 * relative_rms_difference(picture, truth));
+}
+
+TEST(Guided, SameBitsForAnyThreadsAndAnyUnitOfLight) {
+    const GradientImages images = noisy_images(64, 48);
+    const auto picture = [&](float scale, const ParallelFor& parallel_for) {
+        const GradientImages scaled = noisy_images(64, 48, scale);
+        return reconstruct(scaled, {Norm::guided}, parallel_for).image;
+    };
+    const RgbImage one = picture(1, serial_for), other = picture(1, backwards_for),
+                   large = picture(1024, serial_for);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        ASSERT_EQ(one.data()[i], other.data()[i]);
+        ASSERT_NEAR(large.data()[i].g, 1024 * one.data()[i].g, 0.01f * 1024);
+    }
+}
+
+/// Of methods with gradients as of those without.
+TEST(Guided, IsNearerToTheTruth) {
+    GradientImages images = noisy_images(64, 48), truth = images;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x)
+            truth.primal(x, y) =
+                Rgb((x / 10 + y / 8) % 2 == 0 ? 0.9f : 0.2f, 0.4f, 0.1f + 0.01f * static_cast<float>(y));
+    for (const bool gradients : {true, false}) {
+        if (!gradients)
+            images.dx = images.dy = images.halves.dx = images.halves.dy = {};
+        const double before = relative_rms_difference(reconstruct(images, {Norm::weighted}).image, truth.primal);
+        const Norm norm = gradients ? Norm::guided : Norm::smoothed;
+        const double after = relative_rms_difference(reconstruct(images, {norm}).image, truth.primal);
+        EXPECT_LT(after, (gradients ? 0.9 : 0.5) * before);
+    }
+}
+
+/// What lies to the right of much noise is smoothed, and kept, as what lies to the left.
+TEST(Guided, MirrorsAreAlike) {
+    RgbImage picture(width, height), half(width, height);
+    const RgbImage one = noise(1, 1), other = noise(2, 1);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float deviation = x < width / 2 ? 0.9f : 1e-4f;
+            picture(x, y) = Rgb(1) + deviation * one(x, y);
+            half(x, y) = deviation * other(x, y);
+        }
+    const auto mirrored = [](const RgbImage& image) {
+        RgbImage result(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                result(x, y) = image(width - 1 - x, y);
+        return result;
+    };
+    const RgbImage smooth = smooth_by_guides({picture, half}, even_guides(), serial_for);
+    const RgbImage there = smooth_by_guides({mirrored(picture), mirrored(half)}, even_guides(), serial_for);
+    EXPECT_LT(relative_difference(mirrored(there), smooth), 1e-5);
+}
+
+/// Thin black bars that no guide shows: nothing comes out below black.
+TEST(Guided, NothingIsBelowBlack) {
+    RgbImage picture = plus(RgbImage(width, height, Rgb(1)), noise_in_tiles(3, 0.5f)),
+             half = noise_in_tiles(4, 0.5f);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            picture(x, y) = x % 16 == 5 ? Rgb(0) : glm::max(picture(x, y), Rgb(0));
+            half(x, y) = x % 16 == 5 ? Rgb(0) : half(x, y);
+        }
+    for (Rgb c : smooth_by_guides({picture, half}, even_guides(), serial_for))
+        ASSERT_GE(std::min({c.r, c.g, c.b}), 0);
+}
+
+/// Of black, of one pixel, and of numbers that are hardly any more.
+TEST(Guided, TakesAnyPicture) {
+    const auto smooth = [](Rgb value, int w, int h) {
+        const RgbImage image(w, h, value);
+        return smooth_by_guides({image, image}, {image, image, Image<float>(w, h)}, serial_for);
+    };
+    for (const float value : {0.0f, 3e-39f, 1e-10f, 1.0f, 1e30f, 3e38f})
+        for (const auto& [w, h] : {std::pair{1, 1}, {1, 7}, {9, 1}, {10, 10}})
+            for (Rgb c : smooth(Rgb(value), w, h))
+                ASSERT_TRUE(is_finite(c)) << value << " " << w << "x" << h;
+}
+
+/// One sample has no halves, and files may have no guides: then there is nothing to smooth by.
+TEST(Guided, WithoutHalvesOrGuidesIsWeighted) {
+    for (const bool halves : {false, true}) {
+        GradientImages images = noisy_images(40, 30);
+        if (halves)
+            images.halves = {};
+        else
+            images.guides = {};
+        const RgbImage guided = reconstruct(images, {Norm::guided}).image;
+        EXPECT_EQ(relative_difference(guided, reconstruct(images, {Norm::weighted}).image), 0);
+    }
+}
+
+} // namespace
+} // namespace tessera::test
