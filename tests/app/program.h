@@ -2,13 +2,16 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <thread>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace tessera::test {
 
@@ -29,6 +32,22 @@ inline Outcome run(const std::filesystem::path& folder, const std::string& argum
     const int status = pclose(pipe);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
+}
+
+/// Runs the program likewise, silently: the most memory that it had at a time, bytes; 0: it failed.
+inline std::size_t peak_memory(const std::filesystem::path& folder, const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder.string() + "' && exec '" + std::string(TESSERA_BINARY) + "' " + arguments + " >/dev/null 2>&1";
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        ::_exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    const bool has_ended = ::wait4(child, &status, 0, &usage) == child && WIFEXITED(status);
+    constexpr std::size_t kibibyte = 1024;
+    return has_ended && WEXITSTATUS(status) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) * kibibyte : 0;
 }
 
 /// Waits until it holds, however slow the machine is: for up to two minutes.

@@ -162,6 +162,28 @@ TEST_F(ReferenceCommand, RefusesTheCheckpointOfAnother) {
     EXPECT_THAT(reference("--spp 100000 -o a.exr").output, HasSubstr("a.exr.checkpoint: is not a checkpoint"));
 }
 
+/// Shares are added one after the other: what that takes does not grow with how many there are.
+TEST_F(ReferenceCommand, MergesAnyNumberOfSharesInTheMemoryForTwo) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers keep what was given back";
+#endif
+    const auto peak_of = [&](int count) {
+        std::string files;
+        for (int number = 1; number <= count; ++number) {
+            const std::string file = std::to_string(number) + "-of-" + std::to_string(count) + ".share";
+            const Outcome o = reference("--size 192x108 --spp " + std::to_string(2 * count) + " --share " +
+                                        std::to_string(number) + "/" + std::to_string(count) + " -o " + file);
+            EXPECT_EQ(o.exit_code, 0) << o.output;
+            files += file + " ";
+        }
+        return peak_memory(folder(), "merge " + files + "-o ref.exr");
+    };
+    const std::size_t of_two = peak_of(2), of_twelve = peak_of(12);
+    const std::size_t share = fs::file_size(folder() / "1-of-12.share");
+    ASSERT_GT(of_two, 2 * share); // so it would be seen if they were all held
+    EXPECT_LT(of_twelve, of_two + share);
+}
+
 TEST_F(ReferenceCommand, BadInputGetsAMessage) {
     EXPECT_THAT(reference("-o a.png").output, HasSubstr("a.png: the name must end in .exr"));
     EXPECT_THAT(reference("-o none/a.exr").output, HasSubstr("none/a.exr: cannot be written"));
