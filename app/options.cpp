@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -118,6 +119,9 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
         "that of a render with the same scene, -D, --camera, --size, method, settings and --seed, and only "
         "of such a one; what is not given is as in `tessera render`: one pane, G-PR, the scene's size");
     command.add_option("--reference", options.reference, "EXR file to show errors against");
+    forbid_empty(command.add_option("--follow", options.jobs,
+                                    "folder in which bench, sweep or stability is at work: shows its jobs and "
+                                    "curves as they come"));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
     command.add_option("--script", options.script, "file with steps to play, a line each");
@@ -230,7 +234,8 @@ int run_command_line(int argc, char** argv) {
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
     add_scene(info, info_words, true);
     std::vector<const char*> words(argv, argv + argc);
-    if (argc > 1 && extension_of(argv[1]) == ".xml") // a scene alone is to be looked at
+    const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");
+    if (is_alone) // a scene, or a folder, is to be looked at
         words.insert(words.begin() + 1, "view");
     try {
         app.parse(static_cast<int>(words.size()), words.data());

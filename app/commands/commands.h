@@ -52,6 +52,7 @@ struct ViewOptions {
     int spp = 0; ///< samples a pixel at which the panes rest; 0: none (a screenshot: usual_spp)
     std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the last pane
     std::filesystem::path reference;    ///< EXR file to measure errors against; empty: none
+    std::filesystem::path jobs;         ///< folder of a bench, sweep or stability suite to follow; empty: none
     std::filesystem::path screenshot;   ///< if not empty: save a picture of the window at `spp` samples, and end
     std::filesystem::path script;       ///< if not empty: steps to be played
     bool log_actions = false;           ///< a line on stdout for every change of state, and where controls lie

@@ -1,5 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
+#include "app/report/folder_reader.h"
 #include "render/io/available_memory.h"
 #include "render/io/plain_images.h"
 #include "ui/gl/gl.h"
@@ -146,6 +147,8 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.reference = options.reference;
     result.open = options.open;
     result.write_exr = write_saved_picture;
+    result.read_jobs = folder_reader;
+    result.jobs = options.jobs;
     if (is_interactive(options))
         result.preferences = preferences_file();
     result.wake = [&surface] { surface.wake(); };

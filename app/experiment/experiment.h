@@ -32,6 +32,7 @@ struct Sharing {
 
 /// What is rendered and measured: scenes, each with all setups, each with some seeds.
 struct ExperimentOptions {
+    std::string command; ///< "bench": which one they were given to
     std::vector<std::filesystem::path> scenes;
     SceneVariables variables; ///< of all scenes
     std::vector<Method> methods = {Method::gpr};
@@ -49,6 +50,10 @@ struct ExperimentOptions {
     bool keeps_images = false; ///< of the first seed, at the end: see Experiment::image_file
     Sharing sharing;
 };
+
+/// What a job's file says of a run beside checksums of scene and reference: what it is of.
+nlohmann::json key_of_run(const ExperimentOptions& options, const std::string& scene, const Setup& setup,
+                          std::uint64_t seed);
 
 /// Renders that are compared with each other, in jobs that any number of processes share. What a job has found is
 /// in a file of its own, OUTPUT/jobs/NAME.jsonl, and is never rendered again by the same program with the same
@@ -78,6 +83,8 @@ public:
     /// The file that the job makes; empty: a reference is missing.
     std::filesystem::path file_of(std::size_t job);
     bool is_done(std::size_t job);
+    /// Whether the job has no file, as those of other lists of jobs have all that it is to find.
+    bool is_recalled(std::size_t job) const { return is_recalled_[job] != 0; }
     /// Renders a job whose references are there, and makes its file. `tell` is told how much of it is done. Throws
     /// as open_scene does, and BadInput for references of another scene. False: Ctrl-C ended it.
     bool run(std::size_t job, Claim& claim, const std::function<void(double)>& tell);
@@ -98,12 +105,6 @@ public:
 private:
     using Setups = std::vector<std::size_t>; // by their indices
     struct SharedRun;
-    struct Record {
-        std::size_t scene, setup;
-        std::size_t triangles;
-        Measurement measurement;
-    };
-
     void list_jobs();
     std::string file_name_of(const Job& job);
     void recall();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -126,6 +127,29 @@ std::string ExperimentJobs::list() {
     return text;
 }
 
+JobPlan ExperimentJobs::plan(const fs::path& folder) {
+    JobPlan plan;
+    std::map<const Experiment*, std::size_t> works;
+    const fs::path from = fs::absolute(folder).lexically_normal();
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        const Item& i = items_[item];
+        const auto [work, is_new] = works.try_emplace(i.experiment, plan.works.size());
+        if (is_new) {
+            plan.works.push_back({i.experiment->options(), {}});
+            for (const MeasuredScene& scene : i.experiment->scenes())
+                plan.works.back().scenes.push_back(scene.name());
+        }
+        const fs::path file = file_of(item);
+        plan.jobs.push_back(
+            {work->second,
+             i.reference ? "reference " + file.filename().string()
+                         : i.experiment->text_of(i.experiment->jobs()[i.job]),
+             file.empty() ? fs::path() : fs::absolute(file).lexically_normal().lexically_proximate(from),
+             i.reference != nullptr, !i.reference && i.experiment->is_recalled(i.job)});
+    }
+    return plan;
+}
+
 std::string ExperimentJobs::mark() {
     std::string names;
     for (std::size_t item = 0; item < items_.size(); ++item) {
@@ -145,8 +169,8 @@ namespace {
 class Report {
 public:
     Report(ExperimentJobs& jobs, const ExperimentOptions& options, const std::function<void()>& write)
-        : jobs_(jobs), folder_(options.output / "jobs"), silence_(options.sharing.silence), claims_(silence_),
-          write_(write) {}
+        : jobs_(jobs), options_(options), folder_(options.output / "jobs"), silence_(options.sharing.silence),
+          claims_(silence_), write_(write) {}
 
     /// Not all is done: the last one is still to be written, whatever was written before.
     void forget() {
@@ -154,8 +178,17 @@ public:
             fs::remove(folder_ / mark);
     }
 
+    /// Says what is to be done; again when more is known, as files are named by what references there are.
+    void write_plan() {
+        if (is_plan_whole_)
+            return;
+        is_plan_whole_ = !jobs_.mark().empty();
+        tessera::write_plan(plan_file(options_.output), jobs_.plan(options_.output));
+    }
+
     /// Writes one of what there is, unless another process is writing.
     void write_if_free() {
+        write_plan();
         if (const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report"))
             write_();
     }
@@ -174,6 +207,7 @@ public:
 
     /// Writes the last one, unless another process has since all is done. `anew`: in any case.
     void write_last(bool anew) {
+        write_plan();
         const fs::path written = folder_ / jobs_.mark();
         for (Patience patience(silence_); anew || !fs::exists(written);) {
             const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
@@ -192,9 +226,11 @@ public:
 
 private:
     ExperimentJobs& jobs_;
+    const ExperimentOptions& options_;
     fs::path folder_;
     double silence_;
     Claims claims_;
+    bool is_plan_whole_ = false; ///< it was written with the names of all files
     const std::function<void()>& write_;
     std::chrono::steady_clock::time_point next_{};
 };
@@ -222,10 +258,12 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
     }
     make_folder(options.output / "jobs");
     Report report(jobs, options, write_report);
+    report.write_plan();
     const bool was_done = jobs.left() == 0;
     if (!was_done)
         report.forget();
     const bool has_ended = work(jobs, options.sharing, report);
+    report.write_plan(); // a reference may be there since
     const std::size_t left = jobs.left();
     const bool is_of_one = options.sharing.task == Sharing::Task::one_job;
     if (left == 0)

@@ -3,6 +3,7 @@
 #include "app/cli/terminal.h"
 #include "app/experiment/experiment.h"
 #include "app/experiment/job_worker.h"
+#include "app/experiment/plan.h"
 
 #include <chrono>
 #include <cstddef>
@@ -37,6 +38,8 @@ public:
     /// A line for each job: its number, what it renders, and whether it is done, being done on a host, or about
     /// how long it takes.
     std::string list();
+    /// All of them, as far as it is known, for those who look at `folder`: the one that the output is in.
+    JobPlan plan(const std::filesystem::path& folder);
     /// A name for a file that depends on all that the jobs' files are named by; empty: a reference is missing.
     std::string mark();
 

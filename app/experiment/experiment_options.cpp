@@ -141,6 +141,7 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
 
 ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words) {
     ExperimentOptions options = words.options;
+    options.command = command.get_name();
     options.scenes.assign(words.scenes.begin(), words.scenes.end());
     options.methods = parse_methods(words.methods);
     options.norms = parse_norms(words.norms);

@@ -13,11 +13,9 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -37,18 +35,24 @@ std::uint32_t checksum_of(const std::string& text) {
 
 } // namespace
 
-/// All that the measurements depend on, but for the program and the machine.
-nlohmann::json Experiment::key_of(std::size_t scene, const Setup& setup, std::uint64_t seed) const {
+nlohmann::json key_of_run(const ExperimentOptions& options, const std::string& scene, const Setup& setup,
+                          std::uint64_t seed) {
     RenderSettings settings = setup.settings.render;
     settings.seed = seed;
-    return {{"scene", scenes_[scene].name()},
-            {"scene_file", scene_files_[scene]},
+    return {{"scene", scene},
             {"settings", settings_json({}, settings, setup.settings.size, 0, setup.settings.reconstruction)},
             {"recon", to_string(setup.settings.reconstruction.norm)},
             {"threads", setup.settings.threads},
-            {"effort", to_string(options_.effort)},
-            {"halvings", options_.halvings},
-            {"reference", scenes_[scene].reference_for(setup.settings).checksum()}};
+            {"effort", to_string(options.effort)},
+            {"halvings", options.halvings}};
+}
+
+/// All that the measurements depend on, but for the program and the machine.
+nlohmann::json Experiment::key_of(std::size_t scene, const Setup& setup, std::uint64_t seed) const {
+    nlohmann::json key = key_of_run(options_, scenes_[scene].name(), setup, seed);
+    key["scene_file"] = scene_files_[scene];
+    key["reference"] = scenes_[scene].reference_for(setup.settings).checksum();
+    return key;
 }
 
 /// The checksum is of all that decides what its file holds, but for the seed.
@@ -156,29 +160,10 @@ void Experiment::collect(std::size_t index) {
 std::vector<Result> Experiment::results() {
     for (std::size_t job = 0; job < jobs_.size(); ++job)
         collect(job);
-    std::set<std::string> machines;
-    for (const Record& record : records_)
-        machines.insert(record.measurement.machine);
-    const bool tells_machines = machines.size() > 1 && !options_.sharing.takes_any_machine;
-    std::map<std::tuple<std::size_t, std::string, std::size_t, int>, Result> by_place;
-    for (const auto& [scene, setup, triangles, measurement] : records_) {
-        const std::string machine = tells_machines ? measurement.machine : "";
-        Result none{scenes_[scene].name(),
-                    scenes_[scene].source().file,
-                    setups_[setup],
-                    measurement.halvings,
-                    triangles,
-                    machine,
-                    {}};
-        by_place.try_emplace({scene, machine, setup, -measurement.halvings}, std::move(none))
-            .first->second.runs.push_back(measurement);
-    }
-    std::vector<Result> results;
-    for (auto& [place, result] : by_place) {
-        std::ranges::sort(result.runs, {}, &Measurement::seed); // in whatever order the jobs were done
-        results.push_back(std::move(result));
-    }
-    return results;
+    std::vector<NamedScene> scenes;
+    for (const MeasuredScene& scene : scenes_)
+        scenes.push_back({scene.name(), scene.source().file});
+    return results_of(records_, scenes, setups_, options_.sharing.takes_any_machine);
 }
 
 double Experiment::estimate(std::size_t index) {

@@ -10,6 +10,9 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/core.h>
@@ -36,6 +39,33 @@ void Journal::read(const std::filesystem::path& file) {
 json Journal::find(const json& key) const {
     const auto found = entries_.find(to_text(key));
     return found == entries_.end() ? json() : parse_json(found->second);
+}
+
+void Journal::for_each(const std::function<void(const json&, const json&)>& take) const {
+    for (const auto& [key, value] : entries_)
+        take(parse_json(key), parse_json(value));
+}
+
+std::vector<Result> results_of(const std::vector<Record>& records, const std::vector<NamedScene>& scenes,
+                               const std::vector<Setup>& setups, bool takes_any_machine) {
+    std::set<std::string> machines;
+    for (const Record& record : records)
+        machines.insert(record.measurement.machine);
+    const bool tells_machines = machines.size() > 1 && !takes_any_machine;
+    std::map<std::tuple<std::size_t, std::string, std::size_t, int>, Result> by_place;
+    for (const auto& [scene, setup, triangles, measurement] : records) {
+        const std::string machine = tells_machines ? measurement.machine : "";
+        Result none{
+            scenes[scene].name, scenes[scene].file, setups[setup], measurement.halvings, triangles, machine, {}};
+        by_place.try_emplace({scene, machine, setup, -measurement.halvings}, std::move(none))
+            .first->second.runs.push_back(measurement);
+    }
+    std::vector<Result> results;
+    for (auto& [place, result] : by_place) {
+        std::ranges::sort(result.runs, {}, &Measurement::seed); // in whatever order the jobs were done
+        results.push_back(std::move(result));
+    }
+    return results;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "app/experiment/setup.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ public:
     void read(const std::filesystem::path& file);
     /// What was last read under this key; null: nothing was.
     nlohmann::json find(const nlohmann::json& key) const;
+    /// Calls it with each key and what was last read under it.
+    void for_each(const std::function<void(const nlohmann::json& key, const nlohmann::json& value)>& take) const;
 
 private:
     std::unordered_map<std::string, std::string> entries_; // values by their keys, both as text
@@ -48,6 +51,24 @@ struct Result {
     /// it.
     std::string title() const { return machine.empty() ? scene : scene + " (" + machine + ")"; }
 };
+
+/// What one run has found.
+struct Record {
+    std::size_t scene, setup; ///< by their places
+    std::size_t triangles;
+    Measurement measurement;
+};
+
+/// A scene by its name, and where that is known its file.
+struct NamedScene {
+    std::string name;
+    std::filesystem::path file;
+};
+
+/// The records put together, by scene, setup, time or samples, and kind of machine where there are several and
+/// they are to be told apart.
+std::vector<Result> results_of(const std::vector<Record>& records, const std::vector<NamedScene>& scenes,
+                               const std::vector<Setup>& setups, bool takes_any_machine);
 
 /// A value of each run, in their order.
 template <class Value>

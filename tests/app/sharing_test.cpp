@@ -60,7 +60,8 @@ protected:
     std::vector<std::string> job_files(const fs::path& output) const {
         std::vector<std::string> files;
         for (const auto& entry : fs::directory_iterator(folder() / output / "jobs"))
-            files.push_back(entry.path().filename());
+            if (entry.path().filename() != "plan.json")
+                files.push_back(entry.path().filename());
         return files;
     }
     pid_t start(const std::string& arguments) const {

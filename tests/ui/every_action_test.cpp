@@ -145,7 +145,8 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
                             s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
                             s.layout.sample_form.show, s.reference_making.show, s.inspector.active);
-        text += fmt::format("palette {}, pane norms {}\n", s.layout.show_palette, s.panes.size());
+        text += fmt::format("palette {}, jobs {}, pane norms {}\n", s.layout.show_palette, s.layout.show_jobs,
+                            s.panes.size());
         const SlowMotion& motion = s.slow_motion;
         text += fmt::format("slow motion {}, held {}, at {}", motion.active, motion.held,
                             motion.held ? static_cast<float>(motion.current) + motion.arrived : 0);

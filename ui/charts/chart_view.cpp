@@ -4,6 +4,7 @@
 #include "ui/gl/theme.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -23,7 +24,7 @@ std::string label(double value) {
     return text;
 }
 
-void draw_axes(const ScreenRect& plot, const ChartAxes& axes) {
+void draw_axes(const ScreenRect& plot, const ChartAxes& axes, bool has_names) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
     float right_end = plot.min.x - font; // of the last label: none may overlap
@@ -31,7 +32,7 @@ void draw_axes(const ScreenRect& plot, const ChartAxes& axes) {
         const float at = glm::mix(plot.min.x, plot.max.x, static_cast<float>(axes.x.position(tick.value)));
         list.AddLine({at, plot.min.y}, {at, plot.max.y},
                      tick.label.empty() ? IM_COL32(128, 128, 128, 25) : colours::line);
-        const std::string text = label(tick.value);
+        const std::string text = has_names ? tick.label : label(tick.value);
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         if (tick.label.empty() || at - width * 0.5f < right_end + font * 0.5f)
             continue;
@@ -81,7 +82,7 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
     if (frame.size().x < font || frame.size().y < font)
         return;
     const ChartAxes axes = axes_of(plot);
-    draw_axes(frame, axes);
+    draw_axes(frame, axes, !plot.x_names.empty());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText({where.min.x, where.min.y}, colours::dim_text, plot.y_label.c_str());
     list.AddText({frame.max.x - ImGui::CalcTextSize(plot.x_label.c_str()).x, frame.max.y + font * 1.3f},
@@ -89,13 +90,20 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
     std::vector<ImVec2> points;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         points.clear();
-        for (const ChartPoint& p : plot.series[i].points) {
+        const ChartSeries& series = plot.series[i];
+        if (series.is_level && !series.points.empty() && axes.y.has(series.points.front().y)) {
+            const float y = y_of(series.points.front().y, frame, axes);
+            draw_dashed(std::array{ImVec2(frame.min.x, y), ImVec2(frame.max.x, y)}, dashes_of(series.look),
+                        colours[i], std::max(font / 8, 1.0f));
+            continue;
+        }
+        for (const ChartPoint& p : series.points) {
             if (!axes.has(p))
                 continue;
             points.push_back({x_of(p.x, frame, axes), y_of(p.y, frame, axes)});
             draw_bar(p, frame, axes, with_alpha(colours[i], 0.45f));
         }
-        const LineLook& look = plot.series[i].look;
+        const LineLook& look = series.look;
         draw_dashed(points, dashes_of(look), colours[i], std::max(font / 8, 1.0f));
         if (!points.empty())
             draw_marker(points.back(), look.marker, font * 0.22f, colours[i]);

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <imgui.h>
@@ -30,6 +31,7 @@ const PurposeText& text_of(FilePurpose purpose) {
         {"Open a scene", ".xml", "A Mitsuba scene, an .xml file."},
         {"Open a reference", ".exr", "The image to measure errors against, an .exr file."},
         {"Load settings", ".json", "Settings or a camera that the viewer has saved, a .json file."},
+        {"Follow a folder", "/", "The output folder of tessera bench, sweep or stability."}, // no file ends so
     };
     return entry_of(texts, purpose);
 }
@@ -67,10 +69,9 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     draw_list(controls, ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing());
     draw_buttons(controls, state);
     if (!chosen_.empty()) {
-        const std::string file = chosen_.string();
-        (*purpose_ == FilePurpose::scene       ? state.wishes.open_scene
-         : *purpose_ == FilePurpose::reference ? state.wishes.open_reference
-                                               : state.wishes.open_settings) = file;
+        std::string* const wishes[] = {&state.wishes.open_scene, &state.wishes.open_reference,
+                                       &state.wishes.open_settings, &state.wishes.follow_jobs};
+        *entry_of(wishes, *purpose_) = chosen_.string();
         state.layout.choosing.reset();
     }
     if (!state.layout.choosing)
@@ -159,8 +160,9 @@ void FileDialog::draw_list(Controls& controls, float height) {
         ImGui::TextUnformatted(error_.c_str());
         ImGui::PopStyleColor();
     } else if (shown.empty()) {
-        ImGui::TextDisabled("No folder and no %s file%s", text_of(*purpose_).extension,
-                            filter_.empty() ? "" : " of that name");
+        const std::string file =
+            wants_folder() ? "" : fmt::format(" and no {} file", text_of(*purpose_).extension);
+        ImGui::TextDisabled("No folder%s%s", file.c_str(), filter_.empty() ? "" : " of that name");
     }
     ImGui::EndChild();
     ImGui::PopStyleColor();
@@ -190,9 +192,10 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
 void FileDialog::enter() {
     const fs::path path = typed_file(text_.data());
     std::error_code ignored;
-    if (fs::is_directory(path, ignored))
+    const bool is_in_it = typed_path(text_.data()).beginning.empty();
+    if (fs::is_directory(path, ignored) && !(wants_folder() && is_in_it))
         set_text(with_slash(path));
-    else if (fs::is_regular_file(path, ignored))
+    else if (fs::is_regular_file(path, ignored) || fs::is_directory(path, ignored))
         chosen_ = path;
     else
         wants_focus_ = wants_cursor_last_ = true; // it is to be typed on
@@ -201,18 +204,20 @@ void FileDialog::enter() {
 void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     const TypedPath typed = typed_path(text_.data());
     std::error_code ignored;
-    const bool is_file = fs::is_regular_file(typed_file(text_.data()), ignored);
+    const fs::path path = typed_file(text_.data());
+    const bool is_file = wants_folder() ? fs::is_directory(path, ignored) : fs::is_regular_file(path, ignored);
     const float width = ImGui::GetFontSize() * 6;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_file ? 1.0f : 0.5f);
-    if (controls.button("file.open", "Open", text_of(*purpose_).help, width) && is_file)
-        enter();
+    if (controls.button("file.open", wants_folder() ? "Follow" : "Open", text_of(*purpose_).help, width) &&
+        is_file)
+        wants_folder() ? void(chosen_ = path) : enter();
     ImGui::PopStyleVar();
     ImGui::SameLine();
     if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
         state.layout.choosing.reset();
     if (!is_file && !typed.beginning.empty()) {
         ImGui::SameLine();
-        ImGui::TextDisabled("There is no such file");
+        ImGui::TextDisabled(wants_folder() ? "There is no such folder" : "There is no such file");
     }
 }
 

@@ -4,6 +4,7 @@
 #include "render/session/snapshot.h"
 #include "ui/gl/controls.h"
 #include "ui/gl/image_view.h"
+#include "ui/jobs/followed_folder.h"
 #include "ui/state/file_names.h"
 #include "ui/state/viewer_state.h"
 
@@ -61,6 +62,21 @@ void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& stat
 /// What was said last, over the lower edge of the pictures, until its time is over.
 void draw_toast(const ScreenRect& where, Controls& controls, ViewerState& state);
 
+/// The jobs of a folder that is followed, how many are done, and curves of what is; over the pictures.
+class JobsPanel {
+public:
+    /// Draws it while state.layout.show_jobs.
+    void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const FolderFollower::View& view);
+
+private:
+    void draw_charts(Controls& controls, const FollowedFolder& seen, glm::vec2 room);
+    void draw_list(Controls& controls, const FollowedFolder& seen);
+
+    std::filesystem::path folder_; // that is on show
+    int chart_ = 0;                // of its charts
+    bool only_claimed_ = false;
+};
+
 /// The list of all commands, to be found by words; over everything.
 class CommandPalette {
 public:
@@ -111,6 +127,7 @@ private:
     void set_text(const std::string& text);
     void read_text();
     void enter();
+    bool wants_folder() const { return purpose_ == FilePurpose::jobs; }
     static int edit(ImGuiInputTextCallbackData* data);
     int complete(ImGuiInputTextCallbackData& data) const;
 

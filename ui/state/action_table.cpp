@@ -37,6 +37,10 @@ constexpr Action table[] = {
      ctrl(Key::m), no_shortcut, [](State& s) { s.reference_making.show = true; }, nullptr},
     {"File", "Load settings ...", "Chooses settings or a camera that was saved, a .json file.", ctrl(Key::l),
      no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::settings; }, nullptr},
+    {"File", "Follow a folder ...",
+     "Chooses the folder in which a bench, a sweep or the stability suite is at work, on this machine or on many: "
+     "its jobs and curves, as they come.",
+     ctrl_shift(Key::o), no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::jobs; }, nullptr},
     {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
      key(Key::f12), [](State& s) { s.wishes.save_picture = true; }, nullptr},
     {"File", "Save view",
@@ -211,6 +215,10 @@ constexpr Action table[] = {
     {"View", "Messages", "Shows or hides the messages.", key(Key::f2), no_shortcut,
      [](State& s) { s.layout.show_messages = !s.layout.show_messages; },
      [](const State& s) { return s.layout.show_messages; }},
+
+    {"View", "Followed folder", "Shows or hides the jobs and curves of the folder that is followed.",
+     ctrl_shift(Key::f), no_shortcut, [](State& s) { s.layout.show_jobs = !s.layout.show_jobs; },
+     [](const State& s) { return s.layout.show_jobs; }},
 
     {"Panes", "One pane", "Renders the active pane only.", ctrl(Key::digit1), no_shortcut, set_panes<1>,
      has_panes<1>},

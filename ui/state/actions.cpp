@@ -143,7 +143,8 @@ bool counts_in_text(const Shortcut& typed) {
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
                      state.layout.show_help || state.layout.show_palette || state.layout.large_charts ||
-                     state.reference_making.show || state.layout.sample_form.show || state.layout.choosing;
+                     state.layout.show_jobs || state.reference_making.show || state.layout.sample_form.show ||
+                     state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
     const bool is_busy = loads || state.reference_read ||
@@ -158,7 +159,7 @@ void close_overlays(bool entering_text, ViewerState& state) {
     state.wishes.give_up_reconstructions =
         state.wishes.give_up_reconstructions || (!any && !loads && !state.reference_read);
     state.layout.show_help = state.layout.show_palette = false;
-    state.layout.large_charts = false;
+    state.layout.large_charts = state.layout.show_jobs = false;
     state.reference_making.show = state.layout.sample_form.show = false;
     state.layout.choosing.reset();
 }

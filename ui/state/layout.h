@@ -48,8 +48,8 @@ enum class ChartKind {
     shifts,     ///< how many of the shifts ended how
 };
 
-/// What a file is chosen for.
-enum class FilePurpose { scene, reference, settings };
+/// What a file is chosen for; of jobs, a folder.
+enum class FilePurpose { scene, reference, settings, jobs };
 
 /// What the dialog for a sample asks for.
 struct SampleForm {
@@ -94,6 +94,7 @@ struct Layout : LastingLayout {
     int palette_steps = 0;      ///< down the list, as typed since it was drawn
     bool palette_takes = false; ///< Return was typed
     bool show_messages = false;
+    bool show_jobs = false; ///< of the folder that is followed, over the pictures
     Toast toast;
     SampleForm sample_form;
     std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed

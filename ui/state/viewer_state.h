@@ -28,6 +28,7 @@ struct Wishes {
     std::string open_scene;
     std::string open_reference;
     std::string open_settings;
+    std::string follow_jobs;       ///< a folder
     bool cancel_scene = false;     ///< the one that is being loaded
     bool cancel_reference = false; ///< the one that is being read
 

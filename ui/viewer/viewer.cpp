@@ -65,6 +65,7 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.size = options_.size;
     state_.pace.spp_limit = options_.spp_limit;
     state_.wishes.open_reference = options_.reference.string();
+    state_.wishes.follow_jobs = options_.jobs.string();
     take_preferences();
     if (options_.sample) {
         options_.sample->slot = state_.active().slot;
@@ -257,6 +258,8 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
     if (state_.layout.large_charts)
         draw_large_charts(pictures, controls_, state_);
     const glm::vec2 screen(state_.layout.window_size);
+    if (state_.layout.show_jobs)
+        jobs_panel_.draw(pictures, controls_, state_, follower_.view());
     if (state_.reference_making.show)
         draw_reference_dialog(screen, controls_, state_);
     if (state_.layout.sample_form.show)

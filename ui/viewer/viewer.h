@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/session/session.h"
+#include "ui/jobs/followed_folder.h"
 #include "ui/jobs/jobs.h"
 #include "ui/jobs/save_queue.h"
 #include "ui/jobs/scene_load.h"
@@ -93,6 +94,8 @@ struct ViewerOptions {
     std::filesystem::path reference;             ///< EXR file to measure errors against; empty: none
     SceneOpener open;                            ///< for files dropped on the window; may be empty
     PictureWriter write_exr;                     ///< may be empty
+    FolderOpener read_jobs;                      ///< may be empty: no folder of jobs can be followed
+    std::filesystem::path jobs;                  ///< folder to follow; empty: none
     std::filesystem::path preferences;           ///< file that remembers the layout; empty: none does
     std::function<void()> wake;                  ///< called from other threads when there is something new to draw
 };
@@ -153,6 +156,7 @@ private:
     void open(const std::filesystem::path& file);
     void fulfil_wishes();
     void load_settings(const std::filesystem::path& file);
+    void follow_jobs();
     void fulfil_saves();
     void take(const SaveQueue::Outcome& outcome);
     void save_exr();
@@ -190,6 +194,8 @@ private:
     ChartJob chart_job_;
     FileDialog file_dialog_;
     CommandPalette palette_;
+    FolderFollower follower_;
+    JobsPanel jobs_panel_;
     HelpPage help_;
     SaveQueue save_queue_;
     Preferences preferences_;                // as the file last had them

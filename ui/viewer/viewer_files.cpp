@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include <imgui.h>
@@ -94,11 +95,22 @@ void Viewer::fulfil_wishes() {
     // Settings wait for a scene under way, which would put its own camera and depth in their place.
     if (!state_.wishes.open_settings.empty() && !load_.running())
         load_settings(std::exchange(state_.wishes.open_settings, {}));
+    follow_jobs();
     fulfil_saves();
     if (std::exchange(state_.wishes.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
         state_.tell("The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
     }
+}
+
+void Viewer::follow_jobs() {
+    const std::filesystem::path folder = std::exchange(state_.wishes.follow_jobs, {});
+    if (folder.empty() || !options_.read_jobs)
+        return;
+    std::error_code gone; // the current folder: then it is called as it was given
+    const std::filesystem::path whole = std::filesystem::absolute(folder, gone).lexically_normal();
+    follower_.follow(gone ? folder : whole, options_.read_jobs(folder), options_.wake);
+    state_.layout.show_jobs = true;
 }
 
 void Viewer::fulfil_saves() {
