@@ -17,8 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// So many jobs in a row that others have, and it is time to look at the whole folder instead; but not before so
-/// many times as long has passed as the last look took.
+/// many times as long has passed as the last look took: till then there are pauses.
 constexpr int most_misses = 16, pauses_a_look = 20;
+/// So many in a row, and the next ones are tried elsewhere.
+constexpr int misses_in_place = 4;
 /// Of the jobs that others do, so many are looked at before the next pause: a thousand that wait for the last ones
 /// would otherwise keep a file server busy.
 constexpr int watched_at_once = 8;
@@ -93,9 +95,13 @@ void JobWorker::look() {
             jobs_.found(job);
     }
     if (!states_.empty())
-        place_ = is_alone ? 0 : std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(chance_);
+        place_ = is_alone ? 0 : anywhere();
     const auto end = std::chrono::steady_clock::now();
     next_look_ = end + pauses_a_look * (end - begin);
+}
+
+std::size_t JobWorker::anywhere() {
+    return std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(chance_);
 }
 
 /// The next one of that state, from place_ on and round; there must be one.
@@ -118,9 +124,13 @@ std::unique_ptr<Claim> JobWorker::find_open() {
     for (int misses = 1; open_ > 0 && !interrupted(); ++misses) {
         if (auto claim = attempt(next(State::open)))
             return claim;
-        if (misses >= most_misses && std::chrono::steady_clock::now() > next_look_) {
+        if (misses >= most_misses) {
+            if (std::chrono::steady_clock::now() < next_look_)
+                return {}; // nearly all is done or taken: a pause, so that a file server has one
             look();
             misses = 0;
+        } else if (misses >= misses_in_place) {
+            place_ = anywhere(); // others have gone through here: open jobs lie scattered
         }
     }
     return {};

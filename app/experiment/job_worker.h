@@ -47,6 +47,7 @@ private:
     void look();
     bool is_left() const { return done_ < states_.size(); }
     void set(std::size_t job, State state);
+    std::size_t anywhere();
     std::size_t next(State state);
     std::unique_ptr<Claim> attempt(std::size_t job);
     std::unique_ptr<Claim> find_open();

@@ -1,5 +1,6 @@
 #include "render/io/text.h"
 #include "render/load/plugins.h"
+#include "render/settings/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/core.h>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -120,6 +122,9 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
     const int depth = p.integer("max_depth", -1);
     if (depth < -1 || depth == 0)
         p.take("max_depth")->fail("'max_depth' must be at least 1, or -1 for no limit", "value");
+    if (depth > most_edges)
+        p.note(*p.take("max_depth"),
+               fmt::format("max_depth {}: {} is taken, the most edges that paths have here", depth, most_edges));
     context.scene.max_depth = depth == -1 ? unlimited_depth : depth;
     if (p.type() == "path") {
         p.ignore({"rr_depth", "strict_normals"});

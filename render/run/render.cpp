@@ -73,6 +73,26 @@ GradientImages Render::with_patch(GradientImages images) const {
     return images;
 }
 
+/// How far a pass is: pieces of its pilot, if it has one, and of itself.
+class Render::Share {
+public:
+    Share(std::atomic<float>* told, std::size_t pieces) : told_(told), pieces_(static_cast<float>(pieces)) {
+        if (told_)
+            *told_ = 0;
+    }
+    void expect(std::size_t pieces) { pieces_ = static_cast<float>(pieces); } ///< while nobody adds any
+    void add(std::ptrdiff_t pieces) {
+        const std::ptrdiff_t done = done_ += pieces;
+        if (told_)
+            *told_ = static_cast<float>(done) / pieces_;
+    }
+
+private:
+    std::atomic<float>* told_;
+    float pieces_;
+    std::atomic<std::ptrdiff_t> done_ = 0;
+};
+
 /// Workers, one a thread of the pool.
 class Render::Workers {
 public:
@@ -125,7 +145,7 @@ bool Render::look_first(Workers& workers) {
 
 /// What sharing would bring, which the plan wants to know. Its samples are no part of the picture, so that their
 /// counts are none of the render's.
-bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop) {
+bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share) {
     if (!plan_.wants_pilot())
         return true;
     ReusePlan plan(size_, settings_);
@@ -134,6 +154,7 @@ bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop) {
     std::vector<PlanEvidence> found(static_cast<std::size_t>(plan.cell_count()));
     if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
             found[static_cast<std::size_t>(i)] = pilot.explore(plan.cell(i), worker);
+            share.add(1);
         }))
         return false;
     plan.learn(found);
@@ -149,22 +170,25 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     if (spp_ == 0)
         ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
     const bool is_begun = spp_ > 0 || done_before > 0;
-    if (!is_begun && !send_pilot(pool, stop))
+    const bool has_pilot = !is_begun && plan_.wants_pilot();
+    const std::size_t cells = has_pilot ? static_cast<std::size_t>(plan_.cell_count()) : 0;
+    Share told(share, cells + done_blocks_.size());
+    told.add(done_before);
+    if (!is_begun && !send_pilot(pool, stop, told))
         return false;
     const Pass pass(*scene_, camera_, size_, settings_, plan_, first_pass_ + spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
+    told.expect(cells + blocks.size());
     Workers workers(*this, pool, stop);
     if (!is_begun && !look_first(workers))
         return false;
-    std::atomic<std::ptrdiff_t> count = done_before;
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
         if (is_done)
             return; // before the pass was stopped
         render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
         is_done = 1;
-        if (share)
-            *share = static_cast<float>(++count) / static_cast<float>(blocks.size());
+        told.add(1);
     });
     const auto done = std::ranges::count(done_blocks_, 1);
     if (done == done_before)

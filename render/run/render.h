@@ -33,8 +33,8 @@ public:
     /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
     /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
     /// picture. Throws OutOfMemory where the first has none for its threads.
-    /// @param share  is told, from the pool's threads, which share of the blocks is done; null: nobody wants to
-    /// know
+    /// @param share  is told, from the pool's threads, which share of the pass is done, from 0 on, the pilot of the
+    ///               first one included; null: nobody wants to know
     bool pass(ThreadPool& pool, std::stop_token stop = {}, std::atomic<float>* share = nullptr);
 
     int spp() const { return spp_; }
@@ -61,9 +61,10 @@ public:
     Memory memory();
 
 private:
+    class Share;
     class Workers;
 
-    bool send_pilot(ThreadPool& pool, const std::stop_token& stop);
+    bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share);
     bool look_first(Workers& workers);
     GradientImages with_patch(GradientImages images) const;
 

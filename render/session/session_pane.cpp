@@ -30,7 +30,7 @@ void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t ge
     const int divisor = pane.previews.divisor(generation, request.size);
     const glm::ivec2 size = (request.size + divisor - 1) / divisor;
     Render coarse(request.scene, request.camera, size, request.settings);
-    if (!coarse.pass(pool_, stop))
+    if (!coarse.pass(pool_, stop, &pane.pass_share))
         return;
     const auto snapshot = snapshot_of(coarse, generation, divisor);
     {
@@ -45,6 +45,7 @@ void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t ge
     snapshot->reconstruction_spp = snapshot->spp;
     snapshot->reconstruction_seconds = snapshot->seconds;
     publish(pane, snapshot);
+    pane.pass_share = 0; // of its pass nothing is done
     pane.previews.count(generation, divisor, std::chrono::duration<double>(Clock::now() - start).count(),
                         preview_budget());
 }

@@ -42,6 +42,11 @@ protected:
     fs::path box_ = folder_ / "box.xml";
 };
 
+TEST_F(CommandLine, HelpOfScriptsKeepsColumnsApart) {
+    const std::string help = run(folder_, "view --help").output;
+    EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference until it is loaded"));
+}
+
 TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {
     const Outcome help = run(folder_, "box.xml --help");
     EXPECT_EQ(help.exit_code, 0) << help.output;

@@ -139,6 +139,13 @@ TEST(MitsubaXml, VariablesReachTypesAndParts) {
 
 TEST(MitsubaXml, UnlimitedDepth) {
     EXPECT_EQ(parse("<integrator type='path'/>").description.max_depth, 65);
+    EXPECT_EQ(all(parse("<integrator type='path'><integer name='max_depth' value='64'/></integrator>"))
+                  .find("max_depth"),
+              std::string::npos);
+    EXPECT_NE(all(parse("<integrator type='path'><integer name='max_depth' value='65'/></integrator>"))
+                  .find("max_depth 65: 64 is taken"),
+              std::string::npos)
+        << "as deep as no path is here";
     EXPECT_EQ(
         parse("<integrator type='path'><integer name='max_depth' value='-1'/></integrator>").description.max_depth,
         65);

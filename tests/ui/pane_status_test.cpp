@@ -22,7 +22,7 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     EXPECT_EQ(status_text(state, 0), "G-PR   starting");
     pane.generation = 3;
     pane.pass_share = 0.371f;
-    EXPECT_EQ(status_text(state, 0), "G-PR   first pass 37 %");
+    EXPECT_EQ(status_text(state, 0), "G-PR   first look 37 %");
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = pane.generation = 4;
     snapshot->spp = 12;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
 #include <glm/vec2.hpp>
 #include <imgui.h>
 
@@ -188,7 +189,8 @@ std::string status_text(const ViewerState& state, int index) {
     else if (state.paused)
         line += "   paused";
     else if (is_in_long_first_pass(pane))
-        line += "   first pass " + std::to_string(static_cast<int>(100 * pane.pass_share)) + " %";
+        line += fmt::format("   {} {} %", is_answered ? "first pass" : "first look",
+                            static_cast<int>(100 * pane.pass_share));
     else if (!is_answered)
         line += "   starting";
     else if (is_done(*pane.snapshot, state.pace))

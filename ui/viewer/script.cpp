@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
@@ -100,9 +101,13 @@ std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
 }
 
 std::string script_help() {
+    std::size_t longest = 0;
+    for (const StepKind& kind : kinds)
+        longest = std::max(longest, std::string_view(kind.usage).size());
+    const auto usage_width = static_cast<int>(longest);
     std::ostringstream text;
     for (const StepKind& kind : kinds)
-        text << "  " << std::left << std::setw(34) << kind.usage << kind.help << '\n';
+        text << "  " << std::left << std::setw(usage_width) << kind.usage << ' ' << kind.help << '\n';
     return text.str();
 }
 

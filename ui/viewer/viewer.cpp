@@ -124,12 +124,6 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     const auto depth_of = [&](const Scene& s) {
         return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, most_edges);
     };
-    const int no_limit = SceneDescription().max_depth; // is cut without a word
-    if (!options_.max_depth && state_.scene->max_depth() > no_limit)
-        state_.add_message(Message::Kind::note,
-                           fmt::format("{}: max depth {} is more than paths have here: {} is taken.", origin.name,
-                                       state_.scene->max_depth(), most_edges),
-                           Message::Origin::scene);
     for (PaneState& pane : state_.panes) {
         int& depth = pane.settings.render.max_depth;
         if (!again || depth == depth_of(*before)) // not one that the user has set
