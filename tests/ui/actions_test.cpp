@@ -92,7 +92,10 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     type(state, {Key::q, true, false, 0});
     EXPECT_TRUE(state.wishes.quit);
     type(state, {Key::s, true, false, 0});
-    EXPECT_TRUE(state.wishes.save_picture);
+    EXPECT_EQ(state.layout.choosing, FilePurpose::save);
+    state.layout.choosing.reset();
+    type(state, {Key::f12, false, false, 0});
+    EXPECT_TRUE(state.wishes.save_window);
     type(state, {Key::i, true, false, 0});
     EXPECT_TRUE(state.layout.sample_form.show);
     type(state, key(Key::escape));

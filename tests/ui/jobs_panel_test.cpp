@@ -1,7 +1,6 @@
 // The folder of jobs that is followed: what the panel shows of it, and that the window never waits for it.
 #include "tests/ui/viewer_harness.h"
 
-#include <utility>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

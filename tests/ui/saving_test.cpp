@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -211,10 +212,55 @@ TEST_F(SavedView, IsWrittenByItsActionOrItSaysWhyNot) {
 
 TEST_F(SavedView, TheWindowIsWrittenTooAndNotByItsThread) {
     rest(2);
-    type(Key::s, true);
+    type(Key::f12);
     finish_saving();
     EXPECT_EQ(files_in(folder.path).size(), 1u);
     EXPECT_EQ(state().messages.back().text.find("Saved "), 0u);
+}
+
+TEST_F(SavedView, UnderANameAndInAFolderOfOnesOwn) {
+    fs::create_directory(folder.path / "pictures");
+    rest(2);
+    type(Key::s, true);
+    frames(2);
+    save("save");
+    choose("file.kind", "window");
+    choose("file.kind", "picture"); // the name is of the kind
+    click("file/pictures");
+    frames(2);
+    click("file.open");
+    finish_saving();
+    const fs::path file = folder.path / "pictures/cornell-box-gpr.png";
+    EXPECT_TRUE(fs::exists(file));
+    EXPECT_THAT(state().layout.toast.text, testing::HasSubstr(file.string()));
+
+    type(Key::s, true, true); // by date, where was saved last
+    finish_saving();
+    EXPECT_EQ(files_in(folder.path / "pictures").size(), 2u);
+    type(Key::s, true); // a name that is taken is not offered
+    frames(2);
+    click("file.open");
+    finish_saving();
+    EXPECT_TRUE(fs::exists(folder.path / "pictures/cornell-box-gpr-2.png"));
+    EXPECT_EQ(files_in(folder.path).size(), 1u);
+}
+
+TEST_F(SavedView, EveryKindIsSavedByTheDialog) {
+    rest(2);
+    const char* const kinds[] = {"window", "settings", "camera", "charts"};
+    for (const char* kind : kinds) {
+        type(Key::s, true);
+        frames(2);
+        choose("file.kind", kind);
+        click("file.open");
+        finish_saving();
+        EXPECT_FALSE(state().wishes.save_as) << kind;
+    }
+    std::set<fs::path> expected;
+    for (const char* name :
+         {"window.png", "settings.json", "camera.json", "charts.csv", "charts.svg", "charts.png"})
+        expected.insert(std::string("cornell-box-") + name);
+    EXPECT_EQ(files_in(folder.path), expected);
 }
 
 } // namespace

@@ -78,8 +78,8 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
 void ViewerHarness::finish_saving() {
     wait_until([&] {
         const Wishes& w = state().wishes;
-        return !w.save_picture && !w.save_charts && !w.save_camera && !w.save_settings && !w.save_exr &&
-               !w.save_view && !viewer.saving();
+        return !w.save_window && !w.save_charts && !w.save_camera && !w.save_settings && !w.save_exr &&
+               !w.save_picture && !viewer.saving();
     });
 }
 

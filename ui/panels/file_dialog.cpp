@@ -32,6 +32,7 @@ const PurposeText& text_of(FilePurpose purpose) {
         {"Open a reference", ".exr", "The image to measure errors against, an .exr file."},
         {"Load settings", ".json", "Settings or a camera that the viewer has saved, a .json file."},
         {"Follow a folder", "/", "The output folder of tessera bench, sweep or stability."}, // no file ends so
+        {"Save", "", "Writes the file, in the background."},
     };
     return entry_of(texts, purpose);
 }
@@ -65,13 +66,21 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     if (!is_open)
         return;
     heading(text_of(*purpose_).title);
+    if (saves())
+        draw_kind(controls, state);
     draw_path(controls);
     draw_list(controls, ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing());
     draw_buttons(controls, state);
     if (!chosen_.empty()) {
-        std::string* const wishes[] = {&state.wishes.open_scene, &state.wishes.open_reference,
-                                       &state.wishes.open_settings, &state.wishes.follow_jobs};
-        *entry_of(wishes, *purpose_) = chosen_.string();
+        if (saves()) {
+            state.wishes.save_as = {kind_, chosen_.string()};
+            state.layout.save_folder = chosen_.parent_path().string();
+            state.save(kind_);
+        } else {
+            std::string* const wishes[] = {&state.wishes.open_scene, &state.wishes.open_reference,
+                                           &state.wishes.open_settings, &state.wishes.follow_jobs};
+            *wishes[static_cast<std::size_t>(*purpose_)] = chosen_.string();
+        }
         state.layout.choosing.reset();
     }
     if (!state.layout.choosing)
@@ -84,10 +93,16 @@ void FileDialog::begin(const ViewerState& state) {
     purpose_ = state.layout.choosing;
     chosen_.clear();
     folder_.clear();
+    if (saves())
+        return begin_saving(state);
     const fs::path& scene = state.scene_source.file;
     const bool beside_scene = purpose_ == FilePurpose::scene && !scene.empty();
     std::error_code ignored;
     set_text(with_slash(beside_scene ? fs::absolute(scene, ignored).parent_path() : fs::current_path(ignored)));
+}
+
+const char* FileDialog::extension() const {
+    return saves() ? saved_extension(kind_) : text_of(*purpose_).extension;
 }
 
 void FileDialog::set_text(const std::string& text) {
@@ -100,11 +115,11 @@ void FileDialog::set_text(const std::string& text) {
 /// Lists the folder that the text leads to.
 void FileDialog::read_text() {
     const TypedPath typed = typed_path(text_.data());
-    filter_ = typed.beginning;
+    filter_ = saves() ? "" : typed.beginning; // the name is to be another one
     if (typed.folder == folder_)
         return;
     folder_ = typed.folder;
-    entries_ = list_folder(folder_, text_of(*purpose_).extension, error_);
+    entries_ = list_folder(folder_, extension(), error_);
 }
 
 /// Tab completes; and a text that was put there is typed on, not typed over.
@@ -160,8 +175,7 @@ void FileDialog::draw_list(Controls& controls, float height) {
         ImGui::TextUnformatted(error_.c_str());
         ImGui::PopStyleColor();
     } else if (shown.empty()) {
-        const std::string file =
-            wants_folder() ? "" : fmt::format(" and no {} file", text_of(*purpose_).extension);
+        const std::string file = wants_folder() ? "" : fmt::format(" and no {} file", extension());
         ImGui::TextDisabled("No folder%s%s", file.c_str(), filter_.empty() ? "" : " of that name");
     }
     ImGui::EndChild();
@@ -180,7 +194,7 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
     if (!clicked)
         return;
     if (entry.is_folder)
-        return set_text(with_slash(path));
+        return set_text(with_slash(path) + (saves() ? typed_path(text_.data()).beginning : ""));
     const std::string filter = filter_;
     set_text(path.string());
     filter_ = filter;                               // the others stay in view
@@ -195,7 +209,7 @@ void FileDialog::enter() {
     const bool is_in_it = typed_path(text_.data()).beginning.empty();
     if (fs::is_directory(path, ignored) && !(wants_folder() && is_in_it))
         set_text(with_slash(path));
-    else if (fs::is_regular_file(path, ignored) || fs::is_directory(path, ignored))
+    else if (can_take(path))
         chosen_ = path;
     else
         wants_focus_ = wants_cursor_last_ = true; // it is to be typed on
@@ -205,19 +219,27 @@ void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     const TypedPath typed = typed_path(text_.data());
     std::error_code ignored;
     const fs::path path = typed_file(text_.data());
-    const bool is_file = wants_folder() ? fs::is_directory(path, ignored) : fs::is_regular_file(path, ignored);
+    const bool is_file = can_take(path);
     const float width = ImGui::GetFontSize() * 6;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_file ? 1.0f : 0.5f);
-    if (controls.button("file.open", wants_folder() ? "Follow" : "Open", text_of(*purpose_).help, width) &&
-        is_file)
-        wants_folder() ? void(chosen_ = path) : enter();
+    const bool is_there = fs::exists(path, ignored);
+    const char* const verb = wants_folder() ? "Follow" : !saves() ? "Open" : is_there ? "Replace" : "Save";
+    if (controls.button("file.open", verb, text_of(*purpose_).help, width) && is_file)
+        wants_folder() ? void(chosen_ = path) : enter(); // what is typed of a folder's name may be whole
     ImGui::PopStyleVar();
     ImGui::SameLine();
     if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
         state.layout.choosing.reset();
+    if (saves() && is_file && is_there) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("There is such a file: it will be replaced");
+    }
     if (!is_file && !typed.beginning.empty()) {
         ImGui::SameLine();
-        ImGui::TextDisabled(wants_folder() ? "There is no such folder" : "There is no such file");
+        if (saves())
+            ImGui::TextDisabled("The name must end in %s, in a folder that is there", extension());
+        else
+            ImGui::TextDisabled(wants_folder() ? "There is no such folder" : "There is no such file");
     }
 }
 

@@ -111,7 +111,10 @@ std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
 /// "9999", "12.3 k", "4.56 M", "7.89 G".
 std::string count_text(std::uint64_t count);
 
-/// Chooses a file that is there: a path to be typed, which Tab completes, and the folder that it leads to, to be
+/// ".png": of a file of that kind.
+const char* saved_extension(SaveKind kind);
+
+/// Chooses a file: a path to be typed, which Tab completes, and the folder that it leads to, to be
 /// clicked.
 class FileDialog {
 public:
@@ -120,6 +123,10 @@ public:
 
 private:
     void begin(const ViewerState& state);
+    void begin_saving(const ViewerState& state);
+    void draw_kind(Controls& controls, ViewerState& state);
+    const char* extension() const;
+    bool can_take(const std::filesystem::path& path) const;
     void draw_path(Controls& controls);
     void draw_list(Controls& controls, float height);
     void draw_entry(Controls& controls, const FileEntry& entry);
@@ -127,11 +134,13 @@ private:
     void set_text(const std::string& text);
     void read_text();
     void enter();
+    bool saves() const { return purpose_ == FilePurpose::save; }
     bool wants_folder() const { return purpose_ == FilePurpose::jobs; }
     static int edit(ImGuiInputTextCallbackData* data);
     int complete(ImGuiInputTextCallbackData& data) const;
 
     std::optional<FilePurpose> purpose_; // of what is on show
+    SaveKind kind_ = SaveKind::picture;  // that is to be saved
     std::array<char, 4096> text_{};
     bool wants_focus_ = false, wants_cursor_last_ = false; // the text, which was put there
     std::filesystem::path folder_;                         // that is listed

@@ -41,19 +41,23 @@ constexpr Action table[] = {
      "Chooses the folder in which a bench, a sweep or the stability suite is at work, on this machine or on many: "
      "its jobs and curves, as they come.",
      ctrl_shift(Key::o), no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::jobs; }, nullptr},
-    {"File", "Save picture", "Writes what the window shows to a PNG file in the current folder.", ctrl(Key::s),
-     key(Key::f12), [](State& s) { s.wishes.save_picture = true; }, nullptr},
-    {"File", "Save view",
+    {"File", "Save ...",
+     "Saves picture, buffers, window, charts, settings or camera, under a name and in a folder.", ctrl(Key::s),
+     no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::save; }, nullptr},
+    {"File", "Save window", "Writes what the window shows to a PNG file in the folder where was saved last.",
+     key(Key::f12), no_shortcut, [](State& s) { s.wishes.save_window = true; }, nullptr},
+    {"File", "Save picture",
      "Writes the active pane's buffer, a pixel for each of its pixels and in the colours on show, to a PNG file "
      "in "
-     "the current folder.",
-     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.wishes.save_view = true; }, nullptr},
+     "the folder where was saved last.",
+     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.wishes.save_picture = true; }, nullptr},
     {"File", "Save as EXR",
      "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
-     "settings to an EXR file in the current folder.",
+     "settings to an EXR file in the folder where was saved last.",
      ctrl(Key::e), no_shortcut, [](State& s) { s.wishes.save_exr = true; }, nullptr},
     {"File", "Save settings",
-     "Writes panes, camera, size, display and what is inspected to a JSON file in the current folder.",
+     "Writes panes, camera, size, display and what is inspected to a JSON file in the folder where was saved "
+     "last.",
      ctrl(Key::p), no_shortcut, [](State& s) { s.wishes.save_settings = true; }, nullptr},
     {"File", "Save charts",
      "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "

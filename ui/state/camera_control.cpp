@@ -165,10 +165,11 @@ void CameraControl::move(glm::vec3 by) {
     camera_.to_world[3] += glm::vec4(by, 0);
 }
 
-std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera) {
+std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera,
+                                   const std::filesystem::path& folder) {
     namespace fs = std::filesystem;
     const std::string stem = scene_file.empty() ? "tessera" : scene_file.stem().string();
-    const fs::path file = free_name(fs::current_path() / (stem + "-camera"), ".json");
+    const fs::path file = free_name((folder.empty() ? fs::current_path() : folder) / (stem + "-camera"), ".json");
     write_camera(file, camera);
     return file;
 }

@@ -62,9 +62,10 @@ private:
     glm::vec3 up_{0, 1, 0};
 };
 
-/// Writes the camera to NAME-camera.json in the current folder, of a scene file NAME.xml (empty: tessera), or to
-/// NAME-camera-2.json if that is there, and so on. Returns the file written, in full; throws std::exception that
-/// names it.
-std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera);
+/// Writes the camera to NAME-camera.json in the folder (empty: the current one), of a scene file NAME.xml (empty:
+/// tessera), or to NAME-camera-2.json if that is there, and so on. Returns the file written, in full; throws
+/// std::exception that names it.
+std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera,
+                                   const std::filesystem::path& folder = {});
 
 } // namespace tessera

@@ -23,13 +23,13 @@ std::filesystem::path free_name(const std::filesystem::path& stem, const std::st
     return file;
 }
 
-std::filesystem::path dated_file(const std::string& ending) {
+std::filesystem::path dated_file(const std::string& ending, const std::filesystem::path& wanted) {
     static std::set<std::filesystem::path> given;
     const std::time_t now = std::time(nullptr);
     char stem[32];
     std::strftime(stem, sizeof stem, "tessera-%Y%m%d-%H%M%S", std::localtime(&now));
     std::error_code ignored; // a current folder that is gone shows when the file is to be written
-    const std::filesystem::path folder = std::filesystem::current_path(ignored);
+    const std::filesystem::path folder = wanted.empty() ? std::filesystem::current_path(ignored) : wanted;
     const auto is_given = [](const std::filesystem::path& file) { return given.contains(file); };
     return *given.insert(free_name(folder / stem, ending, is_given)).first;
 }

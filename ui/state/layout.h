@@ -49,7 +49,10 @@ enum class ChartKind {
 };
 
 /// What a file is chosen for; of jobs, a folder.
-enum class FilePurpose { scene, reference, settings, jobs };
+enum class FilePurpose { scene, reference, settings, jobs, save };
+
+/// What can be saved, each to a file of its own kind (words::saved).
+enum class SaveKind { picture, exr, window, charts, settings, camera };
 
 /// What the dialog for a sample asks for.
 struct SampleForm {
@@ -97,7 +100,9 @@ struct Layout : LastingLayout {
     bool show_jobs = false; ///< of the folder that is followed, over the pictures
     Toast toast;
     SampleForm sample_form;
-    std::optional<FilePurpose> choosing; ///< a file, in the dialog for it; empty: it is closed
+    std::optional<FilePurpose> choosing;    ///< a file, in the dialog for it; empty: it is closed
+    SaveKind save_kind = SaveKind::picture; ///< what the dialog is to save
+    std::string save_folder{};              ///< where the dialog saved last; empty: the current folder
 
     bool shows_charts() const { return show_charts || large_charts; }
 

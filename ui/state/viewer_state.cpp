@@ -50,6 +50,12 @@ void ViewerState::add_message(Message::Kind kind, std::string text, Message::Ori
         layout.show_messages = wishes.scroll_to_newest = true;
 }
 
+void ViewerState::save(SaveKind kind) {
+    bool* const all[] = {&wishes.save_picture, &wishes.save_exr,      &wishes.save_window,
+                         &wishes.save_charts,  &wishes.save_settings, &wishes.save_camera};
+    *entry_of(all, kind) = true;
+}
+
 void ViewerState::tell(std::string text) {
     layout.toast = {text, 0};
     add_message(Message::Kind::note, std::move(text));

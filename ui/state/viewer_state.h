@@ -5,11 +5,18 @@
 #include "ui/state/layout.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
 
 namespace tessera {
+
+/// A file that was chosen for what is to be saved.
+struct SaveAs {
+    SaveKind kind = SaveKind::picture;
+    std::string file;
+};
 
 /// What panels, actions and the mouse ask for. Who fulfils a wish clears it.
 struct Wishes {
@@ -33,10 +40,11 @@ struct Wishes {
     bool cancel_reference = false; ///< the one that is being read
 
     // These are for what is saved or made.
+    std::optional<SaveAs> save_as; ///< the file for one of those that follow; empty: by name and date
     bool save_camera = false;
     bool copy_camera = false;  ///< to the clipboard
-    bool save_picture = false; ///< of the window
-    bool save_view = false;    ///< of the active pane's image
+    bool save_window = false;  ///< of the window
+    bool save_picture = false; ///< of the active pane's image
     bool save_charts = false;  ///< as CSV, SVG and PNG
     bool save_exr = false;     ///< of the active pane
     bool save_settings = false;
@@ -67,6 +75,9 @@ struct ViewerState : Document {
 
     /// Adds a note, and shows it over the pictures for a while.
     void tell(std::string text);
+
+    /// Wishes that it is saved.
+    void save(SaveKind kind);
 
     /// Adds a note on samples of the scene that a render refused, the first few of which can be inspected if the
     /// scene is still on show. Adds nothing where there are none. `whose` begins it; `slot` is of the pane that

@@ -11,6 +11,16 @@ namespace tessera {
 
 /// What settings files, scripts, the log and lists call the values of enums, in their order.
 namespace words {
+
+/// SaveKind.
+inline constexpr SettingChoice saved[] = {
+    {"picture", "Picture, PNG", "The active pane's buffer, pixel by pixel, in the colours on show."},
+    {"exr", "Picture with all buffers, EXR", "The active pane's, with first hits, errors, camera and settings."},
+    {"window", "Window, PNG", "What the window shows."},
+    {"charts", "Charts, CSV with SVG and PNG", "The chart on show, and all points and the histogram."},
+    {"settings", "Settings, JSON", "Panes, camera, size, display and what is inspected."},
+    {"camera", "Camera, JSON", "To be read by --camera, or dropped on the window."},
+};
 /// The words of SizeChoice::Base.
 inline constexpr SettingChoice sizes[] = {
     {"pane", "fit the pane", "As many pixels as the pane has, in the film's proportions."},

@@ -324,10 +324,10 @@ void Viewer::log_changes() {
 
 bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
     ViewerState& state = viewer.state();
-    age_ = state.wishes.save_picture ? age_ + 1 : 0;
+    age_ = state.wishes.save_window ? age_ + 1 : 0;
     if (age_ == frames_until_still) {
-        state.wishes.save_picture = false;
-        viewer.save([file = dated_file(".png"), screen = read_screen(pixels)] {
+        state.wishes.save_window = false;
+        viewer.save([file = viewer.file_to_save(SaveKind::window, ".png"), screen = read_screen(pixels)] {
             write_png(file, screen.size, screen.rgb);
             return file.string();
         });

@@ -122,6 +122,8 @@ public:
     /// Writes in the background, after what is being written already: a message then says "Saved " and what that
     /// was, or what was thrown.
     void save(SaveQueue::Work write) { save_queue_.add(std::move(write), options_.wake); }
+    /// The file that was chosen for this, or one that is named by the date and this ending, where was saved last.
+    std::filesystem::path file_to_save(SaveKind kind, const std::string& ending);
     bool saving() const { return save_queue_.running(); }
 
     /// Stores what the next viewer begins with: the layout, the recent scenes. At once.
@@ -159,8 +161,9 @@ private:
     void follow_jobs();
     void fulfil_saves();
     void take(const SaveQueue::Outcome& outcome);
+    void save_camera();
     void save_exr();
-    void save_view();
+    void save_picture();
     void save_charts();
     void take_preferences();
     Preferences current_preferences() const;

@@ -113,20 +113,42 @@ void Viewer::follow_jobs() {
     state_.layout.show_jobs = true;
 }
 
+std::filesystem::path Viewer::file_to_save(SaveKind kind, const std::string& ending) {
+    std::optional<SaveAs>& chosen = state_.wishes.save_as;
+    if (!chosen || chosen->kind != kind)
+        return dated_file(ending, state_.layout.save_folder);
+    const std::filesystem::path file = chosen->file;
+    chosen.reset();
+    return file;
+}
+
+void Viewer::save_camera() {
+    const Camera camera = state_.camera.camera();
+    std::optional<SaveAs>& chosen = state_.wishes.save_as;
+    if (chosen && chosen->kind == SaveKind::camera) {
+        save([file = chosen->file, camera] {
+            write_camera(file, camera);
+            return "the camera to " + file;
+        });
+        return chosen.reset();
+    }
+    save([scene = shown_.source.file, folder = state_.layout.save_folder, camera] {
+        return "the camera to " + store_camera(scene, camera, folder).string();
+    });
+}
+
 void Viewer::fulfil_saves() {
     if (std::exchange(state_.wishes.save_camera, false) && state_.scene)
-        save([file = shown_.source.file, camera = state_.camera.camera()] {
-            return "the camera to " + store_camera(file, camera).string();
-        });
+        save_camera();
     if (std::exchange(state_.wishes.save_settings, false))
-        save([file = dated_file("-settings.json"), text = settings_json(state_)] {
+        save([file = file_to_save(SaveKind::settings, "-settings.json"), text = settings_json(state_)] {
             write_text(file, text);
             return "the settings to " + file.string();
         });
     if (std::exchange(state_.wishes.save_exr, false))
         save_exr();
-    if (std::exchange(state_.wishes.save_view, false))
-        save_view();
+    if (std::exchange(state_.wishes.save_picture, false))
+        save_picture();
     if (const auto outcome = save_queue_.take())
         take(*outcome);
 }
@@ -147,7 +169,8 @@ void Viewer::save_exr() {
     if (!pane.snapshot || pane.snapshot->coarse())
         return state_.add_message(Message::Kind::error, no_picture_yet);
     save([write = options_.write_exr,
-          file = dated_file("-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
+          file =
+              file_to_save(SaveKind::exr, "-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
           picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.source,
                                  pane.snapshot->scene.lock(), state_.companions.reference}] {
         write(file, picture);
@@ -155,7 +178,7 @@ void Viewer::save_exr() {
     });
 }
 
-void Viewer::save_view() {
+void Viewer::save_picture() {
     const PaneSettings& pane = state_.active().settings;
     ScreenPixels picture = view_picture(state_.active_pane, shader_, images_, state_);
     if (picture.rgb.empty()) {
@@ -164,7 +187,7 @@ void Viewer::save_view() {
     }
     const std::string name =
         std::string(short_name(pane.render.method)) + "-" + std::string(short_name(pane.buffer));
-    save([file = dated_file("-" + name + ".png"), picture = std::move(picture)] {
+    save([file = file_to_save(SaveKind::picture, "-" + name + ".png"), picture = std::move(picture)] {
         write_png(file, picture.size, picture.rgb);
         return file.string();
     });
@@ -172,7 +195,7 @@ void Viewer::save_view() {
 
 void Viewer::save_charts() {
     state_.wishes.save_charts = false;
-    save([file = dated_file("-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
+    save([file = file_to_save(SaveKind::charts, "-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
           picture = chart_picture(state_)] {
         const auto with_ending = [&](const char* ending) {
             return std::filesystem::path(file).replace_extension(ending);
