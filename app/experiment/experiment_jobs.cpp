@@ -99,6 +99,8 @@ std::vector<std::size_t> ExperimentJobs::items_for(int number) const {
 }
 
 std::size_t ExperimentJobs::left() {
+    if (are_all_done())
+        return 0;
     std::size_t left = 0;
     for (std::size_t item = 0; item < items_.size(); ++item)
         left += !items_[item].reference && !is_done(item);
@@ -150,7 +152,14 @@ JobPlan ExperimentJobs::plan(const fs::path& folder) {
     return plan;
 }
 
+bool ExperimentJobs::are_all_done() {
+    const std::string name = marks_.empty() ? "" : mark();
+    return !name.empty() && fs::exists(marks_ / name);
+}
+
 std::string ExperimentJobs::mark() {
+    if (!mark_.empty())
+        return mark_;
     std::string names;
     for (std::size_t item = 0; item < items_.size(); ++item) {
         const fs::path file = file_of(item);
@@ -159,7 +168,7 @@ std::string ExperimentJobs::mark() {
         if (!items_[item].reference)
             names += file.filename().string() + "\n";
     }
-    return fmt::format("report-{:08x}", checksum(std::as_bytes(std::span(names))));
+    return mark_ = fmt::format("report-{:08x}", checksum(std::as_bytes(std::span(names))));
 }
 
 namespace {
@@ -262,6 +271,7 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
     const bool was_done = jobs.left() == 0;
     if (!was_done)
         report.forget();
+    jobs.keep_marks_in(options.output / "jobs"); // from now on it says the truth
     const bool has_ended = work(jobs, options.sharing, report);
     report.write_plan(); // a reference may be there since
     const std::size_t left = jobs.left();

@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tessera {
@@ -27,6 +28,7 @@ public:
     std::filesystem::path file_of(std::size_t item) override;
     bool is_done(std::size_t item) override;
     void found(std::size_t item) override;
+    bool are_all_done() override;
     bool run(std::size_t item, Claim& claim) override;
 
     /// The items that the job of that number takes: references, and itself. Throws BadInput where there is no such
@@ -34,6 +36,9 @@ public:
     std::vector<std::size_t> items_for(int number) const;
     /// Jobs that are not done, references not counted.
     std::size_t left();
+    /// Where it stands, under the name of mark(), that the last report is written; it must stand nowhere while a
+    /// job is left. By itself nowhere.
+    void keep_marks_in(std::filesystem::path folder) { marks_ = std::move(folder); }
     std::size_t job_count() const { return job_count_; }
     /// A line for each job: its number, what it renders, and whether it is done, being done on a host, or about
     /// how long it takes.
@@ -54,6 +59,8 @@ private:
     void tell(const Item& item, double share);
 
     std::vector<Item> items_;
+    std::filesystem::path marks_;
+    std::string mark_;                  ///< mark(), once it is known
     std::vector<std::uint8_t> is_done_; ///< 1: it was when it was last asked for
     std::size_t job_count_ = 0;
     std::optional<std::size_t> done_at_first_; ///< when this process began its first job

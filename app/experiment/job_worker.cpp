@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <system_error>
@@ -19,6 +20,8 @@ namespace fs = std::filesystem;
 /// So many jobs in a row that others have, and it is time to look at the whole folder instead; but not before so
 /// many times as long has passed as the last look took: till then there are pauses.
 constexpr int most_misses = 16, pauses_a_look = 20;
+/// Of many workers, so many look at the same time.
+constexpr int looks_at_once = 2;
 /// So many in a row, and the next ones are tried elsewhere.
 constexpr int misses_in_place = 4;
 /// Of the jobs that others do, so many are looked at before the next pause: a thousand that wait for the last ones
@@ -96,8 +99,11 @@ void JobWorker::look() {
     }
     if (!states_.empty())
         place_ = is_alone ? 0 : anywhere();
+    std::size_t workers = 0;
+    for (const auto& [folder, listing] : folders)
+        workers += listing.claimed.size();
     const auto end = std::chrono::steady_clock::now();
-    next_look_ = end + pauses_a_look * (end - begin);
+    next_look_ = end + std::max(pauses_a_look, static_cast<int>(workers) / looks_at_once) * (end - begin);
 }
 
 std::size_t JobWorker::anywhere() {
@@ -156,6 +162,8 @@ bool JobWorker::run(const std::function<void()>& after) {
         std::unique_ptr<Claim> claim = find_open();
         if (!claim)
             claim = find_silent();
+        if (!claim && jobs_.are_all_done())
+            return true;
         if (!claim) {
             patience.wait();
             continue;

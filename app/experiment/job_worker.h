@@ -22,6 +22,8 @@ public:
     /// The file that a job makes. Empty: it cannot be begun yet.
     virtual std::filesystem::path file_of(std::size_t job) = 0;
     virtual bool is_done(std::size_t job) = 0;
+    /// Whether it is known, at the cost of a look for one file, that another process has found all of them done.
+    virtual bool are_all_done() { return false; }
     /// Says that the job's file was seen in its folder, so that nobody needs to look again.
     virtual void found(std::size_t) {}
     /// Does a job that this process has claimed, and makes its file. False: Ctrl-C ended it.

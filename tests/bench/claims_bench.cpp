@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <string>
@@ -59,6 +60,7 @@ public:
         ++tally_.looked;
         return fs::exists(file_of(job));
     }
+    bool are_all_done() override { return fs::exists(folder_ / "report"); }
     bool run(std::size_t, tessera::Claim& claim) override {
         if (has_begun_)
             pauses_.push_back(seconds_since(end_));
@@ -104,6 +106,8 @@ int main(int argc, char** argv) {
     const auto jobs = static_cast<std::size_t>(argc > 2 ? std::atoi(argv[2]) : 100000);
     const int workers = argc > 3 ? std::atoi(argv[3]) : 1000;
     const double seconds = argc > 4 ? 1e-3 * std::atof(argv[4]) : 0;
+    // A thousand workers of one machine wait long for its processors: that is no death.
+    constexpr double silence = 600;
     fs::create_directories(folder);
     Tally tally;
     const Clock::time_point begin = Clock::now();
@@ -112,7 +116,8 @@ int main(int argc, char** argv) {
         for (int i = 0; i < workers; ++i)
             threads.emplace_back([&] {
                 Stubs stubs(folder, jobs, seconds, tally);
-                tessera::JobWorker(stubs, 60).run([] {});
+                tessera::JobWorker(stubs, silence).run([] {});
+                std::ofstream(folder / "report") << "\n"; // as who finds all done marks it
             });
     }
     const double all = seconds_since(begin);
