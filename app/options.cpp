@@ -124,6 +124,7 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
                                     "curves as they come"));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
+    command.add_flag("!--no-gallery", options.shows_gallery, "begins without the gallery of scenes");
     command.add_option("--script", options.script, "file with steps to play, a line each");
     command.footer("Steps of a script:\n" + script_help());
     Setting window = size_setting(words.window);

@@ -53,10 +53,15 @@ struct ViewOptions {
     std::optional<SampleChoice> sample; ///< to begin with in the path inspector, of the last pane
     std::filesystem::path reference;    ///< EXR file to measure errors against; empty: none
     std::filesystem::path jobs;         ///< folder of a bench, sweep or stability suite to follow; empty: none
+    bool shows_gallery = true;          ///< at first, where no scene was given
     std::filesystem::path screenshot;   ///< if not empty: save a picture of the window at `spp` samples, and end
     std::filesystem::path script;       ///< if not empty: steps to be played
     bool log_actions = false;           ///< a line on stdout for every change of state, and where controls lie
 };
+
+/// The scenes that come with the program, with small pictures, what is known to fail there, and the verdicts of
+/// the stability suite as they were measured last (RESULTS.md).
+std::vector<GalleryEntry> gallery();
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
 /// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.

@@ -149,6 +149,9 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.write_exr = write_saved_picture;
     result.read_jobs = folder_reader;
     result.jobs = options.jobs;
+    result.gallery = gallery;
+    result.begins_with_gallery = options.shows_gallery && is_interactive(options) && options.jobs.empty() &&
+                                 options.scene.source.file.empty() && !options.sample;
     if (is_interactive(options))
         result.preferences = preferences_file();
     result.wake = [&surface] { surface.wake(); };

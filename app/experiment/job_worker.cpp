@@ -143,12 +143,13 @@ std::unique_ptr<Claim> JobWorker::find_open() {
 }
 
 std::unique_ptr<Claim> JobWorker::find_silent() {
-    if (states_.size() - done_ > watched_at_once && std::chrono::steady_clock::now() > next_look_) {
+    if (open_ == 0 && states_.size() - done_ > watched_at_once && std::chrono::steady_clock::now() > next_look_) {
         look(); // most may be done by now, which to find out one by one would take long
         if (open_ > 0)
             return find_open();
     }
-    for (int i = 0; i < watched_at_once && is_left(); ++i)
+    const auto are_taken = [&] { return done_ + open_ < states_.size(); };
+    for (int i = 0; i < watched_at_once && are_taken(); ++i)
         if (auto claim = attempt(next(State::taken)))
             return claim;
     return {};

@@ -84,6 +84,9 @@ struct StabilityScene {
 /// does: all are read once.
 std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
+/// What a scene's file says of who fails there; empty: nothing, or it cannot be read.
+std::string known_failure(const std::filesystem::path& file);
+
 /// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at
 /// hand, of the program's, or of one that either lies in. Where there are none, those within the program, which
 /// are written to $XDG_CACHE_HOME/tessera/stability (else ~/.cache). Throws std::exception where that cannot be

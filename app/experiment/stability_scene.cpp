@@ -135,6 +135,12 @@ std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files)
     return scenes;
 }
 
+std::string known_failure(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string xml{std::istreambuf_iterator<char>(in), {}};
+    return comment_of(xml, "fails");
+}
+
 std::vector<fs::path> built_in_stability_scenes() {
     std::error_code ignored;
     auto folder = stability_folder(fs::current_path());

@@ -48,4 +48,9 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
     return hits;
 }
 
+float first_hit_distance(const Scene& scene, const Camera& camera, glm::vec2 place, glm::ivec2 size) {
+    Hit hit;
+    return scene.intersector().closest(camera.ray(place, size), hit) ? hit.distance : 0.0f;
+}
+
 } // namespace tessera

@@ -21,4 +21,8 @@ struct FirstHits {
 /// Traces one ray a pixel, in the calling thread. Empty images: stopped on the way.
 FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, std::stop_token stop = {});
 
+/// How far away is what the camera sees at a place of a picture of that size, pixels from its top left; 0:
+/// nothing.
+float first_hit_distance(const Scene& scene, const Camera& camera, glm::vec2 place, glm::ivec2 size);
+
 } // namespace tessera

@@ -2,6 +2,7 @@
 // one's own tells who was.
 #include "app/experiment/claim.h"
 #include "app/experiment/job_worker.h"
+#include "app/experiment/job_worker.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 
@@ -228,6 +229,34 @@ TEST(JobWorkers, DoEachJobOnce) {
         EXPECT_EQ(counts[job], job == 40 ? 0 : 1) << job;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 200)
         << "no claim is left";
+}
+
+/// A thousand jobs, of which this worker does the first; others then have done the rest, which it does not know.
+class DoneByOthers final : public JobList {
+public:
+    explicit DoneByOthers(fs::path folder) : folder_(std::move(folder)) {}
+    std::size_t size() const override { return 1000; }
+    fs::path file_of(std::size_t job) override { return folder_ / ("job" + std::to_string(job)); }
+    bool is_done(std::size_t job) override { return fs::exists(file_of(job)); }
+    bool run(std::size_t job, Claim& claim) override {
+        ++runs;
+        for (std::size_t other = 0; other < size(); ++other)
+            if (other != job)
+                std::ofstream(file_of(other)) << "\n";
+        claim.finish("");
+        return true;
+    }
+    int runs = 0;
+
+private:
+    fs::path folder_;
+};
+
+TEST(JobWorker, EndsWhereOthersHaveDoneTheRest) {
+    const TemporaryFolder folder;
+    DoneByOthers jobs(folder.path());
+    EXPECT_TRUE(JobWorker(jobs, 60).run([] {}));
+    EXPECT_EQ(jobs.runs, 1);
 }
 
 } // namespace

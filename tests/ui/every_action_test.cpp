@@ -53,6 +53,12 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
      [](ViewerState& s) {
          s.camera.orbit({40, 10}, 100);
      }},
+    {"Next bookmark",
+     [](ViewerState& s) {
+         add_bookmark(s);
+         s.camera.orbit({40, 10}, 100);
+     }},
+    {"Forget bookmark", [](ViewerState& s) { add_bookmark(s); }},
     {"Automatic exposure", [](ViewerState& s) { s.tone.exposure = 5; }},
     {"Undo", [](ViewerState& s) { note_two_exposures(s); }},
     {"Redo",
@@ -145,8 +151,8 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
                             s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
                             s.layout.sample_form.show, s.reference_making.show, s.inspector.active);
-        text += fmt::format("palette {}, jobs {}, pane norms {}\n", s.layout.show_palette, s.layout.show_jobs,
-                            s.panes.size());
+        text += fmt::format("palette {}, jobs {}, gallery {}, panes {}\n", s.layout.show_palette,
+                            s.layout.show_jobs, s.layout.show_gallery, s.panes.size());
         const SlowMotion& motion = s.slow_motion;
         text += fmt::format("slow motion {}, held {}, at {}", motion.active, motion.held,
                             motion.held ? static_cast<float>(motion.current) + motion.arrived : 0);

@@ -35,7 +35,7 @@ fail() {
 
 # Starts the viewer with these options.
 start_viewer() {
-    "$tessera" view --log-actions "$@" >"$log" 2>"$work/errors" &
+    "$tessera" view --no-gallery --log-actions "$@" >"$log" 2>"$work/errors" &
     viewer=$!
 }
 

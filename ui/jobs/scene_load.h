@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/image.h"
 #include "render/load/scene_source.h"
 #include "ui/jobs/background_job.h"
 
@@ -40,6 +41,19 @@ struct SceneOrigin {
 
 /// Makes the origin of a scene file.
 using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
+
+/// A scene to begin with.
+struct GalleryEntry {
+    std::string title;
+    std::string help;           ///< what is special about it
+    std::string verdict;        ///< in short: how G-PR does there; empty: it is not known
+    bool is_worse = false;      ///< the verdict is not good
+    std::filesystem::path file; ///< empty: the one within the program
+    RgbImage picture{};         ///< small, in sRGB; empty: none
+};
+
+/// Finds them, on a thread other than the UI's.
+using GalleryMaker = std::function<std::vector<GalleryEntry>()>;
 
 /// How a load ended.
 struct SceneLoadResult {

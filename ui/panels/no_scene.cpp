@@ -27,6 +27,9 @@ void draw_no_scene(const ScreenRect& where, Controls& controls, ViewerState& sta
                             "Chooses a Mitsuba scene, an .xml file (Ctrl+O)."))
             state.layout.choosing = FilePurpose::scene;
         ImGui::SameLine();
+        if (controls.button("no_scene.gallery", "Gallery", "Scenes that come with the program (Ctrl+G)."))
+            state.layout.show_gallery = true;
+        ImGui::SameLine();
         if (controls.button("no_scene.again", "Try again", "Loads the same one again (F5)."))
             state.wishes.reload = true;
         dim_text("A scene can be dropped on the window as well; recent ones are in the File menu.");

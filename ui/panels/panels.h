@@ -3,8 +3,11 @@
 #include "render/load/scene_source.h"
 #include "render/session/snapshot.h"
 #include "ui/gl/controls.h"
+#include "ui/gl/gl.h"
 #include "ui/gl/image_view.h"
+#include "ui/jobs/background_job.h"
 #include "ui/jobs/followed_folder.h"
+#include "ui/jobs/scene_load.h"
 #include "ui/state/file_names.h"
 #include "ui/state/viewer_state.h"
 
@@ -75,6 +78,22 @@ private:
     std::filesystem::path folder_; // that is on show
     int chart_ = 0;                // of its charts
     bool only_claimed_ = false;
+};
+
+/// Scenes with pictures, to be clicked; over the pictures.
+class Gallery {
+public:
+    /// Draws it while state.layout.show_gallery. `wake` is called from another thread once the entries are there.
+    void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const GalleryMaker& maker,
+              const std::function<void()>& wake);
+
+private:
+    void draw_card(std::size_t index, Controls& controls, ViewerState& state);
+    void draw_cards(Controls& controls, ViewerState& state);
+
+    BackgroundJob<int, std::vector<GalleryEntry>> job_;
+    std::vector<GalleryEntry> entries_;
+    std::vector<GlTexture> textures_; // of the entries
 };
 
 /// The list of all commands, to be found by words; over everything.

@@ -123,6 +123,12 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
                        "What fits the panes as they are: taken when the camera moves, or all of them "
                        "are restarted (R).");
     }
+    if (const Camera& camera = state.camera.camera(); state.scene && !camera.is_orthographic) {
+        float fov = camera.fov;
+        if (controls.slider("fov", "Field of view", fov, 5, 120, "%.1f°",
+                            "Degrees that the camera sees across; Home is the scene's."))
+            state.camera.set_fov(fov);
+    }
     const std::string reset = std::string(icons().camera) + (*icons().camera ? "  " : "") + "Reset camera";
     if (controls.button("reset_camera", reset.c_str(), "Back to the camera of the scene file (Home)."))
         state.camera.go_home();

@@ -1,5 +1,8 @@
+#include "render/run/first_hits.h"
+#include "render/scene/scene.h"
 #include "ui/panes/pane_parts.h"
 
+#include <glm/vec3.hpp>
 #include <cmath>
 
 #include <glm/vec2.hpp>
@@ -49,6 +52,19 @@ void apply_mouse(const PaneMouse& mouse, const Placement& placement, glm::ivec2 
         drag_picture(mouse, image_size, pane_size, state);
     else
         drag_camera(mouse, placement, image_size, pane_size, state);
+}
+
+std::optional<glm::vec3> point_under(glm::vec2 place, const PictureFrame& frame, const ViewerState& state) {
+    const glm::vec2 at = frame.placement.to_image(place);
+    if (!state.scene || at.x < 0 || at.y < 0 || at.x > 1 || at.y > 1)
+        return {};
+    const glm::ivec2 size = state.request_size();
+    const Camera& camera = state.camera.camera();
+    const float distance = first_hit_distance(*state.scene, camera, at * glm::vec2(size), size);
+    if (distance <= 0)
+        return {};
+    const Ray ray = camera.ray(at * glm::vec2(size), size);
+    return ray.origin + distance * ray.direction;
 }
 
 glm::vec2 mouse_position() {

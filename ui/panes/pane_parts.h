@@ -7,6 +7,7 @@
 #include "ui/panes/showing.h"
 #include "ui/state/viewer_state.h"
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
@@ -88,6 +89,13 @@ glm::vec2 grab_position();
 
 /// The mouse over the item just drawn, which is the picture of `frame`.
 PaneMouse read_mouse(const PictureFrame& frame);
+
+/// What the camera sees at a place of the pane, pixels; empty: nothing.
+std::optional<glm::vec3> point_under(glm::vec2 place, const PictureFrame& frame, const ViewerState& state);
+
+/// The menu of a pane, which a click of the right button opens over its picture, but not a drag. To be called
+/// after the item that the picture is.
+void draw_pane_menu(int pane, const PictureFrame& frame, bool is_click, PaneTools& tools);
 
 /// Whether a point of the screen is near enough to the line to take hold of it.
 bool is_on_wipe(const PictureFrame& frame, float wipe, glm::vec2 point);

@@ -162,6 +162,8 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
             choose_sample(index, frame, state);
         mouse.left = false;
     }
+    take_hold(mouse, frame, state);
+    draw_pane_menu(index, frame, !has_moved_, tools);
     const glm::ivec2 image_size = state.request_size();
     apply_mouse(mouse, frame.placement, image_size, frame.pixels, state);
     frame.placement = state.view.place(image_size, frame.pixels);
@@ -171,6 +173,27 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
                                (mouse_position().x - frame.rect.min.x) / frame.rect.size().x};
     else if (state.layout.cursor && state.layout.cursor->pane == index)
         state.layout.cursor.reset();
+}
+
+/// A drag turns the camera about what is under the mouse, so that in a room it does not lead through the wall; a
+/// double click looks at it.
+void PaneView::take_hold(const PaneMouse& mouse, const PictureFrame& frame, ViewerState& state) {
+    if (ImGui::IsItemActivated()) {
+        has_hold_ = has_moved_ = false;
+        is_double_ = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && grip_.is_camera() && mouse.left &&
+                     !mouse.ctrl && !mouse.shift;
+    }
+    has_moved_ = has_moved_ || mouse.position != mouse.previous;
+    const bool looks = ImGui::IsItemDeactivated() && is_double_ && !has_moved_;
+    const bool drags = (mouse.left || mouse.middle || mouse.right) && !mouse.ctrl && has_moved_ && !has_hold_;
+    if (!looks && !drags)
+        return;
+    has_hold_ = true;
+    const std::optional<glm::vec3> point = point_under(mouse.previous, frame, state);
+    if (point && looks)
+        state.camera.focus(*point);
+    else if (point)
+        state.camera.grab(*point);
 }
 
 /// The pixel under the mouse is to be looked at.

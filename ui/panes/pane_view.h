@@ -30,6 +30,7 @@ private:
     PictureFrame place_picture(int index, const std::string& id, PaneTools& tools);
     static void frame_tile(int index, const PictureFrame& frame, ViewerState& state);
     void use_mouse(int index, PictureFrame& frame, PaneTools& tools);
+    void take_hold(const PaneMouse& mouse, const PictureFrame& frame, ViewerState& state);
     static void choose_sample(int index, const PictureFrame& frame, ViewerState& state);
     Grip grip_at(int index, const PictureFrame& frame, PaneTools& tools) const;
     void drag(const PictureFrame& frame, ViewerState& state) const;
@@ -47,6 +48,9 @@ private:
     PaneLegends legends_;
     PictureFrame frame_; // of this frame
     Grip grip_;
+    bool has_hold_ = false;  // of what lay under the mouse when the button went down
+    bool is_double_ = false; // it went down for the second time
+    bool has_moved_ = false; // the mouse, since then
 };
 
 } // namespace tessera

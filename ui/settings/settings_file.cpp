@@ -156,6 +156,22 @@ void read_camera(const JsonFields& fields, const Camera& camera, ViewerState& st
     state.camera.put(camera, distance);
 }
 
+void read_bookmarks(const JsonFields& fields, const JsonText& text, const std::string& name, ViewerState& state) {
+    if (!fields.has("bookmarks"))
+        return;
+    const ordered_json& json = fields.json().at("bookmarks");
+    if (!json.is_array())
+        fields.fail("bookmarks", "there must be a list of cameras");
+    state.bookmarks.clear();
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        Bookmark bookmark;
+        fields.element(json, i, "bookmarks").read("target_distance", {0, 1e12}, bookmark.distance);
+        bookmark.camera = parse_camera(text.only("bookmarks/" + std::to_string(i) + "/camera"), name);
+        state.bookmarks.push_back(bookmark);
+    }
+    state.bookmark = static_cast<int>(state.bookmarks.size()) - 1;
+}
+
 /// Sets what the file says, up to where it is broken.
 void read_all(const std::string& file, const std::string& name, ViewerState& state) {
     const JsonText text(file, name);
@@ -170,6 +186,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
     state.linked = linked;
     if (fields.has("camera"))
         read_camera(fields, parse_camera(text.only("camera"), name), state);
+    read_bookmarks(fields, text, name, state);
     read_display(fields, state);
     read_view(fields, state);
     read_inspection(fields, state);
@@ -182,6 +199,18 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
     fields.has("scene"); // It is there for people, and known.
     for (std::string& line : reading.unknown())
         state.add_message(Message::Kind::note, std::move(line));
+}
+
+} // namespace
+
+namespace {
+
+ordered_json bookmarks_json(const ViewerState& state) {
+    ordered_json all = ordered_json::array();
+    for (const Bookmark& bookmark : state.bookmarks)
+        all.push_back({{"camera", ordered_json::parse(camera_json(bookmark.camera))},
+                       {"target_distance", bookmark.distance}});
+    return all;
 }
 
 } // namespace
@@ -217,6 +246,7 @@ std::string settings_json(const ViewerState& state) {
         {"scene", state.scene_name}, // for people: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},
+        {"bookmarks", bookmarks_json(state)},
     };
     add_inspection(json, state);
     if (state.space.has_direction)

@@ -58,6 +58,31 @@ void step_exposure(ViewerState& state, float stops) {
     state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
 }
 
+void add_bookmark(ViewerState& state) {
+    if (!state.scene)
+        return;
+    state.bookmarks.push_back({state.camera.camera(), state.camera.distance()});
+    state.bookmark = static_cast<int>(state.bookmarks.size()) - 1;
+    state.tell("This view is bookmark " + std::to_string(state.bookmarks.size()) +
+               "; F7 goes from one to the next.");
+}
+
+void next_bookmark(ViewerState& state) {
+    if (state.bookmarks.empty())
+        return state.tell("There is no bookmark yet: Shift+F7 makes one of this view.");
+    state.bookmark = (state.bookmark + 1) % static_cast<int>(state.bookmarks.size());
+    const Bookmark& to = state.bookmarks[static_cast<std::size_t>(state.bookmark)];
+    state.camera.put(to.camera, to.distance);
+}
+
+void forget_bookmark(ViewerState& state) {
+    if (state.bookmark < 0)
+        return;
+    state.tell("Bookmark " + std::to_string(state.bookmark + 1) + " is forgotten.");
+    state.bookmarks.erase(state.bookmarks.begin() + state.bookmark);
+    state.bookmark = std::min(state.bookmark, static_cast<int>(state.bookmarks.size()) - 1);
+}
+
 void next_pane(ViewerState& state) {
     state.active_pane = (state.active_pane + 1) % static_cast<int>(state.panes.size());
 }

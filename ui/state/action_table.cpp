@@ -28,6 +28,9 @@ using State = ViewerState;
 constexpr Action table[] = {
     {"File", "Open scene ...", "Chooses a Mitsuba scene, an .xml file.", ctrl(Key::o), no_shortcut,
      [](State& s) { s.layout.choosing = FilePurpose::scene; }, nullptr},
+    {"File", "Gallery", "Scenes to begin with: the built-in one, recent ones, and those on which methods fail.",
+     ctrl(Key::g), no_shortcut, [](State& s) { s.layout.show_gallery = !s.layout.show_gallery; },
+     [](const State& s) { return s.layout.show_gallery; }},
     {"File", "Reload", "Reads the scene file again; a camera that was moved stays, and all settings do.",
      key(Key::f5), no_shortcut, [](State& s) { s.wishes.reload = true; }, nullptr},
     {"File", "Open reference ...", "Chooses an EXR file to measure errors against.", ctrl(Key::r), no_shortcut,
@@ -249,6 +252,12 @@ constexpr Action table[] = {
 
     {"Camera", "Reset camera", "Back to the camera of the scene file.", key(Key::home), key(Key::c),
      [](State& s) { s.camera.go_home(); }, nullptr},
+    {"Camera", "Bookmark this view", "Keeps the camera, to come back to; saved with the settings.", shift(Key::f7),
+     no_shortcut, add_bookmark, nullptr},
+    {"Camera", "Next bookmark", "Goes to the next view that was kept.", key(Key::f7), no_shortcut, next_bookmark,
+     nullptr},
+    {"Camera", "Forget bookmark", "Forgets the view that was gone to or kept last.", ctrl(Key::f7), no_shortcut,
+     forget_bookmark, nullptr},
     {"Camera", "Save camera",
      "Writes the camera to NAME-camera.json in the current folder; to be read by --camera, or dropped on the "
      "window.",

@@ -107,7 +107,9 @@ constexpr float look_speed = 1.1f; // radians a second
 constexpr float hurry = 4.0f;      // with Shift
 
 constexpr Gesture gesture_table[] = {
-    {"Left drag", "Orbit about the target"},
+    {"Left drag", "Orbit about what is under the mouse, or the target where there is nothing"},
+    {"Double click", "Look at what is under the mouse, and orbit about it"},
+    {"Right click", "Menu of the pane"},
     {"Middle drag, Shift + left drag", "Pan: what is under the cursor follows it"},
     {"Wheel, right drag", "Dolly toward the target and away"},
     {"W A S D, Q E", "Fly ahead, left, back, right; down, up (Shift: faster)"},
@@ -143,8 +145,8 @@ bool counts_in_text(const Shortcut& typed) {
 void close_overlays(bool entering_text, ViewerState& state) {
     const bool any = entering_text || // whose end it is
                      state.layout.show_help || state.layout.show_palette || state.layout.large_charts ||
-                     state.layout.show_jobs || state.reference_making.show || state.layout.sample_form.show ||
-                     state.layout.choosing;
+                     state.layout.show_jobs || state.layout.show_gallery || state.reference_making.show ||
+                     state.layout.sample_form.show || state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
     const bool loads = !state.loading.empty();
     const bool is_busy = loads || state.reference_read ||
@@ -159,7 +161,7 @@ void close_overlays(bool entering_text, ViewerState& state) {
     state.wishes.give_up_reconstructions =
         state.wishes.give_up_reconstructions || (!any && !loads && !state.reference_read);
     state.layout.show_help = state.layout.show_palette = false;
-    state.layout.large_charts = state.layout.show_jobs = false;
+    state.layout.large_charts = state.layout.show_jobs = state.layout.show_gallery = false;
     state.reference_making.show = state.layout.sample_form.show = false;
     state.layout.choosing.reset();
 }

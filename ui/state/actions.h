@@ -114,6 +114,9 @@ void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);
 void step_ui_scale(ViewerState& state, float by);
 void next_pane(ViewerState& state);
+void add_bookmark(ViewerState& state);    ///< of the view on show
+void next_bookmark(ViewerState& state);   ///< goes to it; nothing where there is none
+void forget_bookmark(ViewerState& state); ///< the one that was gone to or made last
 void next_grid(ViewerState& state);
 void next_tone(ViewerState& state);
 void next_tile(ViewerState& state);     ///< of the slow motion

@@ -60,6 +60,7 @@ void straighten(glm::mat4& m, glm::vec3 lengths) {
 void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius) {
     home_ = camera;
     camera_ = camera;
+    grabbed_.reset();
     axis_lengths_ = axis_lengths(camera);
     scene_radius_ = scene_radius > 0 ? scene_radius : 1.0f;
     up_ = nearest_axis(column(camera, 1));
@@ -69,6 +70,7 @@ void CameraControl::set_home(const Camera& camera, glm::vec3 scene_center, float
 }
 
 void CameraControl::put(const Camera& camera, float distance) {
+    grabbed_.reset();
     camera_ = camera;
     axis_lengths_ = axis_lengths(camera);
     distance_ = distance > 0 ? std::clamp(distance, least_distance * scene_radius_, most_distance * scene_radius_)
@@ -76,6 +78,7 @@ void CameraControl::put(const Camera& camera, float distance) {
 }
 
 void CameraControl::go_home() {
+    grabbed_.reset();
     camera_ = home_;
     axis_lengths_ = axis_lengths(home_);
     distance_ = home_distance_;
@@ -116,12 +119,40 @@ float CameraControl::handedness() const {
     return glm::determinant(axes) < 0 ? -1.0f : 1.0f;
 }
 
+void CameraControl::put_target_at_depth(glm::vec3 point) {
+    const float ahead = glm::dot(point - position(), forward());
+    distance_ = std::clamp(ahead, least_distance * scene_radius_, most_distance * scene_radius_);
+}
+
+void CameraControl::grab(glm::vec3 point) {
+    grabbed_ = point;
+    put_target_at_depth(point);
+}
+
+void CameraControl::focus(glm::vec3 point) {
+    const glm::vec3 way = point - position();
+    if (glm::length(way) < 1e-6f * scene_radius_)
+        return;
+    const glm::vec3 wanted = glm::normalize(way);
+    const auto level = [&](glm::vec3 v) { return v - up_ * glm::dot(v, up_); };
+    const auto from_up = [&](glm::vec3 v) { return std::acos(std::clamp(glm::dot(v, up_), -1.0f, 1.0f)); };
+    const glm::vec3 now = level(forward()), then = level(wanted);
+    const float yaw = std::atan2(glm::dot(up_, glm::cross(now, then)), glm::dot(now, then));
+    turn_about(position(), yaw, from_up(wanted) - from_up(forward()));
+    grabbed_.reset();
+    put_target_at_depth(point);
+}
+
+void CameraControl::set_fov(float degrees) {
+    camera_.fov = std::clamp(degrees, least_fov, most_fov);
+}
+
 void CameraControl::orbit(glm::vec2 pixels, float pixels_a_half_turn) {
     const glm::vec2 angle = pixels * (glm::pi<float>() / std::max(pixels_a_half_turn, 1.0f));
-    const glm::vec3 pivot = target();
+    const glm::vec3 pivot = grabbed_.value_or(target());
     turn_about(pivot, -angle.x * handedness(), angle.y);
-    // The distance is exactly the one before, whatever was rounded.
-    move(pivot - target());
+    if (!grabbed_)
+        move(pivot - target()); // the distance is exactly the one before, whatever was rounded
 }
 
 void CameraControl::pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size) {
@@ -135,6 +166,7 @@ void CameraControl::pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size) {
 }
 
 void CameraControl::dolly(float factor) {
+    grabbed_.reset();
     if (camera_.is_orthographic)
         return widen(factor);
     const float wanted = std::min(distance_ * factor, most_distance * scene_radius_);
@@ -152,12 +184,14 @@ void CameraControl::widen(float factor) {
 }
 
 void CameraControl::fly(glm::vec3 left_up_forward) {
+    grabbed_.reset();
     const glm::vec3 step = left_up_forward * scene_radius_;
     move(glm::normalize(column(camera_, 0)) * step.x + glm::normalize(column(camera_, 1)) * step.y +
          forward() * step.z);
 }
 
 void CameraControl::look(float left, float up) {
+    grabbed_.reset();
     turn_about(position(), left * handedness(), -up);
 }
 

@@ -3,10 +3,19 @@
 #include "render/scene/camera.h"
 
 #include <filesystem>
+#include <optional>
 
 #include <glm/vec3.hpp>
 
 namespace tessera {
+
+/// A view to come back to.
+struct Bookmark {
+    Camera camera;
+    float distance = 0; ///< to its target
+
+    bool operator==(const Bookmark&) const = default;
+};
 
 /// Moves a camera with the mouse and the keys: around, past and toward a target that lies ahead of it. Movements
 /// are rigid, so that whatever the camera's matrix holds beside them (a mirror, a scale) stays.
@@ -27,8 +36,18 @@ public:
     glm::vec3 target() const { return position() + distance_ * forward(); }
     float distance() const { return distance_; } ///< to the target
 
-    /// A drag by `pixels` (right, down) turns the camera about the target; `pixels_a_half_turn` is the drag that
-    /// leads behind it. Stops short of looking straight up or down.
+    /// What a drag has taken hold of: what orbits turn about and pans keep under the mouse, until the camera is
+    /// put or moved otherwise. Its depth is the target's from now on.
+    void grab(glm::vec3 point);
+    /// Turns where it stands to look at the point, which becomes the target.
+    void focus(glm::vec3 point);
+
+    /// Of a perspective, degrees, cut to these limits.
+    static constexpr float least_fov = 1, most_fov = 170;
+    void set_fov(float degrees);
+
+    /// A drag by `pixels` (right, down) turns the camera about what was grabbed, or the target;
+    /// `pixels_a_half_turn` is the drag that leads behind it. Stops short of looking straight up or down.
     void orbit(glm::vec2 pixels, float pixels_a_half_turn);
 
     /// Moves sideways, so that what the camera sees at `from` at the target's depth is then seen at `to`. Both are
@@ -46,6 +65,7 @@ public:
     void look(float left, float up);
 
 private:
+    void put_target_at_depth(glm::vec3 point);
     void turn_about(glm::vec3 pivot, float yaw, float pitch);
     void move(glm::vec3 by);
     void widen(float factor);         // what an orthographic camera sees
@@ -57,6 +77,7 @@ private:
     glm::vec3 axis_lengths_{1}; // of the camera's matrix
     float home_distance_ = 1;
     float distance_ = 1;
+    std::optional<glm::vec3> grabbed_;
     glm::vec3 scene_center_{0};
     float scene_radius_ = 1;
     glm::vec3 up_{0, 1, 0};

@@ -137,6 +137,8 @@ struct Document {
     bool histograms_due = false;              ///< those of some pictures are still being measured
 
     CameraControl camera;
+    std::vector<Bookmark> bookmarks; ///< of this scene's views, in their order
+    int bookmark = -1;               ///< the last one that was gone to or made; -1: none
     SizeChoice size;
     glm::ivec2 latched_size{16, 9}; ///< request_size()
     Pace pace;

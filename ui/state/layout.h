@@ -8,6 +8,7 @@
 #include <string>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -97,8 +98,10 @@ struct Layout : LastingLayout {
     int palette_steps = 0;      ///< down the list, as typed since it was drawn
     bool palette_takes = false; ///< Return was typed
     bool show_messages = false;
-    bool show_jobs = false; ///< of the folder that is followed, over the pictures
+    bool show_gallery = false; ///< of scenes, over the pictures
+    bool show_jobs = false;    ///< of the folder that is followed, over the pictures
     Toast toast;
+    std::optional<glm::vec3> menu_point; ///< what a pane's menu was opened over; empty: nothing
     SampleForm sample_form;
     std::optional<FilePurpose> choosing;    ///< a file, in the dialog for it; empty: it is closed
     SaveKind save_kind = SaveKind::picture; ///< what the dialog is to save

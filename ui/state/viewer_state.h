@@ -33,6 +33,7 @@ struct Wishes {
     // These are for what is read. An empty name is no file. Settings wait until no scene is on its way.
     bool reload = false; ///< the scene on show
     std::string open_scene;
+    bool open_built_in = false; ///< the scene within the program
     std::string open_reference;
     std::string open_settings;
     std::string follow_jobs;       ///< a folder

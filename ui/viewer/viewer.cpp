@@ -66,6 +66,7 @@ Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), option
     state_.pace.spp_limit = options_.spp_limit;
     state_.wishes.open_reference = options_.reference.string();
     state_.wishes.follow_jobs = options_.jobs.string();
+    state_.layout.show_gallery = options_.begins_with_gallery;
     take_preferences();
     if (options_.sample) {
         options_.sample->slot = state_.active().slot;
@@ -120,6 +121,10 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     if (!again || !(before->camera() == state_.scene->camera())) {
         state_.camera.set_home(state_.scene->camera(), state_.scene->center(), state_.scene->radius());
         state_.set_view({});
+    }
+    if (!again) {
+        state_.bookmarks.clear();
+        state_.bookmark = -1;
     }
     const auto depth_of = [&](const Scene& s) {
         return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, most_edges);
@@ -264,6 +269,8 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
         draw_loading(pictures, controls_, state_, load_.origin().name, load_.progress(), load_.seconds());
     else if (!state_.scene && !state_.scene_problem.text.empty())
         draw_no_scene(pictures, controls_, state_);
+    if (state_.layout.show_gallery)
+        gallery_.draw(pictures, controls_, state_, options_.gallery, options_.wake);
     palette_.draw(screen, controls_, state_);
     draw_toast(pictures, controls_, state_);
     file_dialog_.draw(screen, controls_, state_); // last: it is modal, and windows may not appear after such

@@ -96,8 +96,10 @@ struct ViewerOptions {
     PictureWriter write_exr;                     ///< may be empty
     FolderOpener read_jobs;                      ///< may be empty: no folder of jobs can be followed
     std::filesystem::path jobs;                  ///< folder to follow; empty: none
-    std::filesystem::path preferences;           ///< file that remembers the layout; empty: none does
-    std::function<void()> wake;                  ///< called from other threads when there is something new to draw
+    GalleryMaker gallery;                        ///< may be empty: there is none
+    bool begins_with_gallery = false;
+    std::filesystem::path preferences; ///< file that remembers the layout; empty: none does
+    std::function<void()> wake;        ///< called from other threads when there is something new to draw
 };
 
 /// The viewer without its window, on a session of most_panes panes: the state, what is drawn of it, and its
@@ -199,6 +201,7 @@ private:
     CommandPalette palette_;
     FolderFollower follower_;
     JobsPanel jobs_panel_;
+    Gallery gallery_;
     HelpPage help_;
     SaveQueue save_queue_;
     Preferences preferences_;                // as the file last had them

@@ -92,6 +92,8 @@ void Viewer::fulfil_wishes() {
         reload();
     if (const std::string file = std::exchange(state_.wishes.open_scene, {}); !file.empty() && options_.open)
         open(file);
+    if (std::exchange(state_.wishes.open_built_in, false) && options_.open)
+        open({});
     // Settings wait for a scene under way, which would put its own camera and depth in their place.
     if (!state_.wishes.open_settings.empty() && !load_.running())
         load_settings(std::exchange(state_.wishes.open_settings, {}));

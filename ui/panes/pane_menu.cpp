@@ -1,0 +1,58 @@
+#include "ui/panes/pane_parts.h"
+#include "ui/state/actions.h"
+
+#include <glm/vec3.hpp>
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+/// What is most asked for of a picture: names of actions; null: a line between groups.
+constexpr const char* items[] = {"Save picture", "Save as EXR",
+                                 nullptr,        "Automatic exposure",
+                                 "Fit picture",  "Only the active pane",
+                                 nullptr,        "Wipe",
+                                 "Difference",   "Compare reconstructions",
+                                 nullptr,        "Path inspector",
+                                 "Slow motion",  "Bookmark this view"};
+
+void draw_item(const char* name, Controls& controls, ViewerState& state) {
+    const auto all = actions();
+    const auto action =
+        std::find_if(all.begin(), all.end(), [&](const Action& a) { return std::strcmp(a.name, name) == 0; });
+    const bool checked = action->checked != nullptr && action->checked(state);
+    if (ImGui::MenuItem(action->name, to_string(action->shortcut).c_str(), checked))
+        action->run(state);
+    controls.place((std::string("pane_menu/") + name).c_str(), action->help);
+}
+
+} // namespace
+
+void draw_pane_menu(int pane, const PictureFrame& frame, bool is_click, PaneTools& tools) {
+    std::optional<glm::vec3>& point = tools.state.layout.menu_point;
+    const std::string id = "menu of pane " + std::to_string(pane);
+    if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && is_click) {
+        point = point_under((mouse_position() - frame.rect.min) * frame.pixels_a_unit, frame, tools.state);
+        ImGui::OpenPopup(id.c_str());
+    }
+    if (!ImGui::BeginPopup(id.c_str()))
+        return;
+    if (ImGui::MenuItem("Look at this", "double click", false, point.has_value()) && point)
+        tools.state.camera.focus(*point);
+    tools.controls.place("pane_menu/Look at this",
+                         "Turns the camera to what is under the mouse, and orbits about it.");
+    for (const char* name : items) {
+        if (name)
+            draw_item(name, tools.controls, tools.state);
+        else
+            ImGui::Separator();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace tessera
