@@ -142,7 +142,7 @@ struct ExperimentWords {
     std::vector<std::string> scenes, variations;
     std::string methods, norms, clock = "cpu";
     int spp = 0;
-    bool lists = false, only_reports = false;
+    bool lists = false, only_reports = false, is_quick = false;
     double time = 0;
     ExperimentOptions options; ///< all that is not above
 };

@@ -26,6 +26,30 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
     add_setting(command, spp)->description("samples a pixel of references that are missing");
 }
 
+void add_quick(CLI::App& command, ExperimentWords& words) {
+    command.add_flag(
+        "--quick", words.is_quick,
+        "a first look, in minutes: for what is not given 5 CPU seconds, two seeds, 320x180 pixels, the "
+        "weighted norm alone, and references of 512 samples");
+}
+
+/// What a quick one takes for what was not given.
+void take_quick(const CLI::App& command, ExperimentOptions& options) {
+    const auto is_given = [&](const char* option) { return command.count(option) > 0; };
+    if (!is_given("--time") && !is_given("--spp"))
+        options.effort = {5, Effort::Unit::cpu_seconds};
+    if (!is_given("--seeds"))
+        options.seeds = 2;
+    if (!is_given("--halvings"))
+        options.halvings = 4;
+    if (!is_given("--size"))
+        options.settings.size = {320, 180};
+    if (!is_given("--recon"))
+        options.norms = {Norm::weighted};
+    if (!is_given("--reference-spp"))
+        options.recipe.spp = 512;
+}
+
 void add_sharing(CLI::App& command, ExperimentWords& words) {
     Sharing& sharing = words.options.sharing;
     CLI::Option* list = command.add_flag("--list", words.lists,
@@ -109,6 +133,7 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
                                "pictures of the first seed to OUTPUT/images.\n") +
                    common_footer);
     add_experiment(command, words);
+    add_quick(command, words);
     limit(command.add_option("--halvings", words.options.halvings,
                              "errors are also taken after a half, a quarter, ... of the time, this often"),
           0, 20)
@@ -156,6 +181,8 @@ ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWord
     if (command.count("--time"))
         options.effort = {words.time,
                           words.clock == "cpu" ? Effort::Unit::cpu_seconds : Effort::Unit::wall_seconds};
+    if (words.is_quick)
+        take_quick(command, options);
     using Task = Sharing::Task;
     options.sharing.task = words.lists                  ? Task::list
                            : words.only_reports         ? Task::report

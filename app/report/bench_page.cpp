@@ -1,5 +1,6 @@
 #include "app/cli/terminal.h"
 #include "app/report/reports.h"
+#include "embedded/compare_script.h"
 #include "recon/enumeration.h"
 #include "render/io/plain_images.h"
 #include "render/settings/settings_table.h"
@@ -48,6 +49,9 @@ th:first-child, td:first-child { text-align: left; } th { font-weight: 600; }
 .note { color: #666; max-width: 52em; } svg { max-width: 100%; height: auto; }
 .crops { display: flex; flex-wrap: wrap; gap: 10px; } figure { margin: 0; }
 figcaption { font-size: 12px; color: #444; } .crops img { image-rendering: pixelated; display: block; }
+.compare canvas { width: 100%; display: block; background: #000; cursor: crosshair; }
+.compare output { font: 12px monospace; color: #444; white-space: pre; display: block; overflow: hidden; }
+.compare button { margin-right: 2px; } .compare button.on { background: #008c74; color: #fff; }
 code { background: #f4f4f4; padding: 0 0.2em; }
 )";
 
@@ -175,7 +179,8 @@ std::string bench_page(const Experiment& experiment, const std::vector<SceneCurv
         html += to_svg(triangle_chart(experiment.options(), scenes));
     for (const SceneCurves& scene : scenes)
         html += scene_section(experiment, scene);
-    return html + settings_section(experiment) + "</body></html>\n";
+    return fmt::format("{}{}<script>\n{}</script></body></html>\n", html, settings_section(experiment),
+                       compare_script);
 }
 
 } // namespace tessera

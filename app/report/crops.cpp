@@ -125,7 +125,7 @@ float usual_exposure(const RgbImage& image) {
 namespace {
 
 struct Picture {
-    std::string caption; ///< HTML
+    std::string name, caption; ///< HTML
     RgbImage image;
 };
 
@@ -150,7 +150,8 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
         const ExrFile exr = read_exr(file, {}, {""});
         const RgbImage& image = require_layer(exr, "", file);
         if (image.width() == reference.width() && image.height() == reference.height())
-            pictures.push_back({fmt::format("<b>{}</b><br>{}", escaped(curve_label(experiment.options(), curve)),
+            pictures.push_back({escaped(curve_label(experiment.options(), curve)),
+                                fmt::format("<b>{}</b><br>{}", escaped(curve_label(experiment.options(), curve)),
                                             figures_of(result, experiment.options().settings.render.seed)),
                                 image});
     }
@@ -178,6 +179,29 @@ std::string overview(const RgbImage& reference, float exposure, const std::vecto
             R"(<rect x="{}" y="{}" width="{}" height="{}" fill="none" stroke="#ff0" stroke-width="2"/>)", r.x0,
             r.y0, r.width(), r.height());
     return html + "</svg></div>\n";
+}
+
+/// All pictures as a whole, one against another (assets/compare.js).
+std::string comparison(const RgbImage& truth, const std::vector<Picture>& pictures, float exposure) {
+    std::string images = inline_image(truth, exposure, R"(alt="reference")"), first, second;
+    const auto option = [](std::size_t index, const std::string& name, bool is_chosen) {
+        return fmt::format("<option value=\"{}\"{}>{}</option>", index, is_chosen ? " selected" : "", name);
+    };
+    second = option(0, "reference", true);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        images += inline_image(pictures[i].image, exposure, fmt::format("alt=\"{}\"", pictures[i].name));
+        first += option(i + 1, pictures[i].name, i + 1 == pictures.size());
+        second += option(i + 1, pictures[i].name, false);
+    }
+    return fmt::format(
+        "<div class=\"compare\" data-exposure=\"{}\"><div class=\"pictures\" hidden>{}</div>\n"
+        "<p><select>{}{}</select> against <select>{}</select> <button value=\"first\">first</button>"
+        "<button value=\"second\">second</button><button value=\"wipe\" class=\"on\">wipe</button>"
+        "<button value=\"flicker\">flicker</button><button value=\"difference\">difference</button>"
+        " <label>times 2^<input type=\"range\" min=\"0\" max=\"8\" value=\"2\"></label></p>\n"
+        "<canvas></canvas><output>Wheel: enlarge; values are radiances, to the eight bits of the page.</output>"
+        "</div>\n",
+        exposure, images, option(0, "reference", false), first, second);
 }
 
 std::string captioned(const RgbImage& image, float exposure, const std::string& caption) {
@@ -209,6 +233,7 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
         "pictures "
         "of seed {}, and so are the figures below them; the table has means over all seeds.</p>\n",
         exposure, experiment.options().settings.render.seed);
+    html += comparison(truth, pictures, exposure);
     html += overview(truth, exposure, rects);
     for (PixelRect rect : rects) {
         const RgbImage true_crop = crop(truth, rect);

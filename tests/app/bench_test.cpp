@@ -77,8 +77,19 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
     for (const char* part : {"<svg xmlns", "data:image/png;base64,", "PT over G-PR", "gpr l1", "max_depth",
                              "seed 0", "itself at relMSE", "</html>"})
         EXPECT_THAT(page, HasSubstr(part));
-    for (const char* part : {"src=\"http", "href=", "<script", "src=\"out"})
+    for (const char* part : {"<option value=\"0\" selected>reference</option>", "alt=\"gpr l1\"", "<canvas>",
+                             "value=\"flicker\"", "querySelectorAll('.compare')"})
+        EXPECT_THAT(page, HasSubstr(part));
+    for (const char* part : {"src=\"http", "href=", "<script src", "src=\"out"})
         EXPECT_THAT(page, Not(HasSubstr(part))) << "it needs no other file";
+}
+
+TEST_F(BenchCommand, AQuickOneTakesLessWhereNothingIsSaid) {
+    const Outcome o = run(folder(), "bench box.xml --quick -m pt,gpr --size 32x18 --spp 4 --reference refs "
+                                    "--reference-spp 16 --threads 1 -o out");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_EQ(lines("out/bench.csv"), 1 + 2 * 3) << "of one norm, and of 4 samples all halves";
+    EXPECT_THAT(text("out/bench.csv"), HasSubstr("\nbox,gpr,weighted,4 spp,4,2,"));
 }
 
 TEST_F(BenchCommand, TimeIsTakenOfBothClocks) {
