@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -13,7 +14,7 @@ void BasePath::reset(const Random& numbers, int light_samples) {
     very_direct = direct = indirect = Rgb(0);
     albedo = Rgb(1);
     random = numbers;
-    pixel_width = 0;
+    pixel_width = pixel_angle = 0;
     size_ = 0;
     light_samples_ = light_samples;
 }
@@ -193,19 +194,30 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pix
     }
     path.keep();
     path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
+    path.pixel_angle = pixel_width.angle;
     path.albedo = primary.vertex.bsdf.albedo(primary.vertex.to_previous);
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
 }
 
-void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last,
-                      BasePath& path) {
+void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     path.spare().vertex = primary;
     path.keep();
     trace_onward(tracer, std::min(last, tracer.settings.max_depth - 1),
                  {RayKind::shift_bounce, RayKind::shift_edge}, path);
+}
+
+LightPaths::Step LightPaths::step_from(const BasePath& path, const JoinRule& rule, int vertex, float apart) const {
+    const BaseVertex& v = path[vertex];
+    const float roughness = v.is_delta ? 0 : v.vertex.bsdf.roughness();
+    if (v.escapes)
+        return {apart, rule.covers(roughness, rule.turn(apart, std::numeric_limits<float>::infinity()))};
+    const Vertex& next = path[vertex + 1].vertex;
+    const float distance = glm::distance(v.vertex.position, next.position);
+    const bool is_connectable = rule.covers(roughness, rule.turn(apart, distance));
+    return {apart, is_connectable, is_connectable && rule.reaches_beyond(next.bsdf.roughness(), apart, distance)};
 }
 
 void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
@@ -216,7 +228,8 @@ void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
     last_alive_ = -1;
     first_shared_ = settings.shift == ShiftKind::reconnection ? emitter_slot(1, 0) : 0;
     const bool joins = settings.shift != ShiftKind::replay;
-    const float least = least_length(settings, path.pixel_width);
+    const JoinRule rule(settings, path.pixel_angle);
+    float apart = rule.apart(path.pixel_width);
     const int count = path.size();
     Rgb throughput(1);
     for (int i = 0; i < count; ++i) {
@@ -225,17 +238,19 @@ void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
             carried_.push_back(throughput * s.brings);
         if (i + 1 == count && !v.escapes) {
             carried_.emplace_back(0);
+            steps_.push_back({apart});
             break;
         }
         throughput *= v.throughput();
         carried_.push_back(throughput * v.hit_brings);
-        steps_.push_back({!v.is_delta && is_connectable(v.vertex, settings.shift_threshold),
-                          i + 1 < count && is_long(v.vertex.position, path[i + 1].vertex.position, least)});
-        if (joins && i > 0 && step_is_connectable(i - 1) && step_is_long(i - 1) && step_is_connectable(i)) {
+        steps_.push_back(step_from(path, rule, i, apart));
+        if (joins && i > 0 && step_joins(i - 1) && !v.is_delta) {
             join_ = i;
             carried_.push_back(throughput * v.arriving);
             break;
         }
+        if (i + 1 < count)
+            apart = rule.apart(apart, glm::distance(v.vertex.position, path[i + 1].vertex.position));
     }
     for (int slot = 0; slot < slot_count(); ++slot)
         if (!is_black(carried(slot)))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/estimator/join_rule.h"
 #include "render/estimator/tracer.h"
 
 #include <span>
@@ -54,6 +55,7 @@ struct BasePath {
     Rgb albedo{1};      ///< of x_1, about (Bsdf::albedo); 1 where it sees nothing
     Random random{0, 0, 0};
     float pixel_width = 0; ///< at x_1, across the view: scene units
+    float pixel_angle = 0; ///< what that grows by with distance from the camera (PixelWidth)
 
     /// Without very direct light: an unbiased estimate for the pixel.
     Rgb radiance() const { return direct + indirect; }
@@ -111,25 +113,6 @@ inline void complete_light(const Tracer& tracer, LightSample& drawn) {
     drawn.brings = drawn.f_cos * drawn.light.radiance / drawn.pdf_sum;
 }
 
-/// Whether offsets can be joined at a scattering by connecting two points: its roughness is above the threshold.
-/// Decided alike for base and offset, or a shift would not be its own inverse.
-inline bool is_connectable(const Vertex& x, float threshold) {
-    return x.bsdf.roughness() > threshold;
-}
-
-/// How long an edge must be to be joined, by the pixel that a path belongs to: scene units. What a vertex sees
-/// close by, as in a corner, looks quite different from another pixel's vertex: joined, its light would stay with
-/// the base. There the shift goes on as from vertices too glossy to connect. Decided alike for base and offset.
-/// @param pixel_width  BasePath::pixel_width
-inline float least_length(const ShiftSettings& settings, float pixel_width) {
-    return settings.shift == ShiftKind::reconnection ? 0 : settings.shift_distance * pixel_width;
-}
-
-inline bool is_long(glm::vec3 from, glm::vec3 to, float least) {
-    const glm::vec3 edge = to - from;
-    return glm::dot(edge, edge) >= least * least;
-}
-
 /// The light paths that a base path carries, as slots in the order of their ends, and what each brings: for every
 /// vertex one for each light sample there, and one for the light that BSDF sampling runs into. Where shifts join
 /// base and offset, all light paths through the same vertices beyond the join share their ratios of value and of
@@ -147,8 +130,8 @@ public:
     int vertex_of(int slot) const { return slot / (light_samples_ + 1); } ///< not for the tail
     int tail_slot() const { return hit_slot(join_) + 1; } ///< ends further on; only where has_join()
 
-    /// The vertex at which offsets join the base path: the first j >= 1 for which j-1 and j are connectable and
-    /// the edge between them is long.
+    /// The vertex at which offsets join the base path: the first j >= 1 that the step from j-1 joins, and that is
+    /// not left by a delta scatter.
     int join() const { return join_; }
     bool has_join() const { return join_ > 0; }
 
@@ -167,18 +150,23 @@ public:
     /// The last slot that carries light; -1: none does.
     int last_alive() const { return last_alive_; }
 
-    /// Whether the step from the vertex onward (there is one, perhaps to infinity) is connectable.
+    /// Whether offsets are joined to what the step from the vertex onward meets (there is one, perhaps to
+    /// infinity), for the light that it gives.
     bool step_is_connectable(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].is_connectable; }
-    /// Whether the edge from the vertex to the next one (there is one) is long.
-    bool step_is_long(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].is_long; }
+    /// Whether that holds for light from beyond the next vertex, too, unless it gets there by a delta scatter.
+    bool step_joins(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].joins; }
+    /// How far apart the vertex lies for other pixels (JoinRule).
+    float apart(int vertex) const { return steps_[static_cast<std::size_t>(vertex)].apart; }
 
 private:
     struct Step {
-        bool is_connectable, is_long;
+        float apart;
+        bool is_connectable = false, joins = false;
     };
+    Step step_from(const BasePath& path, const JoinRule& rule, int vertex, float apart) const;
 
     std::vector<Rgb> carried_;
-    std::vector<Step> steps_;
+    std::vector<Step> steps_; ///< one a vertex, the last one perhaps without a step
     int light_samples_ = 1;
     int join_ = 0;
     int first_shared_ = 0;

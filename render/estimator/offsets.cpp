@@ -125,6 +125,8 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
             continue;
         sight.valid[m] = -1;
         sight.direction.set(m, ray->direction);
+        const float distance = light.distance_from(y.position[m]);
+        sight.distance2[m] = distance * distance;
         arriving.pdf_w[m] = ray->pdf_w;
         arriving.radiance.set(m, ray->radiance);
     }

@@ -130,7 +130,7 @@ struct SightLanes {
     LaneMask valid;       ///< asked for, and the point is to be seen from the right side
     Vec3Lanes direction;  ///< unit, world, toward the point
     FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area
-    FloatLanes distance2; ///< squared, to the point; not for directions
+    FloatLanes distance2; ///< squared, to the point; infinite for directions
 };
 
 /// Joins vertices to a point on a surface.

@@ -1,5 +1,6 @@
 #include "render/estimator/shift.h"
 
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -13,6 +14,7 @@ void Shift::run(const BasePath& base, const LightPaths& light, const PrimaryVert
     edges_ = &edges;
     outcomes_ = &outcomes;
     y_ = primary_ = &primary;
+    rule_ = JoinRule(settings_, base.pixel_angle);
     if (start(self))
         walk();
 }
@@ -21,6 +23,7 @@ void Shift::run(const BasePath& base, const LightPaths& light, const PrimaryVert
 bool Shift::start(int self) {
     for (int m = 0; m < padded(y_->count()); ++m) {
         active_[m] = y_->exists[m];
+        apart_[m] = rule_.apart(primary_->pixel_width[m]);
         prefix_.ratio[m] = prefix_.value.x[m] = prefix_.value.y[m] = prefix_.value.z[m] = 1;
     }
     for (int m = 0; m < y_->count(); ++m)
@@ -50,7 +53,7 @@ void Shift::walk() {
             return escape(i); // what else could carry light there
         lights_are_connected = false;
         if (light_->step_is_connectable(i)) {
-            lights_are_connected = joins_lights(i);
+            lights_are_connected = light_->step_joins(i);
             connect_next(i);
             if (light_->join() == i + 1)
                 return;
@@ -70,16 +73,15 @@ void Shift::shift_lights(int i) {
     const int first = light_->emitter_slot(i, 0), end = light_->hit_slot(i);
     if (first < light_->first_shared() || !light_->is_alive(first, end))
         return;
-    const bool connectable = is_connectable(base(i).vertex);
     LaneMask& asked = light_connection_.asked;
-    ask_for_kind(connectable, asked);
     for (int sample = 0; sample < end - first; ++sample) {
         if (!light_->is_alive(first + sample))
             continue;
+        ask_for_lobes(asked);
         // A copied half vector cannot meet a light without extent: that is always joined to.
-        const bool can_be_hit = base_light(i, sample).light.can_be_hit();
-        if (connectable || (!replays() && !can_be_hit)) {
-            connect_light(i, sample);
+        const bool can_be_hit = base_light(i, sample).light.can_be_hit(), is_joined = joins_light(i, sample);
+        if (is_joined || (!replays() && !can_be_hit)) {
+            connect_light(i, sample, is_joined);
             continue;
         }
         ask_for_scatter(i, first + sample, first + sample + 1);
@@ -102,13 +104,24 @@ void Shift::escape(int i) {
             bounce_out(i, m);
 }
 
-/// Of the offsets that go on, asks those whose vertices are as connectable as the base's.
-void Shift::ask_for_kind(bool connectable, LaneMask& asked) {
-    const float threshold = settings_.shift_threshold;
+bool Shift::joins_light(int i, int sample) const {
+    const Vertex& x = base(i).vertex;
+    const float distance = base_light(i, sample).light.distance_from(x.position);
+    return rule_.covers(x.bsdf.roughness(), rule_.turn(light_->apart(i), distance));
+}
+
+/// Of the offsets that go on, asks those that have more than delta scatters.
+void Shift::ask_for_lobes(LaneMask& asked) const {
+    for (int m = 0; m < padded(y_->count()); ++m)
+        asked[m] = y_->roughness[m] > 0 ? active_[m] : 0;
+}
+
+/// Of those asked, keeps the ones that are joined if and only if the base is.
+void Shift::keep_alike(bool joined, LaneMask& asked, SightLanes& sight) {
     for (int m = 0; m < padded(y_->count()); ++m) {
-        const float roughness = y_->roughness[m];
-        const bool same = (roughness > 0) & ((roughness > threshold) == connectable);
-        asked[m] = same ? active_[m] : 0;
+        const bool same = joins(m, std::sqrt(sight.distance2[m])) == joined;
+        asked[m] = same ? asked[m] : 0;
+        sight.valid[m] &= asked[m];
     }
     fail_others(active_, asked, ShiftOutcome::kind_mismatch);
 }

@@ -64,7 +64,8 @@ struct LightConnection {
 /// shift_connections.cpp; how a scatter is done again, and a ray traced, in shift_bounces.cpp.
 class Shift {
 public:
-    Shift(const Tracer& tracer, const ShiftSettings& settings) : tracer_(tracer), settings_(settings) {}
+    Shift(const Tracer& tracer, const ShiftSettings& settings)
+        : tracer_(tracer), settings_(settings), rule_(settings, 0) {}
 
     /// @param primary  what the pixels see; a lane without a vertex is not shifted to
     /// @param self     the lane of the base's own pixel, which is left alone; -1: none
@@ -83,22 +84,26 @@ private:
         return base_->lights(i)[static_cast<std::size_t>(sample)];
     }
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
-    bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
-    /// Whether emitter sampling at x_{i+1} goes the way y_i -> x_{i+1}, where that step is connectable.
-    bool joins_lights(int i) const { return is_connectable(base(i + 1).vertex) && light_->step_is_long(i); }
+    /// Whether offsets at x_i are joined to a light sample there.
+    bool joins_light(int i, int sample) const;
+    /// Whether an offset at y_i would be joined to what it meets at that distance, for the light that it gives.
+    bool joins(int m, float distance) const {
+        return rule_.covers(y_->roughness[m], rule_.turn(apart_[m], distance));
+    }
 
     // The walk.
     bool start(int self);
     void walk();
     void shift_lights(int i);
     void escape(int i);
-    void ask_for_kind(bool connectable, LaneMask& asked);
+    void ask_for_lobes(LaneMask& asked) const;
+    void keep_alike(bool joined, LaneMask& asked, SightLanes& sight);
     void fail_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
     void fail(int m, ShiftOutcome outcome);
 
     // Connections.
     void keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf);
-    void connect_light(int i, int sample);
+    void connect_light(int i, int sample, bool is_joined);
     void connect_infinity(int i);
     void connect_next(int i);
     const VertexConnection& connect_vertex(int i, EdgeGroup& edges);
@@ -116,7 +121,8 @@ private:
     void replay_light(int i, int sample, int m, EdgeGroup& edges);
     void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
-    bool is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const;
+    bool is_joined_alike(int i, int m, float distance, const Vertex& next) const;
+    bool may_be_alike(int i, int m) const;
     std::optional<CopiedScatter> copy_scatter(int i, int m);
     std::optional<CopiedScatter> replay_scatter(int i, int m);
 
@@ -136,6 +142,7 @@ private:
     Tracer tracer_;
     ShiftSettings settings_;
     ShiftOnlooker* onlooker_ = nullptr;
+    JoinRule rule_;
 
     // The base path at hand and what becomes of it.
     const BasePath* base_ = nullptr;
@@ -148,6 +155,7 @@ private:
     const PrimaryVertices* primary_ = nullptr; ///< y_1
     const OffsetVertices* y_ = nullptr;        ///< y_i
     LaneMask active_;                          ///< those that go on
+    FloatLanes apart_;                         ///< how far y_i lies from other pixels' (JoinRule)
     PrefixLanes prefix_;
     FirstScatter* bounced_ = nullptr; ///< the scatter at y_1 that is done again, lane by lane; null: nobody asks
     OffsetVertices moved_;            ///< y_i beyond the first bounce

@@ -1,5 +1,6 @@
 // Shift: scatterings done again at an offset vertex, by the same half vector or the same random numbers.
 #include "render/estimator/shift.h"
+#include <glm/geometric.hpp>
 
 namespace tessera {
 
@@ -55,10 +56,12 @@ bool Shift::bounce(int i, int m) {
         fail(m, ShiftOutcome::outside);
         return false;
     }
-    if (!is_as_long(i, m, origin, next)) {
+    const float distance = glm::distance(origin, next.position);
+    if (!x.is_delta && !is_joined_alike(i, m, distance, next)) {
         fail(m, ShiftOutcome::kind_mismatch);
         return false;
     }
+    apart_[m] = rule_.apart(apart_[m], distance);
     const float scale = s->jacobian / x.pdf_w;
     prefix_.ratio[m] *= s->pdf_w * scale;
     prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
@@ -102,6 +105,8 @@ void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
     Segment way;
     if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, sample, drawn, way))
         return fail(m, ShiftOutcome::no_light);
+    if (joins(m, drawn.light.distance_from((*y_)[m].position)))
+        return fail(m, ShiftOutcome::kind_mismatch);
     complete_light(tracer_, drawn);
     const int slot = light_->emitter_slot(i, sample);
     paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
@@ -119,6 +124,8 @@ void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 orig
     const std::optional<LightRay> seen = light.seen_from(origin);
     if (!seen || is_black(seen->radiance))
         return fail(m, ShiftOutcome::no_light);
+    if (!is_delta && joins(m, light.distance_from(origin)))
+        return fail(m, ShiftOutcome::kind_mismatch); // and so the way back would be another one
     const float pdf_sum = s.pdf_w + (is_delta ? 0 : seen->pdf_w);
     // What is replayed keeps its strategy: its ratio of densities is 1, and the weight of the strategy is that at
     // the offset.
@@ -129,16 +136,24 @@ void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 orig
         onlooker_->ends(m, slot, last_step(slot, m, pdf_sum, scale * base_pdf_sum, is_delta));
 }
 
-/// Whether the way back would be this one, as far as that depends on lengths: shortness alone, or neither there
-/// nor here, keeps the edge from being joined. (Lengths alone would not do: from a mirror beside smooth plastic
-/// one comes to both long and short edges, between which there is no way, and the weights of the three would not
-/// add up to 1.)
-bool Shift::is_as_long(int i, int m, glm::vec3 from, const Vertex& next) const {
-    if (!light_->step_is_connectable(i))
-        return true;
-    const bool is_only_short =
-        is_connectable(next) && !is_long(from, next.position, least_length(settings_, primary_->pixel_width[m]));
-    return is_only_short == (is_connectable(base(i + 1).vertex) && !light_->step_is_long(i));
+/// Whether the way back would be this one, after a scatter by a lobe: both edges are joined for the light that
+/// lies at their ends, or neither is; and both are not for light from beyond though there might be some, or
+/// neither. (That both are not would not do: from a mirror beside smooth plastic one comes to edges that are
+/// joined and to edges that are not, between which there is no way, and the weights of the three would not add up
+/// to 1.)
+bool Shift::is_joined_alike(int i, int m, float distance, const Vertex& next) const {
+    const bool is_connectable = joins(m, distance);
+    if (is_connectable != light_->step_is_connectable(i))
+        return false;
+    const float roughness = next.bsdf.roughness();
+    const bool misses = roughness > 0 && !rule_.reaches_beyond(roughness, apart_[m], distance);
+    return !is_connectable || misses == (base(i + 1).vertex.bsdf.roughness() > 0 && !light_->step_joins(i));
+}
+
+/// Whether a scatter at y by a lobe can turn out to be joined if and only if the base's is.
+bool Shift::may_be_alike(int i, int m) const {
+    const float roughness = y_->roughness[m];
+    return light_->step_is_connectable(i) ? !rule_.covers_none(roughness) : !rule_.covers_all(roughness);
 }
 
 /// The scatter at x_i done again at y: both must be of one kind, or y at least must have such a delta part (from a
@@ -155,7 +170,7 @@ std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
                                                                               : ShiftOutcome::kind_mismatch);
         return s;
     }
-    if (y.bsdf.roughness() <= 0 || is_connectable(x.vertex) != is_connectable(y)) {
+    if (y.bsdf.roughness() <= 0 || !may_be_alike(i, m)) {
         fail(m, ShiftOutcome::kind_mismatch);
         return {};
     }
@@ -176,7 +191,7 @@ std::optional<CopiedScatter> Shift::replay_scatter(int i, int m) {
         fail(m, ShiftOutcome::no_light);
         return {};
     }
-    if (s->is_delta != x.is_delta || is_connectable(x.vertex) != is_connectable(y)) {
+    if (s->is_delta != x.is_delta || (!x.is_delta && !may_be_alike(i, m))) {
         fail(m, ShiftOutcome::kind_mismatch);
         return {};
     }

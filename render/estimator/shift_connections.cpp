@@ -2,6 +2,8 @@
 #include "render/estimator/shift.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -19,11 +21,13 @@ void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& d
 }
 
 /// Joins the offsets to the same point of the light, at infinity to the same direction.
-void Shift::connect_light(int i, int sample) {
+/// @param is_joined  whether the base is, by its lobe
+void Shift::connect_light(int i, int sample, bool is_joined) {
     const LightSample& x = base_light(i, sample);
     const int slot = light_->emitter_slot(i, sample);
     LightConnection& c = light_connection_;
     connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
+    keep_alike(is_joined, c.asked, c.sight);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
     keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
@@ -57,9 +61,13 @@ void Shift::connect_infinity(int i) {
     const LightPoint infinity{LightPoint::Kind::environment, x.vertex.to_world(x.to_next), glm::vec3(0), Rgb(0),
                               0};
     LightConnection& c = light_connection_;
-    ask_for_kind(true, c.asked);
-    for (int m = 0; m < padded(y_->count()); ++m)
+    ask_for_lobes(c.asked);
+    for (int m = 0; m < padded(y_->count()); ++m) {
         c.sight.direction.set(m, infinity.position);
+        c.sight.distance2[m] = std::numeric_limits<float>::infinity();
+        c.sight.valid[m] = c.asked[m];
+    }
+    keep_alike(true, c.asked, c.sight);
     y_->evaluate(c.sight.direction, c.asked, c.bsdf);
     keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
@@ -84,7 +92,7 @@ void Shift::connect_next(int i) {
     int end = hit + 1;
     if (light_->join() == i + 1)
         end = light_->tail_slot() + 1;
-    else if (joins_lights(i))
+    else if (light_->step_joins(i))
         end = light_->hit_slot(i + 1);
     if (!light_->is_alive(first, end))
         return;
@@ -93,15 +101,13 @@ void Shift::connect_next(int i) {
     keep_scatter(i, first, end, connection.sight.direction, connection.bsdf);
     if (first == hit && light_->is_alive(first))
         shift_hit(connection);
-    if (joins_lights(i))
+    if (light_->step_joins(i))
         shift_lights_beyond(connection);
     if (light_->join() == i + 1 && light_->last_alive() >= light_->hit_slot(i + 1))
         shift_tail(connection);
     fail_others(connection.asked, connection.lit, ShiftOutcome::no_light);
     if (end > hit + 1)
         fail_others(connection.lit, connection.reached, ShiftOutcome::kind_mismatch);
-    for (int m = 0; m < padded(y_->count()); ++m)
-        active_[m] = connection.asked[m]; // from another kind of vertex nothing can be shifted any more
 }
 
 /// The edges y_i -> x_{i+1}, unchecked, and what it costs to go along them.
@@ -110,17 +116,18 @@ const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
     const Vertex& next = base(i + 1).vertex;
     VertexConnection& c = vertex_connection_;
     c.vertex = i;
-    ask_for_kind(true, c.asked);
+    ask_for_lobes(c.asked);
     connect_to_point(*y_, c.asked, next.position, next.geometric_normal, false, c.sight);
+    keep_alike(true, c.asked, c.sight);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
-    const float length_a_width = least_length(settings_, 1);
+    const float roughness = next.bsdf.roughness();
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float jacobian = c.sight.geometry[m] / x.next_geometry; // of solid angles
         const float scale = jacobian / x.pdf_w;
         const bool is_lit = (c.bsdf.f_cos.x[m] > 0) | (c.bsdf.f_cos.y[m] > 0) | (c.bsdf.f_cos.z[m] > 0);
         c.lit[m] = is_lit ? c.sight.valid[m] : 0;
-        const float least = length_a_width * primary_->pixel_width[m];
-        c.reached[m] = c.sight.distance2[m] >= least * least ? c.lit[m] : 0;
+        const bool reaches = rule_.reaches_beyond(roughness, apart_[m], std::sqrt(c.sight.distance2[m]));
+        c.reached[m] = reaches ? c.lit[m] : 0;
         c.prefix.ratio[m] = c.reached[m] ? prefix_.ratio[m] * c.bsdf.pdf_w[m] * scale : 0.0f;
         c.prefix.value.x[m] = prefix_.value.x[m] * c.bsdf.f_cos.x[m] * scale;
         c.prefix.value.y[m] = prefix_.value.y[m] * c.bsdf.f_cos.y[m] * scale;

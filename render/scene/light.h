@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -60,6 +61,9 @@ struct LightPoint {
     /// Whether rays can meet it, so that BSDF sampling could have found it, too.
     bool can_be_hit() const { return kind == Kind::surface || kind == Kind::environment; }
     bool is_at_infinity() const { return kind == Kind::directional || kind == Kind::environment; }
+    float distance_from(glm::vec3 receiver) const {
+        return is_at_infinity() ? std::numeric_limits<float>::infinity() : glm::distance(position, receiver);
+    }
 
     /// The light as a receiver at that point sees it, without what may stand between; empty: no light goes that
     /// way.

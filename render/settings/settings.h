@@ -29,10 +29,17 @@ enum class ShiftKind : std::uint8_t {
     replay_reconnection ///< random numbers are replayed until two vertices can be connected [Hua 2019, 3.1]
 };
 
+/// Which vertices offsets are joined to.
+enum class JoinKind : std::uint8_t {
+    footprint, ///< whose lobes cover what moves from pixel to pixel (join_rule.h), and are above the threshold
+    threshold  ///< those above it [Kettunen 2015]
+};
+
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
     float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]
-    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at x_1
+    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at its beginning
+    JoinKind join = JoinKind::footprint;
 
     bool operator==(const ShiftSettings&) const = default;
 };

@@ -43,6 +43,12 @@ constexpr SettingChoice shift_kinds[] = {
     {"replay-reconnection", "replay, reconnection",
      "Random numbers are replayed until two rough vertices can be connected [Hua 2019, 3.1]."},
 };
+constexpr SettingChoice join_kinds[] = {
+    {"footprint", "by footprint",
+     "Those whose lobe is wide enough for how far the edge turns against it from pixel to pixel: what is too "
+     "glossy for one edge can be joined by another. The rest is shifted by half vectors."},
+    {"threshold", "by threshold", "All that are rougher than the shift threshold [Kettunen 2015]."},
+};
 constexpr SettingChoice roulette_kinds[] = {
     {"relative", "relative", "Against the noise of the tile: the unit of light does not matter."},
     {"absolute", "absolute", "Against RR delta, a radiance [Bauszat 2017, 3.3]."},
@@ -192,6 +198,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
         {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
          one_of(bases, s.basis), s.method != Method::pt},
         {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},
+        {"join", "Join", "Which vertices of a path another pixel can be joined to.", one_of(join_kinds, s.join),
+         joins_long_edges},
         {"shift_threshold", "Roughness",
          "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",
          Setting::Real{&s.shift_threshold, 0, 1, 0, 1}, joins, true},

@@ -37,10 +37,10 @@ struct Tally {
 
 class Sharing {
 public:
-    Sharing(const TestScene& t, ShiftKind kind, float shift_distance, int light_samples, int roulette_depth)
-        : scene_(*t.scene), settings_{kind, t.shift_threshold, shift_distance},
-          tracer_{scene_, counters_, {t.max_depth, light_samples, roulette_depth}}, reuse_(tracer_, settings_, 0) {
-    }
+    Sharing(const TestScene& t, ShiftSettings settings, int light_samples, int roulette_depth)
+        : scene_(*t.scene),
+          settings_(settings), tracer_{scene_, counters_, {t.max_depth, light_samples, roulette_depth}},
+          reuse_(tracer_, settings_, 0) {}
 
     Tally run(int sets) {
         for (int i = 0; i < sets; ++i) {
@@ -142,16 +142,18 @@ class Shares : public testing::TestWithParam<TestScene> {
 protected:
     /// Floats cannot tell the length of the shortest edges, in corners, to 1e-3, nor a direction to what a narrow
     /// lobe makes of it, nor on which side of a triangle's border a ray passes.
-    static void judge(ShiftKind kind, float shift_distance, int light_samples, int roulette_depth) {
-        SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(kind)) + ", distance " +
-                     std::to_string(shift_distance) + ", light samples " + std::to_string(light_samples));
-        const Tally t = Sharing(GetParam(), kind, shift_distance, light_samples, roulette_depth).run(40);
+    static void judge(ShiftSettings s, int light_samples, int roulette_depth) {
+        s.shift_threshold = GetParam().shift_threshold;
+        SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
+                     std::to_string(s.shift_distance) + ", join " + std::to_string(static_cast<int>(s.join)) +
+                     ", light samples " + std::to_string(light_samples));
+        const Tally t = Sharing(GetParam(), s, light_samples, roulette_depth).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.apart, 0.001 * t.shared);
         EXPECT_LE(t.astray, 0.001 * t.shared);
         const bool has_any = GetParam().max_depth > 1 && GetParam().name != "no_light";
-        if (kind != ShiftKind::reconnection && has_any) {
+        if (s.shift != ShiftKind::reconnection && has_any) {
             EXPECT_GT(t.shared, 200); // or this says nothing
         }
     }
@@ -160,8 +162,9 @@ protected:
 TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        judge(kind, 0, 1, 0);
-        judge(kind, GetParam().shift_distance, 3, 2);
+        judge({kind, 0, 0, JoinKind::threshold}, 1, 0);
+        judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 3, 2);
+        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 2, 0);
     }
 }
 

@@ -39,7 +39,8 @@ Tally tally(const TestScene& t) {
     PathSettings path_settings;
     path_settings.max_depth = t.max_depth;
     const Tracer tracer{*t.scene, counters, path_settings};
-    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold, t.shift_distance};
+    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold, t.shift_distance,
+                                       JoinKind::threshold};
     const Projection projection(t.scene->camera(), size);
     LightPaths light;
     OffsetPaths paths;
@@ -57,7 +58,7 @@ Tally tally(const TestScene& t) {
                     continue;
                 light.reset(base, shift_settings);
                 const int slot = light.emitter_slot(1, 0);
-                if (is_connectable(base[1].vertex, t.shift_threshold) || !light.is_alive(slot))
+                if (base[1].vertex.bsdf.roughness() > t.shift_threshold || !light.is_alive(slot))
                     continue;
                 shift_to_one(tracer, shift_settings, base, light, right, paths, true);
                 const bool shifted = paths.ratio(slot, 0) > 0;

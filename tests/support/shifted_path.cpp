@@ -37,6 +37,7 @@ public:
     std::optional<BasePath> build(const BasePath& other) {
         path_.reset(base_.random, base_.light_samples());
         path_.pixel_width = other.pixel_width;
+        path_.pixel_angle = other.pixel_angle;
         keep(other[0].vertex);
         const int steps = end_.vertex + (end_.is_hit || end_.is_tail);
         for (int i = 0; i < steps; ++i)
@@ -50,16 +51,16 @@ public:
     }
 
 private:
-    bool is_connectable(const Vertex& x) const { return tessera::is_connectable(x, settings_.shift_threshold); }
     bool ends_by_hit(int i) const { return end_.is_hit && i == end_.vertex; }
 
     /// Whether the edge from vertex i is to lead to the base's next vertex.
     bool connects(int i) const {
+        if (light_.has_join() && i >= light_.join())
+            return true; // the base's own, however glossy
         if (!light_.step_is_connectable(i))
             return false;
         const bool joins = light_.has_join() && i + 1 >= light_.join();
-        const bool is_lit =
-            !end_.is_hit && i + 1 == end_.vertex && is_connectable(base_[i + 1].vertex) && light_.step_is_long(i);
+        const bool is_lit = !end_.is_hit && i + 1 == end_.vertex && light_.step_joins(i);
         return ends_by_hit(i) || joins || is_lit;
     }
 
@@ -152,7 +153,12 @@ private:
         const Vertex& y = path_[end_.vertex].vertex;
         const LightSample& x = base_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
         LightSample& drawn = path_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
-        const bool connectable = is_connectable(base_[end_.vertex].vertex);
+        const Vertex& last = base_[end_.vertex].vertex;
+        const JoinRule rule(settings_, base_.pixel_angle);
+        const bool is_joined = end_.vertex > 0 && light_.step_joins(end_.vertex - 1); // then it is the base's own
+        const bool connectable =
+            is_joined || rule.covers(last.bsdf.roughness(),
+                                     rule.turn(light_.apart(end_.vertex), x.light.distance_from(last.position)));
         if (!connectable && settings_.shift == ShiftKind::replay_reconnection) {
             Segment way;
             if (!draw_light(tracer_, y, base_.random, end_.vertex + 1, end_.sample, drawn, way))
