@@ -14,7 +14,7 @@ void BasePath::reset(const Random& numbers, int light_samples) {
     very_direct = direct = indirect = Rgb(0);
     albedo = Rgb(1);
     random = numbers;
-    pixel_width = pixel_angle = 0;
+    pixel_width = pixel_angle = own_width = 0;
     size_ = 0;
     light_samples_ = light_samples;
 }
@@ -113,11 +113,12 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
     const Ray ray = tracer.leave(x, direction);
+    const float width = tracer.width_beyond(path.own_width, 0, s->is_delta);
     using Met = Tracer::Met;
     Met met = Met::light;
     if (index + 1 == tracer.settings.max_depth)
-        met = tracer.closest_light(ray, next.vertex, kind);
-    else if (!tracer.closest(ray, next.vertex, kind))
+        met = tracer.closest_light(ray, next.vertex, kind, width);
+    else if (!tracer.closest(ray, next.vertex, kind, width))
         met = Met::infinity;
     if (met == Met::darkness)
         return false;
@@ -135,6 +136,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     v.next_geometry = std::abs(glm::dot(next.vertex.geometric_normal, direction)) / distance2;
     if (!(v.next_geometry > 0) || !(distance2 > 0))
         return false;
+    path.own_width = tracer.width_beyond(path.own_width, std::sqrt(distance2), s->is_delta);
     v.hit_pdf_w = 0;
     v.hit_brings = Rgb(0);
     if (next.vertex.emitter_pdf_a > 0) {
@@ -195,15 +197,18 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pix
     path.keep();
     path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
     path.pixel_angle = pixel_width.angle;
+    path.own_width = path.pixel_width;
     path.albedo = primary.vertex.bsdf.albedo(primary.vertex.to_previous);
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
 }
 
-void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path) {
+void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
-    path.spare().vertex = primary;
+    path.spare().vertex = seen[0].vertex;
+    path.pixel_width = path.own_width = seen.pixel_width;
+    path.pixel_angle = seen.pixel_angle;
     path.keep();
     trace_onward(tracer, std::min(last, tracer.settings.max_depth - 1),
                  {RayKind::shift_bounce, RayKind::shift_edge}, path);

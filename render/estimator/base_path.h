@@ -56,6 +56,7 @@ struct BasePath {
     Random random{0, 0, 0};
     float pixel_width = 0; ///< at x_1, across the view: scene units
     float pixel_angle = 0; ///< what that grows by with distance from the camera (PixelWidth)
+    float own_width = 0;   ///< of its pixel at the last vertex so far, as Tracer::width_beyond() has it
 
     /// Without very direct light: an unbiased estimate for the pixel.
     Rgb radiance() const { return direct + indirect; }
@@ -95,9 +96,10 @@ private:
 void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
                      BasePath& path);
 
-/// Traces the path that takes the numbers of `random` from a vertex x_1 that the camera sees: random replay.
+/// Traces the path that takes the numbers of `random` from x_1 of another path, which sees something: random
+/// replay.
 /// @param last  light is looked for at x_1 to x_last
-void replay_base_path(const Tracer& tracer, const Vertex& primary, const Random& random, int last, BasePath& path);
+void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path);
 
 /// Emitter sampling: light sample `sample` (from 0) of vertex x_index, weighted against BSDF sampling, as if
 /// nothing were in the way. False: it brings nothing. What the environment brings is left black, as its radiance

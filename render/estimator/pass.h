@@ -115,6 +115,7 @@ public:
     /// What is seen at a point of a pixel, the same for all seeds; false: nothing.
     bool look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const;
 
+    const Projection& projection() const { return projection_; }
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     bool has_lens() const { return has_lens_; }
 
@@ -184,8 +185,9 @@ private:
 
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
-    Worker(const Scene& scene, const RenderSettings& settings)
-        : tracer{scene, counters, settings}, reuse(tracer, settings, settings.weight_threshold) {}
+    Worker(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings)
+        : tracer{scene, counters, settings, {settings.filter_textures, is_demodulated(settings), camera, size}},
+          reuse(tracer, settings, settings.weight_threshold) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 

@@ -84,8 +84,7 @@ void PathReuse::replay_to_all(int base) {
         lost_[m] = 0;
         if (m == base || offset.empty())
             continue;
-        replay_base_path(tracer_, offset[0].vertex, path.random, light_.vertex_of(light_.last_alive()) + 1,
-                         replayed_);
+        replay_base_path(tracer_, offset, path.random, light_.vertex_of(light_.last_alive()) + 1, replayed_);
         replayed_light_.reset(replayed_, settings_);
         for (int slot = 0; slot <= std::min(light_.last_alive(), replayed_light_.last_alive()); ++slot)
             if (light_.is_alive(slot))

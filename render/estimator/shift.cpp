@@ -24,6 +24,7 @@ bool Shift::start(int self) {
     for (int m = 0; m < padded(y_->count()); ++m) {
         active_[m] = y_->exists[m];
         apart_[m] = rule_.apart(primary_->pixel_width[m]);
+        own_width_[m] = primary_->pixel_width[m];
         prefix_.ratio[m] = prefix_.value.x[m] = prefix_.value.y[m] = prefix_.value.z[m] = 1;
     }
     for (int m = 0; m < y_->count(); ++m)

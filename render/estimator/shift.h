@@ -156,6 +156,7 @@ private:
     const OffsetVertices* y_ = nullptr;        ///< y_i
     LaneMask active_;                          ///< those that go on
     FloatLanes apart_;                         ///< how far y_i lies from other pixels' (JoinRule)
+    FloatLanes own_width_;                     ///< of a pixel at y_i, as Tracer::width_beyond() has it
     PrefixLanes prefix_;
     FirstScatter* bounced_ = nullptr; ///< the scatter at y_1 that is done again, lane by lane; null: nobody asks
     OffsetVertices moved_;            ///< y_i beyond the first bounce

@@ -45,7 +45,8 @@ bool Shift::bounce(int i, int m) {
     Vertex& next = moved_vertices_[static_cast<std::size_t>(m)]; // perhaps y itself
     const glm::vec3 direction = y.to_world(s->to_next);
     const glm::vec3 origin = y.position;
-    const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next, RayKind::shift_bounce);
+    const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next, RayKind::shift_bounce,
+                                           tracer_.width_beyond(own_width_[m], 0, x.is_delta));
     // By a connectable step, an emitter is reached by connecting (done before); else by this very ray.
     if (!light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i))) {
         const LightPoint met =
@@ -62,6 +63,7 @@ bool Shift::bounce(int i, int m) {
         return false;
     }
     apart_[m] = rule_.apart(apart_[m], distance);
+    own_width_[m] = tracer_.width_beyond(own_width_[m], distance, x.is_delta);
     const float scale = s->jacobian / x.pdf_w;
     prefix_.ratio[m] *= s->pdf_w * scale;
     prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
@@ -80,7 +82,8 @@ void Shift::bounce_out(int i, int m) {
     keep_bounce(m, *s, x.is_delta);
     Vertex scratch;
     const LightPoint light =
-        tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce);
+        tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce,
+                            tracer_.width_beyond(own_width_[m], 0, x.is_delta));
     end_at_light(light_->hit_slot(i), m, *s, y.position, light, x.pdf_w + x.hit_pdf_w, x.is_delta);
 }
 

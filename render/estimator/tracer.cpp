@@ -71,6 +71,28 @@ float terminator_of(const Relief& relief, float cosine) {
     return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
 }
 
+/// Sets the sides of what a beam covers on the triangle: one that lies across it, and one that is the longer, the
+/// more it grazes the surface.
+void set_footprint(const TextureView::Beam& beam, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v,
+                   SurfacePoint::Footprint& footprint) {
+    constexpr float least_cosine = 1e-3f;
+    const float cosine = glm::dot(beam.direction, normal);
+    const glm::vec3 tilt = beam.direction - cosine * normal;
+    const float sine = glm::length(tilt);
+    const glm::vec3 along = sine > 1e-4f ? tilt / sine : Frame(normal).tangent;
+    const float uu = glm::dot(by_u, by_u), uv = glm::dot(by_u, by_v), vv = glm::dot(by_v, by_v);
+    const float determinant = uu * vv - uv * uv;
+    const auto in_uv = [&](glm::vec3 side) {
+        const float u = glm::dot(side, by_u), v = glm::dot(side, by_v);
+        return glm::vec2(vv * u - uv * v, uu * v - uv * u) / determinant;
+    };
+    if (!(determinant > 0))
+        return;
+    const float width = TextureView::share_of_pixel * beam.width;
+    footprint.along = in_uv(along * (width / std::max(std::abs(cosine), least_cosine)));
+    footprint.across = in_uv(glm::cross(normal, along) * width);
+}
+
 } // namespace
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
@@ -78,7 +100,8 @@ LightPoint Vertex::light_toward(glm::vec3 direction) const {
     return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
 }
 
-void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) {
+void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, const TextureView* view,
+                 float width) {
     const ShapeRecord& shape = scene.record(hit.shape);
     v.position = ray.origin + hit.distance * ray.direction;
     if (hit.distance > 8 * scene.radius()) {
@@ -105,15 +128,19 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         const float length = glm::length(n);
         normal = length > 0 ? n * (1 / length) : v.geometric_normal;
     }
-    SurfacePoint at{hit.barycentric};
+    SurfacePoint at(hit.barycentric);
     if (shape.uvs) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
         at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
     }
     if (shape.attributed) {
         at.mesh = shape.attributed;
-        at.triangle = hit.triangle;
-        at.barycentric = hit.barycentric;
+        at.on_mesh = {hit.triangle, hit.barycentric};
+    } else if (glm::vec3 by_u, by_v; view && shape.uvs && position_derivatives(shape, hit, by_u, by_v)) {
+        const bool is_own = width >= 0;
+        set_footprint(is_own ? TextureView::Beam{ray.direction, width + view->angle() * hit.distance}
+                             : view->from_camera(v.position),
+                      v.geometric_normal, by_u, by_v, at.footprint);
     }
     // In its place, as a copy of what was only just written, number by number, has to wait.
     new (&v.bsdf) Bsdf(shape.material->resolve(at));
@@ -133,7 +160,10 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v) 
         v.bsdf.unbent_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
     v.frame = frame;
-    v.emitted = shape.emission_map ? shape.emission_map->evaluate(at) : shape.emitted;
+    // What emitter sampling finds is a point, and so must be what is found by both strategies.
+    v.emitted = !shape.emission_map  ? shape.emitted
+                : view && width >= 0 ? shape.emission_map->filtered(at)
+                                     : shape.emission_map->evaluate(at);
     v.emitter_pdf_a = shape.emitter_pdf_a;
 }
 

@@ -5,6 +5,7 @@
 #include "render/sampling/sampling.h"
 #include "render/scene/light.h"
 #include "render/scene/scene.h"
+#include "render/scene/texture_view.h"
 #include "render/settings/settings.h"
 #include "render/surface/bsdf.h"
 
@@ -33,14 +34,21 @@ struct Vertex {
     LightPoint light_toward(glm::vec3 direction) const;
 };
 
+/// Whoever sees a vertex that many share, and has no width of its own (TextureView).
+inline constexpr float no_width = -1;
+
 /// Makes `vertex` the one at `hit` on `ray`. (In place: a vertex is large, and paths are made of them.)
-void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& vertex);
+/// @param view   how wide what is looked up in textures is; null: they are not filtered
+/// @param width  what a pixel that sees the hit along the ray itself has where the ray begins, or no_width
+void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& vertex,
+                 const TextureView* view = nullptr, float width = no_width);
 
 /// Shoots the rays of paths and counts them; knows the lights as emitter sampling sees them.
 struct Tracer {
     const Scene& scene;
     Counters& counters;
     PathSettings settings;
+    TextureView view{};
 
     /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
     /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
@@ -69,20 +77,35 @@ struct Tracer {
 
     float density_factor() const { return static_cast<float>(settings.light_samples); }
 
+    /// What make_vertex() wants to know of textures. Camera rays have a width of their own.
+    const TextureView* texture_view(RayKind kind) const {
+        const bool is_spared = kind == RayKind::camera && view.spares_first();
+        return view.filter() == TextureFilter::off || is_spared ? nullptr : &view;
+    }
+    float width_of(RayKind kind, float width) const {
+        return kind == RayKind::camera ? view.first_width() : width;
+    }
+    /// That of the pixel which sees what lies beyond a vertex, by that of the vertex.
+    float width_beyond(float width, float distance, bool is_delta) const {
+        const bool is_its_own = width >= 0 && is_delta && view.filter() == TextureFilter::path;
+        return is_its_own ? width + view.angle() * distance : no_width;
+    }
+
     /// Makes `vertex` what the ray meets first. False: it leaves the scene.
-    bool closest(const Ray& ray, Vertex& vertex, RayKind kind) const {
+    /// @param width  as make_vertex() has it; of camera rays it is known
+    bool closest(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width) const {
         ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return false;
-        make_vertex(scene, hit, ray, vertex);
+        make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
         return true;
     }
 
     enum class Met : std::uint8_t { light, darkness, infinity };
 
     /// Traces a ray on which only a light is of interest: `vertex` is made where it meets one.
-    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind) const {
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width) const {
         if (!scene.lights().may_be_hit(ray))
             return Met::darkness;
         ++counters.rays[static_cast<std::size_t>(kind)];
@@ -91,13 +114,13 @@ struct Tracer {
             return Met::infinity;
         if (scene.record(hit.shape).emitter_pdf_a <= 0)
             return Met::darkness;
-        make_vertex(scene, hit, ray, vertex);
+        make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
         return Met::light;
     }
 
     /// The light that a ray runs into; black: none. `scratch` is overwritten.
-    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind) const {
-        switch (closest_light(ray, scratch, kind)) {
+    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, float width = no_width) const {
+        switch (closest_light(ray, scratch, kind, width)) {
         case Met::light:
             return light_of(scratch, -ray.direction);
         case Met::infinity:

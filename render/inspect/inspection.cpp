@@ -117,7 +117,7 @@ int TileInspection::base_count() const {
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                    const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, settings);
+    Worker worker(scene, camera, size, settings);
     const CameraSample from = pass.camera_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
@@ -150,7 +150,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
                             const RenderSettings& settings, const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, settings);
+    Worker worker(scene, camera, size, settings);
     const PixelRect tile = reuses_paths(settings.method) ? pass.grid.tile_at(pixel)
                                                          : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
     TileInspection result{tile, index, settings, {}};
@@ -177,7 +177,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
     ReusePlan plan(size, settings);
     if (!settings.adapt_tile || !has_tiles_to_cut(settings) || settings.tile == 1)
         return plan;
-    Worker worker(scene, settings);
+    Worker worker(scene, camera, size, settings);
     if (plan.wants_pilot()) {
         const Pilot pilot(scene, camera, size, settings, plan);
         std::vector<PlanEvidence> found;

@@ -98,7 +98,8 @@ class Render::Workers {
 public:
     Workers(const Render& render, ThreadPool& pool, std::stop_token stop) : pool_(pool), stop_(std::move(stop)) {
         for (int i = 0; i < pool.size(); ++i)
-            all_.push_back(std::make_unique<Worker>(*render.scene_, render.settings_));
+            all_.push_back(
+                std::make_unique<Worker>(*render.scene_, render.camera_, render.size_, render.settings_));
     }
 
     /// Has `work(i, worker)` done for all i below count. False: stopped on the way.

@@ -134,7 +134,7 @@ void SceneDigest::take(const AttributeTexture& texture) {
 void SceneDigest::take(const Bitmap& bitmap) {
     const auto [known, is_new] = bitmaps_.emplace(&bitmap, 0);
     if (is_new) {
-        const auto& [width, height, srgb, bytes, floats] = bitmap;
+        const auto& [width, height, srgb, bytes, floats, mips] = bitmap;
         known->second = SceneDigest(bitmaps_).add(width, height, srgb, bytes, floats).checksum();
     }
     take(known->second);

@@ -12,11 +12,19 @@ namespace tessera {
 inline constexpr int most_edges = 64; ///< of a light path
 inline constexpr int most_tile = 16;  ///< pixels along a tile's edge
 
+/// Over what textures of reflectances, and lamps that the camera sees, are filtered.
+enum class TextureFilter : std::uint8_t {
+    off,    ///< points, as Mitsuba has it
+    camera, ///< what a pixel covers if the camera sees it
+    path    ///< the same, but in mirrors and through glass what it covers there
+};
+
 /// What decides how far base paths go and what they look for.
 struct PathSettings {
     int max_depth = 8;      ///< edges of a light path; 1: emission only
     int light_samples = 1;  ///< points on lights drawn at every vertex
     int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
+    TextureFilter filter_textures = TextureFilter::off;
 
     bool operator==(const PathSettings&) const = default;
 };

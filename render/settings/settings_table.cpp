@@ -49,6 +49,14 @@ constexpr SettingChoice join_kinds[] = {
      "glossy for one edge can be joined by another. The rest is shifted by half vectors."},
     {"threshold", "by threshold", "All that are rougher than the shift threshold [Kettunen 2015]."},
 };
+constexpr SettingChoice texture_filters[] = {
+    {"off", "off", "Points of textures are looked up, as in Mitsuba."},
+    {"camera", "by camera",
+     "Means of what a pixel covers, wherever the camera sees it, or would see it: less noise at a few samples, "
+     "where "
+     "much of a texture is in a pixel. Softer by less than a pixel."},
+    {"path", "by path", "The same, but in mirrors and through glass what a pixel covers there [Suykens 2001]."},
+};
 constexpr SettingChoice roulette_kinds[] = {
     {"relative", "relative", "Against the noise of the tile: the unit of light does not matter."},
     {"absolute", "absolute", "Against RR delta, a radiance [Bauszat 2017, 3.3]."},
@@ -209,6 +217,9 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          Setting::Real{&s.shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
         {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
          Setting::Whole{&s.max_depth, 1, most_edges}},
+        {"filter_textures", "Filter textures",
+         "What of a texture a path looks up: colours of surfaces, and of lamps that the camera sees.",
+         one_of(texture_filters, s.filter_textures), true, true},
         {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
          Setting::Whole{&s.light_samples, 1, 16}, true, true},
         {"very_direct_grid", "Lamp grid",

@@ -71,7 +71,7 @@ DeltaValue Coated::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const 
     const Inside previous = enter(to_previous, material->eta);
     const float specular = specular_probability(*this, previous.transmittance);
     DeltaValue sum{reflect(to_previous),
-                   material->specular_reflectance.evaluate(at) * (1 - previous.transmittance), specular};
+                   material->specular_reflectance.filtered(at) * (1 - previous.transmittance), specular};
     if (!(previous.transmittance > 0))
         return sum;
     // A mirror at the base sends light the same way as that on top.
@@ -119,7 +119,7 @@ Rgb Coated::albedo(glm::vec3 to_previous) const {
     const float in = previous.transmittance, z = previous.direction.z;
     const Rgb below =
         in > 0 ? material->base->resolve(at).albedo(previous.direction) * absorption(*this, z, z) : Rgb(0);
-    return (1 - in) * material->specular_reflectance.evaluate(at) + in * below;
+    return (1 - in) * material->specular_reflectance.filtered(at) + in * below;
 }
 
 float Coated::roughness() const {

@@ -12,7 +12,7 @@ namespace {
 /// A texture of shares of light. Above 1, which only files of floats and scaled textures are, it makes energy, as
 /// in Mitsuba 3.
 Rgb share(const Texture& texture, const SurfacePoint& at) {
-    return glm::max(texture.evaluate(at), 0.0f);
+    return glm::max(texture.filtered(at), 0.0f);
 }
 
 Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
@@ -90,7 +90,8 @@ Bsdf resolve(const DiffuseTransmitterMaterial& m, const SurfacePoint& at) {
 }
 
 Bsdf resolve(const MediumLayerMaterial& m, const SurfacePoint& at) {
-    Rgb scattered = share(m.scattered, at), lost = share(m.lost, at); // of sigma_t the first is a part in any case
+    // Of sigma_t the first is a part in any case.
+    Rgb scattered = glm::max(m.scattered.evaluate(at), 0.0f), lost = glm::max(m.lost.evaluate(at), 0.0f);
     if (m.by_share)
         scattered = glm::min(scattered, 1.0f) * lost;
     else

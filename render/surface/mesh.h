@@ -24,8 +24,23 @@ struct Mesh;
 struct SurfacePoint {
     glm::vec2 uv{0};
     const Mesh* mesh = nullptr; ///< null: it has no attributes, or nothing looks them up
-    std::uint32_t triangle = 0;
-    glm::vec2 barycentric{0}; ///< weights of the second and third corner
+
+    /// The sides of a parallelogram about uv, over which Texture::filtered() takes the mean; 0: it is a point.
+    struct Footprint {
+        glm::vec2 along{0}, across{0};
+    };
+    struct OnMesh {
+        std::uint32_t triangle;
+        glm::vec2 barycentric; ///< weights of the second and third corner
+    };
+    /// Some BSDFs hold a point, and all have little room: with a mesh it is on_mesh, without one footprint.
+    union {
+        Footprint footprint{};
+        OnMesh on_mesh;
+    };
+
+    SurfacePoint() = default;
+    SurfacePoint(glm::vec2 uv_) : uv(uv_) {}
 
     /// An attribute of the mesh, interpolated between vertices; white where there is none of that name.
     Rgb attribute(std::string_view name) const;
@@ -109,13 +124,12 @@ inline glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 t) {
 inline SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::vec2 barycentric) {
     const glm::uvec3 t = mesh.triangles[triangle];
     const float first = 1 - barycentric.x - barycentric.y;
-    SurfacePoint at{barycentric};
+    SurfacePoint at(barycentric);
     if (!mesh.uvs.empty())
         at.uv = first * mesh.uvs[t.x] + barycentric.x * mesh.uvs[t.y] + barycentric.y * mesh.uvs[t.z];
     if (!mesh.attributes.empty()) {
         at.mesh = &mesh;
-        at.triangle = static_cast<std::uint32_t>(triangle);
-        at.barycentric = barycentric;
+        at.on_mesh = {static_cast<std::uint32_t>(triangle), barycentric};
     }
     return at;
 }

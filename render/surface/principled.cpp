@@ -46,7 +46,7 @@ struct Base {
     float coat;         ///< factor on the clear coat
 
     explicit Base(const Principled& p)
-        : color(p.material->base_color.evaluate(p.at)),
+        : color(p.material->base_color.filtered(p.at)),
           facets(facets_of(p.material->roughness.scalar(p.at), p.material->anisotropic.scalar(p.at))),
           metallic(p.material->metallic.scalar(p.at)) {
         const float spec_trans = p.material->spec_trans.scalar(p.at);

@@ -1,5 +1,7 @@
 #include "render/surface/texture.h"
 
+#include "render/surface/texture_lookup.h"
+
 #include <array>
 #include <cmath>
 
@@ -15,8 +17,9 @@ Rgb SurfacePoint::attribute(std::string_view name) const {
         return Rgb(1);
     const auto value = [&](std::size_t i) { return found->values[i]; };
     if (found->is_of_faces())
-        return value(triangle);
-    const glm::uvec3 t = mesh->triangles[triangle];
+        return value(on_mesh.triangle);
+    const glm::uvec3 t = mesh->triangles[on_mesh.triangle];
+    const glm::vec2 barycentric = on_mesh.barycentric;
     const float first = 1 - barycentric.x - barycentric.y;
     return first * value(t.x) + barycentric.x * value(t.y) + barycentric.y * value(t.z);
 }
@@ -32,64 +35,6 @@ const std::array<float, 256> linear_of_srgb = [] {
     return table;
 }();
 
-/// Brings a coordinate into [0, 1]; one that is not finite becomes 0.
-float wrap(float t, Wrap mode) {
-    switch (mode) {
-    case Wrap::repeat:
-        t -= std::floor(t);
-        break;
-    case Wrap::mirror:
-        t -= 2 * std::floor(t / 2);
-        t = t > 1 ? 2 - t : t;
-        break;
-    case Wrap::clamp:
-        t = glm::clamp(t, 0.0f, 1.0f);
-        break;
-    }
-    return t >= 0 && t <= 1 ? t : 0.0f;
-}
-
-/// The pixel that stands for one just beyond the edge.
-int wrap(int i, int size, Wrap mode) {
-    if (i < 0)
-        return mode == Wrap::repeat ? size - 1 : 0;
-    if (i >= size)
-        return mode == Wrap::repeat ? 0 : size - 1;
-    return i;
-}
-
-Rgb nearest(const Bitmap& bitmap, glm::vec2 uv) {
-    const int x = static_cast<int>(uv.x * static_cast<float>(bitmap.width));
-    const int y = static_cast<int>(uv.y * static_cast<float>(bitmap.height));
-    return bitmap.texel(glm::min(x, bitmap.width - 1), glm::min(y, bitmap.height - 1));
-}
-
-/// The four pixels around uv and how far it is from the upper left one; pixels count at their centres, (i + 1/2) /
-/// size.
-struct Corners {
-    Rgb upper_left, upper_right, lower_left, lower_right;
-    float right, down; // in [0, 1)
-};
-
-Corners corners(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
-    const float x = uv.x * static_cast<float>(bitmap.width) - 0.5f;
-    const float y = uv.y * static_cast<float>(bitmap.height) - 0.5f;
-    const float left = std::floor(x);
-    const float top = std::floor(y);
-    const int x0 = wrap(static_cast<int>(left), bitmap.width, mode);
-    const int x1 = wrap(static_cast<int>(left) + 1, bitmap.width, mode);
-    const int y0 = wrap(static_cast<int>(top), bitmap.height, mode);
-    const int y1 = wrap(static_cast<int>(top) + 1, bitmap.height, mode);
-    return {
-        bitmap.texel(x0, y0), bitmap.texel(x1, y0), bitmap.texel(x0, y1), bitmap.texel(x1, y1), x - left, y - top};
-}
-
-Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
-    const Corners c = corners(bitmap, uv, mode);
-    return glm::mix(glm::mix(c.upper_left, c.upper_right, c.right), glm::mix(c.lower_left, c.lower_right, c.right),
-                    c.down);
-}
-
 /// Derivative of bilinear()'s luminance by u and v.
 glm::vec2 bilinear_gradient(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     const Corners c = corners(bitmap, uv, mode);
@@ -97,12 +42,6 @@ glm::vec2 bilinear_gradient(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     const Rgb by_y = glm::mix(c.lower_left - c.upper_left, c.lower_right - c.upper_right, c.right);
     return {luminance(by_x) * static_cast<float>(bitmap.width),
             luminance(by_y) * static_cast<float>(bitmap.height)};
-}
-
-Rgb look_up(const BitmapTexture& texture, glm::vec2 uv) {
-    const Bitmap& bitmap = *texture.bitmap;
-    uv = {wrap(uv.x, texture.wrap), wrap(uv.y, texture.wrap)};
-    return texture.filter == Filter::nearest ? nearest(bitmap, uv) : bilinear(bitmap, uv, texture.wrap);
 }
 
 Rgb look_up(const CheckerboardTexture& texture, glm::vec2 uv) {

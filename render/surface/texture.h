@@ -14,6 +14,22 @@
 
 namespace tessera {
 
+struct Bitmap;
+
+/// Smaller and smaller copies of a bitmap, down to a pixel; made when they are first asked for, by any thread, and
+/// shared by copies.
+class MipLevels {
+public:
+    /// Each half the size of the one before, the first of `bitmap`: means of its pixels, linear. None: the bitmap
+    /// has but one colour, or one pixel.
+    const std::vector<Bitmap>& of(const Bitmap& bitmap) const;
+
+private:
+    struct Made;
+    std::shared_ptr<Made> made_ = make();
+    static std::shared_ptr<Made> make();
+};
+
 /// An image as it came from the file; bytes stay bytes, so that a texture takes no more memory than it must.
 struct Bitmap {
     int width = 0;
@@ -21,6 +37,7 @@ struct Bitmap {
     bool srgb = true;                ///< bytes are sRGB encoded; else they are linear
     std::vector<std::uint8_t> bytes; ///< 3 a pixel, rows from the top; empty when `floats` is used
     std::vector<Rgb> floats;         ///< linear; empty when `bytes` is used
+    MipLevels mips{};                ///< what Texture::filtered() has made of it
 
     /// Linear colour of a pixel inside the image.
     Rgb texel(int x, int y) const;
@@ -57,6 +74,11 @@ struct Texture {
     Texture(Rgb constant) : kind(constant) {}
 
     Rgb evaluate(const SurfacePoint& at) const;
+
+    /// About its mean over the footprint of `at`, for what a picture is linear in, such as reflectances; the same
+    /// as evaluate() where the footprint is a point, or smaller than a pixel of a bitmap, and where there is but
+    /// one colour. Where attributes of a mesh are looked up nothing is filtered.
+    Rgb filtered(const SurfacePoint& at) const;
 
     /// Its luminance; quick where it is constant, and then the red channel: it is grey.
     float scalar(const SurfacePoint& at) const {

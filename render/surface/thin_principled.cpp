@@ -21,7 +21,7 @@ struct Sheet {
     float roughness, anisotropic;
 
     explicit Sheet(const ThinPrincipled& p)
-        : color(p.material->base_color.evaluate(p.at)), eta(p.material->eta.scalar(p.at)),
+        : color(p.material->base_color.filtered(p.at)), eta(p.material->eta.scalar(p.at)),
           specular(p.material->spec_trans.scalar(p.at)), transmission(0.5f * p.material->diff_trans.scalar(p.at)),
           roughness(p.material->roughness.scalar(p.at)), anisotropic(p.material->anisotropic.scalar(p.at)) {}
 

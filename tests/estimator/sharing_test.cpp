@@ -37,9 +37,12 @@ struct Tally {
 
 class Sharing {
 public:
-    Sharing(const TestScene& t, ShiftSettings settings, int light_samples, int roulette_depth)
-        : scene_(*t.scene),
-          settings_(settings), tracer_{scene_, counters_, {t.max_depth, light_samples, roulette_depth}},
+    Sharing(const TestScene& t, ShiftSettings settings, int light_samples, int roulette_depth,
+            TextureFilter filter)
+        : scene_(*t.scene), settings_(settings), tracer_{scene_,
+                                                         counters_,
+                                                         {t.max_depth, light_samples, roulette_depth, filter},
+                                                         {filter, false, scene_.camera(), size}},
           reuse_(tracer_, settings_, 0) {}
 
     Tally run(int sets) {
@@ -142,12 +145,13 @@ class Shares : public testing::TestWithParam<TestScene> {
 protected:
     /// Floats cannot tell the length of the shortest edges, in corners, to 1e-3, nor a direction to what a narrow
     /// lobe makes of it, nor on which side of a triangle's border a ray passes.
-    static void judge(ShiftSettings s, int light_samples, int roulette_depth) {
+    static void judge(ShiftSettings s, int light_samples, int roulette_depth,
+                      TextureFilter filter = TextureFilter::off) {
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
                      std::to_string(s.shift_distance) + ", join " + std::to_string(static_cast<int>(s.join)) +
                      ", light samples " + std::to_string(light_samples));
-        const Tally t = Sharing(GetParam(), s, light_samples, roulette_depth).run(40);
+        const Tally t = Sharing(GetParam(), s, light_samples, roulette_depth, filter).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.apart, 0.001 * t.shared);
@@ -164,7 +168,7 @@ TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
         judge({kind, 0, 0, JoinKind::threshold}, 1, 0);
         judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 3, 2);
-        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 2, 0);
+        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 2, 0, TextureFilter::path);
     }
 }
 

@@ -38,6 +38,7 @@ public:
         path_.reset(base_.random, base_.light_samples());
         path_.pixel_width = other.pixel_width;
         path_.pixel_angle = other.pixel_angle;
+        path_.own_width = other.pixel_width;
         keep(other[0].vertex);
         const int steps = end_.vertex + (end_.is_hit || end_.is_tail);
         for (int i = 0; i < steps; ++i)
@@ -109,8 +110,11 @@ private:
         y.pdf_w = s->pdf_w;
         const glm::vec3 direction = y.vertex.to_world(s->to_next);
         Vertex next;
-        if (!tracer_.closest(tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce))
+        if (!tracer_.closest(tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce,
+                             tracer_.width_beyond(path_.own_width, 0, y.is_delta)))
             return ends_by_hit(i) && escape(y, direction);
+        path_.own_width =
+            tracer_.width_beyond(path_.own_width, glm::distance(y.vertex.position, next.position), y.is_delta);
         return arrive(i, next, direction);
     }
 
@@ -234,7 +238,7 @@ std::optional<BasePath> shifted(const Tracer& tracer, const ShiftSettings& setti
     LightPaths light;
     light.reset(base, settings);
     BasePath path;
-    replay_base_path(tracer, other[0].vertex, base.random, light.vertex_of(slot) + 1, path);
+    replay_base_path(tracer, other, base.random, light.vertex_of(slot) + 1, path);
     LightPaths own;
     own.reset(path, settings);
     if (!own.is_alive(slot))
