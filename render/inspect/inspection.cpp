@@ -6,6 +6,7 @@
 #include "render/inspect/onlooker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -66,6 +67,19 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
         }
     }
     return false;
+}
+
+/// Finds what the vertices of the path stand for.
+void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from, const Worker& worker,
+                    std::vector<InspectedVertex>& path) {
+    const PathDifferentials differentials =
+        differentiate(worker.tracer, pass.projection(), glm::vec2(pixel) + from.subpixel, from.lens, worker.path);
+    const DeltaRule rule{std::max(pass.index + 1.0, 1.0), true, DeltaRule::published_change};
+    for (int i = 0; i < static_cast<int>(differentials.vertices.size()); ++i) {
+        InspectedVertex& x = path[static_cast<std::size_t>(i)];
+        x.footprint = footprint(differentials, i, rule);
+        x.footprint_width = std::sqrt(scalar_area(differentials, i, rule));
+    }
 }
 
 } // namespace
@@ -129,6 +143,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
                         worker.path);
         if (number == 0) {
             result.path = inspect_path(worker.path);
+            add_footprints(pass, pixel, from, worker, result.path);
             result.radiance = worker.path.radiance();
         }
         result.very_direct += worker.path.very_direct / static_cast<float>(paths);

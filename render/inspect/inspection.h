@@ -3,6 +3,7 @@
 #include "render/film/counters.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/shift_onlooker.h"
+#include "render/inspect/path_differentials.h"
 #include "render/settings/settings.h"
 
 #include <stop_token>
@@ -37,6 +38,10 @@ struct InspectedVertex : SeenVertex {
     Rgb sampled;                         ///< direct light by emitter sampling, with its MIS weight
     Rgb hit;                             ///< direct light by BSDF sampling, with its MIS weight
     std::vector<glm::vec3> light_points; ///< on surfaces, those that bring light
+    /// What the path stands for there, as one of the samples so far; a point: not known, or none of this pixel's
+    /// own.
+    Footprint footprint{};
+    float footprint_width = 0; ///< about the same by the scalar form: side of a square, units of the scene
 };
 
 /// One vertex of a light path that was shifted, in the numbers that the shift calculated with. The base path's own

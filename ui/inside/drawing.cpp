@@ -140,7 +140,8 @@ ImVec2 SceneLines::on_screen(glm::vec4 projected) const {
 
 namespace {
 
-constexpr ImU32 base_colour = IM_COL32(255, 255, 255, 255), light_colour = IM_COL32(255, 226, 92, 200);
+constexpr ImU32 base_colour = IM_COL32(255, 255, 255, 255), light_colour = IM_COL32(255, 226, 92, 200),
+                footprint_colour = IM_COL32(226, 130, 255, 230);
 constexpr ImU32 untried_colour = IM_COL32(150, 150, 150, 255);
 
 /// `share` of the light decides how plain it is.
@@ -177,8 +178,22 @@ void draw_shifts(const SceneLines& lines, const std::vector<const InspectedShift
         draw_shift(lines, *shifts[static_cast<std::size_t>(marked)], 1, true);
 }
 
+namespace {
+
+void draw_footprint(const SceneLines& lines, glm::vec3 middle, const Footprint& f, float width) {
+    const glm::vec3 to_corner[] = {f.a + f.b, f.b - f.a, -f.a - f.b, f.a - f.b};
+    for (int i = 0; i < 4; ++i)
+        lines.outlined_line(middle + 0.5f * to_corner[i], middle + 0.5f * to_corner[(i + 1) % 4], footprint_colour,
+                            width);
+}
+
+} // namespace
+
 void draw_base_path(const SceneLines& lines, const std::vector<InspectedVertex>& path, float far) {
     const float font = ImGui::GetFontSize();
+    for (const InspectedVertex& x : path)
+        if (x.footprint.area() > 0)
+            draw_footprint(lines, x.position, x.footprint, font * 0.08f);
     for (const InspectedVertex& x : path)
         for (glm::vec3 light : x.light_points) {
             lines.line(x.position, light, light_colour, font * 0.09f);

@@ -77,7 +77,7 @@ ImU32 outcome_colour(const InspectedShift& shift);
 /// @param marked  the one that stands out; -1: none does
 void draw_shifts(const SceneLines& lines, const std::vector<const InspectedShift*>& shifts, int marked);
 
-/// Draws a base path in white with its vertices' names, and its light samples in yellow.
+/// Draws a base path in white with its vertices' names, its light samples in yellow, and its footprints in violet.
 /// @param far  how long a way to infinity is drawn, units of the scene
 void draw_base_path(const SceneLines& lines, const std::vector<InspectedVertex>& path, float far);
 
