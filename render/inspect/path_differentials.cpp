@@ -2,11 +2,11 @@
 
 #include "render/estimator/base_path.h"
 
-#include <glm/common.hpp>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tessera {
@@ -78,7 +78,8 @@ public:
             return {};
         const glm::vec3 d = ray_.direction, n = path_[i].vertex.geometric_normal;
         const float t = hit_.distance, cosine = glm::dot(d, n);
-        PathDifferentials::Vertex x{n, {}, gradient_, survival_, t, std::abs(cosine), scatter_angle_};
+        PathDifferentials::Vertex x{
+            n, {}, gradient_, survival_, t, std::abs(cosine), cosine_before_, kept_angle_, scatter_angle_};
         for (std::size_t j = 0; j < origin_.size(); ++j) {
             const glm::vec3 moved = origin_[j] + t * direction_[j];
             origin_[j] = moved - glm::dot(moved, n) / cosine * d; // the plane is met earlier or later
@@ -116,6 +117,8 @@ public:
                        origin_.size() - 1);
             }
         ray_ = tracer_.leave(x.vertex, x.vertex.to_world(x.to_next));
+        cosine_before_ = std::abs(glm::dot(ray_.direction, x.vertex.geometric_normal));
+        kept_angle_ = x.is_delta ? 1 : 1 - std::min(x.vertex.bsdf.roughness(), 1.0f);
         scatter_angle_ = x.is_delta ? 0 : std::sqrt(1 / x.pdf_w);
         survival_ *= double(x.survival);
         return true;
@@ -144,7 +147,7 @@ private:
     std::vector<glm::vec3> origin_, direction_; // derivatives by each number
     std::vector<float> gradient_;
     double survival_ = 1;
-    float scatter_angle_ = 0;
+    float scatter_angle_ = 0, cosine_before_ = 1, kept_angle_ = 1;
     Vertex moved_;
 };
 
@@ -185,12 +188,16 @@ float Footprint::area() const {
     return glm::length(glm::cross(a, b));
 }
 
-Footprint footprint(const PathDifferentials& path, int i, const DeltaRule& rule) {
+std::vector<glm::vec3> differential_vectors(const PathDifferentials& path, int i, const DeltaRule& rule) {
     const PathDifferentials::Vertex& x = path.vertices[static_cast<std::size_t>(i)];
     std::vector<glm::vec3> segments;
     for (std::size_t j = 0; j < x.position.size(); ++j)
         segments.push_back(delta(x, j, rule) * x.position[j]);
-    return reduce(segments, x.normal);
+    return segments;
+}
+
+Footprint footprint(const PathDifferentials& path, int i, const DeltaRule& rule) {
+    return reduce(differential_vectors(path, i, rule), path.vertices[static_cast<std::size_t>(i)].normal);
 }
 
 Footprint reduce(const std::vector<glm::vec3>& segments, glm::vec3 normal) {
@@ -225,8 +232,9 @@ float scalar_area(const PathDifferentials& path, int i, const DeltaRule& rule) {
     float width = of_pixel * path.pixel.least, angle = of_pixel * path.pixel.angle;
     for (int k = 0; k <= i; ++k) {
         const PathDifferentials::Vertex& x = path.vertices[static_cast<std::size_t>(k)];
-        angle += of_scatters * x.scatter_angle;
-        width = (width + angle * x.distance) / std::sqrt(x.cosine); // a square of the same area on the surface
+        angle = x.kept_angle * angle + of_scatters * x.scatter_angle;
+        // Squares of the same area: across the way from the vertex before, and on the surface.
+        width = (width * std::sqrt(x.cosine_before) + angle * x.distance) / std::sqrt(x.cosine);
     }
     return width * width;
 }

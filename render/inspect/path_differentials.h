@@ -28,6 +28,9 @@ struct PathDifferentials {
         // For the scalar form.
         float distance;      ///< from the vertex before, or the camera
         float cosine;        ///< to the normal, absolute
+        float cosine_before; ///< of the same way to the normal of the vertex before; 1: there is none
+        float kept_angle; ///< share of the angle before that a scatter keeps: 1 of a mirror's, none of a diffuse
+                          ///< one's
         float scatter_angle; ///< root of 1 / pdf_w with which it was sent here, radians; 0: the camera, or a delta
     };
     std::vector<Vertex> vertices;
@@ -58,7 +61,11 @@ struct Footprint {
     float area() const;
 };
 
-/// Of vertex i, counted from 0.
+/// How far vertex i, counted from 0, goes within the part of each number that the path stands for: units of the
+/// scene.
+std::vector<glm::vec3> differential_vectors(const PathDifferentials& path, int i, const DeltaRule& rule);
+
+/// Of vertex i.
 Footprint footprint(const PathDifferentials& path, int i, const DeltaRule& rule);
 
 /// The Minkowski sum of segments, the sides of a polygon: reduced to two vectors [Suykens 2001, 3.5].

@@ -1,5 +1,5 @@
-// Areas of footprints of a scene's base paths: scalar form over full path differentials, by vertex; and what the
-// latter take beside tracing the paths.
+// Areas of footprints of a scene's base paths: the scalar form, and the parallelogram of two vectors, over the
+// sums of all differential vectors, by vertex; and what the latter take beside tracing the paths.
 #include "render/estimator/base_path.h"
 #include "render/inspect/path_differentials.h"
 #include "render/load/mitsuba_xml.h"
@@ -31,7 +31,7 @@ void measure(const Scene& scene, double samples) {
     Counters counters;
     const Tracer tracer{scene, counters, {6, 1, 0}};
     const Projection projection(scene.camera(), size);
-    std::vector<float> ratios[most_vertices];
+    std::vector<float> ratios[most_vertices], reduced[most_vertices];
     double tracing = 0, differentiating = 0;
     const DeltaRule rule{samples};
     for (std::uint32_t i = 0; i < 20000; ++i) {
@@ -45,15 +45,21 @@ void measure(const Scene& scene, double samples) {
         differentiating += cpu_seconds() - traced;
         tracing += traced - begin;
         for (int v = 0; v < std::min(most_vertices, static_cast<int>(d.vertices.size())); ++v)
-            if (const float full = footprint(d, v, rule).area(); full > 0)
+            if (const float full =
+                    area_of_sum(differential_vectors(d, v, rule), d.vertices[static_cast<std::size_t>(v)].normal);
+                full > 0) {
                 ratios[v].push_back(scalar_area(d, v, rule) / full);
+                reduced[v].push_back(footprint(d, v, rule).area() / full);
+            }
     }
     for (int v = 0; v < most_vertices; ++v) {
         std::sort(ratios[v].begin(), ratios[v].end());
+        std::sort(reduced[v].begin(), reduced[v].end());
         if (!ratios[v].empty())
-            fmt::print("x{}: {} paths, scalar / full: 10 % {:.2f}, median {:.2f}, 90 % {:.2f}\n", v + 1,
-                       ratios[v].size(), quantile(ratios[v], 0.1), quantile(ratios[v], 0.5),
-                       quantile(ratios[v], 0.9));
+            fmt::print("x{}: {} paths, scalar / full: 10 % {:.2f}, median {:.2f}, 90 % {:.2f}; parallelogram / "
+                       "full: median {:.2f}\n",
+                       v + 1, ratios[v].size(), quantile(ratios[v], 0.1), quantile(ratios[v], 0.5),
+                       quantile(ratios[v], 0.9), quantile(reduced[v], 0.5));
     }
     fmt::print("full differentials take {:.2f} of the paths' time\n", differentiating / tracing);
 }

@@ -96,20 +96,6 @@ std::shared_ptr<const Scene> grazing() {
     return r.build();
 }
 
-/// Small squares seen directly, in a mirror, through glass, and by metal.
-std::shared_ptr<const Scene> squares_in_mirrors() {
-    Room r;
-    DiffuseMaterial checker;
-    checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.2f, 0.1f), Rgb(0.1f, 0.3f, 0.8f)};
-    checker.reflectance.to_uv = glm::mat3(40, 0, 0, 0, 40, 0, 0, 0, 1);
-    const int squares = r.material({"squares", checker});
-    r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, squares);
-    r.quad({-0.9f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.mirror());
-    r.quad({0.1f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.conductor(0.05f));
-    r.quad({-0.5f, -0.8f, 0.3f}, {0.6f, 0, 0}, {0, 0.6f, 0}, r.glass(1.5f, true));
-    return r.build();
-}
-
 /// Mirror, glass, glossy and diffuse side by side within every tile.
 std::shared_ptr<const Scene> patchwork() {
     Room r;
@@ -287,7 +273,6 @@ std::vector<TestScene> all_test_scenes() {
         {"texture_edges", texture_edges(), 4},
         {"black_texels", black_texels(), 4},
         {"grazing", grazing(), 4},
-        {"squares_in_mirrors", squares_in_mirrors(), 5},
         {"patchwork", patchwork(), 5, 0.001f, 5},
         {"patchwork_half_vectors", patchwork(), 5, 0.1f, 5},
         {"glossy_second_vertex", glossy_second_vertex(), 3, 0.1f, 4},
