@@ -214,6 +214,12 @@ RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const
                           const SolveWatch& watch) {
     const int width = picture.image.width(), height = picture.image.height();
     const auto albedo = [&](std::size_t i) { return glm::max(guides.albedo.data()[i], Rgb(least_albedo)); };
+    const auto can_be_squared = [](Rgb c) {
+        constexpr float most = 1e28f;
+        return std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most;
+    };
+    if (!std::ranges::all_of(picture.image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
+        return std::move(picture.image);
     double light = 0;
     for (std::size_t i = 0; i < picture.image.size(); ++i) {
         picture.image.data()[i] /= albedo(i);
@@ -222,7 +228,7 @@ RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const
     }
     const float least =
         light > 0 ? dark * static_cast<float>(light / static_cast<double>(picture.image.size())) : 1.0f;
-    if (!std::isfinite(least) || least < std::numeric_limits<float>::min()) { // no numbers to smooth by
+    if (least < std::numeric_limits<float>::min()) { // as good as black
         for (std::size_t i = 0; i < picture.image.size(); ++i)
             picture.image.data()[i] *= albedo(i);
         return std::move(picture.image);

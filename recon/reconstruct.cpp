@@ -354,7 +354,9 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
     RgbImage held;
-    const bool limits = settings.spikes == Spikes::consistent && can_limit(images);
+    // The denoiser has learnt what samples look like, spikes among them.
+    const bool takes_samples = settings.norm == Norm::oidn && !images.has_gradients();
+    const bool limits = settings.spikes == Spikes::consistent && can_limit(images) && !takes_samples;
     const GradientImages limited_images = limits ? limited(images, held, parallel_for) : GradientImages();
     const GradientImages& counted = limits ? limited_images : images;
     Reconstruction result = picture_of(counted, settings, parallel_for, watch);

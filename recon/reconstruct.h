@@ -29,9 +29,10 @@ int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& 
 /// (average_neighbours; alpha does not matter). weighted: L2, where gradients count the less the noisier they are
 /// (weights_of_gradients). guided: weighted, then smoothed where pixels look alike as far as two halves of the
 /// samples disagree (recon/guided.h). smoothed: the primal, smoothed so. oidn: weighted, then what Open Image
-/// Denoise makes of it (recon/oidn.h). Without gradients, these last two smooth the primal, and all others are
-/// none. All but oidn and l1 keep the primal's mean (with parts: nearly), until what l1, mixed, weighted
-/// and these leave below black is lifted to it, unless the primal is below, too.
+/// Denoise makes of it (recon/oidn.h). Without gradients, these last two smooth the primal (oidn as it was
+/// sampled, spikes in full), and all others are none. All but oidn and l1 keep the primal's mean (with parts:
+/// nearly), until what l1, mixed, weighted and these leave below black is lifted to it, unless the primal is
+/// below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn };
 
 /// All of them, in the order above.

@@ -81,7 +81,7 @@ TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
     const Outcome o = stability(options);
     ASSERT_EQ(o.exit_code, 0) << o.output;
     const std::string csv = text("out/stability.csv"), page = text("out/stability.md");
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (2 + 2 * 5)) << "two methods with five norms";
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (2 + 2 * 6)) << "two methods with six norms";
     EXPECT_THAT(csv, HasSubstr(",tone_mapped,tenfold,halo_energy,halo_peak,bad_pixels,"));
     EXPECT_THAT(csv, HasSubstr("\nno-light,pt,none,ok,"));
     EXPECT_THAT(csv, HasSubstr("\nno-light,gpr,weighted,ok,"));

@@ -198,9 +198,10 @@ TEST(Guided, NothingIsBelowBlack) {
 TEST(Guided, TakesAnyPicture) {
     const auto smooth = [](Rgb value, int w, int h) {
         const RgbImage image(w, h, value);
-        return smooth_by_guides({image, image}, {image, image, Image<float>(w, h)}, serial_for);
+        return smooth_by_guides({image, image}, {RgbImage(w, h, Rgb(0.5f)), RgbImage(w, h), Image<float>(w, h)},
+                                serial_for);
     };
-    for (const float value : {0.0f, 3e-39f, 1e-10f, 1.0f, 1e30f, 3e38f})
+    for (const float value : {0.0f, 3e-39f, 1e-10f, 1.0f, 1e30f, 1e38f, 3e38f})
         for (const auto& [w, h] : {std::pair{1, 1}, {1, 7}, {9, 1}, {10, 10}})
             for (Rgb c : smooth(Rgb(value), w, h))
                 ASSERT_TRUE(is_finite(c)) << value << " " << w << "x" << h;
