@@ -12,7 +12,6 @@ namespace tessera {
 
 namespace {
 
-constexpr float reach = 2;                    // bounds in standard errors
 constexpr int variance_radius = 2;            // of the squares of pixels whose variances are asked
 constexpr int lit_radius = 6;                 // and of those that are asked for any light: wider than a tile
 constexpr float least_lit = 0.5f;             // share of them
@@ -54,7 +53,7 @@ bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for) {
+RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for, float reach) {
     const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
     const Image<float> lit = lit_shares(images.radiance(), parallel_for);
     RgbImage bounds = images.primal;

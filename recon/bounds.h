@@ -24,9 +24,10 @@ namespace tessera {
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// P + 2 s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes,
+/// P + reach s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes,
 /// or the mean of its samples where that is more.
-RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
+/// @param reach  how many standard errors they are above P
+RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for, float reach = 2);
 
 /// Takes what is above the bounds from the image, and returns it.
 RgbImage take_excess(const RgbImage& bounds, RgbImage& image);

@@ -194,6 +194,28 @@ TEST(Guided, NothingIsBelowBlack) {
         ASSERT_GE(std::min({c.r, c.g, c.b}), 0);
 }
 
+/// A bar that is dark, and whose samples know it, before a bright sky of much noise: no guide shows it, and it
+/// stays.
+TEST(Guided, WhatIsSurelyDarkStaysDark) {
+    GradientImages images;
+    images.primal = plus(RgbImage(width, height, Rgb(1)), noise_in_tiles(3, 0.3f));
+    images.halves.primal = noise_in_tiles(4, 0.3f);
+    images.primal_variance = Image<float>(width, height, 3 * 0.09f);
+    images.guides = even_guides();
+    images.patch = 6;
+    for (int y = 0; y < height; ++y)
+        for (int x = 46; x < 49; ++x) {
+            images.primal(x, y) = Rgb(0.01f);
+            images.halves.primal(x, y) = Rgb(1e-4f);
+            images.primal_variance(x, y) = 3e-8f;
+        }
+    const RgbImage picture = reconstruct(images, {Norm::smoothed}).image;
+    for (int y = 0; y < height; ++y)
+        ASSERT_LT(picture(47, y).g, 0.02f);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(mean_color(picture)[c], mean_color(images.primal)[c], 0.01);
+}
+
 /// Of black, of one pixel, and of numbers that are hardly any more.
 TEST(Guided, TakesAnyPicture) {
     const auto smooth = [](Rgb value, int w, int h) {
