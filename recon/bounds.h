@@ -24,8 +24,8 @@ namespace tessera {
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// P + reach s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal makes,
-/// or the mean of its samples where that is more.
+/// P + reach s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal
+/// makes, or the mean of its samples where that is more.
 /// @param reach  how many standard errors they are above P
 RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for, float reach = 2);
 

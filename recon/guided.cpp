@@ -34,20 +34,30 @@ using Plane = Image<float>;
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = std::array<Plane, 6>;
 
-Planes planes_of(const NoisyPicture& picture) {
-    Planes planes;
-    for (std::size_t c = 0; c < planes.size(); ++c) {
-        const RgbImage& image = c < 3 ? picture.image : picture.noise;
-        planes[c] = Plane(image.width(), image.height());
-        std::transform(image.begin(), image.end(), planes[c].begin(),
-                       [c](Rgb value) { return value[static_cast<int>(c % 3)]; });
-    }
-    return planes;
-}
-
 Planes empty_planes(int width, int height) {
     Planes planes;
     planes.fill(Plane(width, height));
+    return planes;
+}
+
+Rgb albedo_of(const GuideImages& guides, std::size_t i) {
+    return glm::max(guides.albedo.data()[i], Rgb(least_albedo));
+}
+
+/// The light: radiance over what is seen takes of it.
+Planes light_of(const NoisyPicture& picture, const GuideImages& guides, const ParallelFor& parallel_for) {
+    const int width = picture.image.width(), height = picture.image.height();
+    Planes planes = empty_planes(width, height);
+    parallel_for(height, [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
+            const Rgb albedo = albedo_of(guides, i);
+            for (std::size_t c = 0; c < planes.size(); ++c) {
+                const RgbImage& image = c < 3 ? picture.image : picture.noise;
+                const auto channel = static_cast<int>(c % 3);
+                planes[c].data()[i] = image.data()[i][channel] / albedo[channel];
+            }
+        }
+    });
     return planes;
 }
 
@@ -55,7 +65,7 @@ Planes empty_planes(int width, int height) {
 constexpr int guide_count = 7;
 using GuidePlanes = std::array<Plane, guide_count>;
 
-GuidePlanes planes_of(const GuideImages& guides) {
+GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for) {
     const int width = guides.albedo.width(), height = guides.albedo.height();
     GuidePlanes planes;
     planes.fill(Plane(width, height));
@@ -63,13 +73,15 @@ GuidePlanes planes_of(const GuideImages& guides) {
     for (float nearness : guides.nearness)
         sum += static_cast<double>(nearness);
     const float least = sum > 0 ? static_cast<float>(1e-3 * sum / static_cast<double>(guides.nearness.size())) : 1;
-    for (std::size_t i = 0; i < guides.albedo.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            planes[static_cast<std::size_t>(c)].data()[i] = guides.albedo.data()[i][c] / albedo_width;
-            planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
+    parallel_for(height, [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
+            for (int c = 0; c < 3; ++c) {
+                planes[static_cast<std::size_t>(c)].data()[i] = guides.albedo.data()[i][c] / albedo_width;
+                planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
+            }
+            planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
         }
-        planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
-    }
+    });
     return planes;
 }
 
@@ -208,61 +220,59 @@ void add_difference(const Planes& finer, const Planes& coarser, int radius, floa
     });
 }
 
+bool can_be_squared(Rgb c) {
+    constexpr float most = 1e28f;
+    return std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most;
+}
+
+/// What the brightness of any pixel counts as more; 0: there is as good as no light.
+float least_brightness(const Planes& light) {
+    double sum = 0;
+    for (std::size_t i = 0; i < light[0].size(); ++i)
+        sum += std::max(0.0, static_cast<double>(mean_of(light, 0, i)));
+    const float least = dark * static_cast<float>(sum / static_cast<double>(light[0].size()));
+    return least < std::numeric_limits<float>::min() ? 0 : least;
+}
+
+/// Radiance of the light that is the sum of both. Where a difference that stays stands on one that goes, a dark
+/// pixel may come out below black: not below what it was.
+void write_radiance(const std::array<Plane, 3>& differences, const Planes& light, const GuideImages& guides,
+                    RgbImage& image, const ParallelFor& parallel_for) {
+    parallel_for(image.height(), [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * image.width(), end = i + image.width(); i < end; ++i) {
+            const Rgb least = glm::min(image.data()[i], Rgb(0)), albedo = albedo_of(guides, i);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto channel = static_cast<int>(c);
+                const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
+                image.data()[i][channel] = std::max(radiance, least[channel]);
+            }
+        }
+    });
+}
+
 } // namespace
 
 RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
                           const SolveWatch& watch) {
-    const int width = picture.image.width(), height = picture.image.height();
-    const auto albedo = [&](std::size_t i) { return glm::max(guides.albedo.data()[i], Rgb(least_albedo)); };
-    const auto can_be_squared = [](Rgb c) {
-        constexpr float most = 1e28f;
-        return std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most;
-    };
-    if (!std::ranges::all_of(picture.image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
-        return std::move(picture.image);
-    double light = 0;
-    for (std::size_t i = 0; i < picture.image.size(); ++i) {
-        picture.image.data()[i] /= albedo(i);
-        picture.noise.data()[i] /= albedo(i);
-        light += std::max(0.0, static_cast<double>(luminance(picture.image.data()[i])));
-    }
-    const float least =
-        light > 0 ? dark * static_cast<float>(light / static_cast<double>(picture.image.size())) : 1.0f;
-    if (least < std::numeric_limits<float>::min()) { // as good as black
-        for (std::size_t i = 0; i < picture.image.size(); ++i)
-            picture.image.data()[i] *= albedo(i);
-        return std::move(picture.image);
-    }
-    const GuidePlanes alike = planes_of(guides);
-    Planes finer = planes_of(picture);
-    std::array<Plane, 3> sum;
-    sum.fill(Plane(width, height));
+    RgbImage& image = picture.image;
+    if (!std::ranges::all_of(image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
+        return std::move(image);
+    Planes finer = light_of(picture, guides, parallel_for);
+    const float least = least_brightness(finer);
+    if (least == 0)
+        return std::move(image);
+    const GuidePlanes alike = planes_of(guides, parallel_for);
+    std::array<Plane, 3> differences;
+    differences.fill(Plane(image.width(), image.height()));
     for (int l = 0; l < levels; ++l) {
         if (!watch.goes_on(l, levels))
             return {};
         Planes coarser = next_level(finer, alike, least, 1 << l, parallel_for);
-        add_difference(finer, coarser, trust_radius + (1 << l), least, parallel_for, sum);
+        add_difference(finer, coarser, trust_radius + (1 << l), least, parallel_for, differences);
         finer = std::move(coarser);
     }
-    RgbImage& image = picture.image;
-    // Where a difference that stays stands on one that goes, a dark pixel may come out below black: not below what
-    // it was.
-    double before = 0, after = 0;
-    for (std::size_t i = 0; i < image.size(); ++i) {
-        Rgb& pixel = image.data()[i];
-        before += static_cast<double>(luminance(pixel * albedo(i)));
-        const Rgb least_value = glm::min(pixel, Rgb(0));
-        for (std::size_t c = 0; c < 3; ++c)
-            pixel[static_cast<int>(c)] = sum[c].data()[i] + finer[c].data()[i];
-        pixel = glm::max(pixel, least_value) * albedo(i);
-        after += static_cast<double>(luminance(pixel));
-    }
-    // A pixel does not get of its neighbours what it gives them: what they all gain or lose by that, some tenths
-    // of a percent at few samples, is taken back in proportion.
-    const double factor = after > 0 && before > 0 ? before / after : 1;
-    for (Rgb& pixel : image)
-        pixel *= static_cast<float>(factor);
-    return std::move(picture.image);
+    write_radiance(differences, finer, guides, image, parallel_for);
+    return std::move(image);
 }
 
 std::uint64_t bytes_to_smooth(int width, int height) {

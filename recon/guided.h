@@ -26,7 +26,7 @@ struct NoisyPicture {
 };
 
 /// Smooths radiance without very direct light, over the albedo of its guides: what a texture does to light is
-/// known. Empty: stopped. The same bits for any parallel_for.
+/// known. Light is not quite kept. Empty: stopped. The same bits for any parallel_for.
 RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
                           const SolveWatch& watch = {});
 

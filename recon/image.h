@@ -42,6 +42,11 @@ inline float srgb_to_linear(float code) {
     return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
+/// And back, from linear to code.
+inline float linear_to_srgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
 /// A raster of pixels, row by row from the top left. An image of width or height 0 is empty.
 template <class Pixel>
 class Image {

@@ -1,7 +1,6 @@
 #include "recon/oidn.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -69,17 +68,21 @@ bool find_all(void* handle, Library& l) {
 
 constexpr std::string_view file_name = "libOpenImageDenoise.so";
 
-/// Files of that name at a path, or anywhere below it.
+/// Files of that name at a path, or below it, as deep as a wheel has them in an environment.
 std::vector<std::string> libraries_at(const fs::path& path) {
     std::error_code error;
     if (!fs::is_directory(path, error))
         return {path.string()};
     std::vector<std::string> found;
     constexpr auto options = fs::directory_options::skip_permission_denied;
+    constexpr int deepest = 7;
     for (auto i = fs::recursive_directory_iterator(path, options, error); !error && i != fs::end(i);
-         i.increment(error))
+         i.increment(error)) {
+        if (i.depth() >= deepest)
+            i.disable_recursion_pending();
         if (i->path().filename().string().starts_with(file_name))
             found.push_back(i->path().string());
+    }
     std::ranges::sort(found);
     return found;
 }

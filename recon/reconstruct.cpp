@@ -58,12 +58,11 @@ void check_sizes(const GradientImages& images) {
         throw std::invalid_argument("the guides, or the halves' differences, are not complete");
     for (const RgbImage* image :
          {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo, &d.sampled_variance,
-          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &images.halves.primal, &images.halves.dx,
-          &images.halves.dy, &images.guides.albedo, &images.guides.normal})
+          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
         check(*image);
     for (const Image<float>* variance :
          {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
-          &d.unexplained_variance, &b.half, &images.guides.nearness})
+          &d.unexplained_variance, &b.half, &g.nearness})
         check(*variance);
     for (const CoefficientPart& part : images.parts) {
         for (const RgbImage* image : {&part.primal, &part.dx, &part.dy})
@@ -116,12 +115,14 @@ void spread_within_bounds(const GradientImages& images, RgbImage held, RgbImage&
 }
 
 /// Takes off what smoothing has put above bounds of three standard errors, where it gave a dark pixel some of the
-/// light beside it, and makes the picture as much brighter by one factor: to spread it about brings it back to
-/// where it came from. (Bathroom at 3 samples: relMSE 3.3 without, 1.5 with it spread, 0.08 so.)
+/// light beside it. (Bathroom at 3 samples: relMSE 3.3 without, 1.5 where that is spread about, 0.08 so.)
 void hold_to_bounds(const GradientImages& images, RgbImage& picture, const ParallelFor& parallel_for) {
     constexpr float reach = 3;
-    const double before = sum_of(picture);
     take_excess(upper_bounds(images, parallel_for, reach), picture);
+}
+
+/// Gives the picture the light that it had, by one factor.
+void keep_light(double before, RgbImage& picture) {
     const double after = sum_of(picture);
     if (!(before > 0 && after > 0))
         return;
@@ -145,6 +146,7 @@ struct Reconstructor::Solvers {
     std::optional<L1Solver> l1;
     std::optional<WeightedSolver> weighted;
     std::optional<WeightedSolver> noise; ///< of guided
+    EdgeWeights weights;                 ///< of the last images, until their picture is made
     std::optional<PartsSolver> parts;
     bool has_variances = false; ///< the last images that were weighted
 };
@@ -245,27 +247,23 @@ int Reconstructor::solve_weighted(const GradientImages& images, const PoissonPro
     WeightedSolver& solver = solvers_->made(solvers_->weighted);
     if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
         forget(); // weights from neighbours are unlike those from samples
-    const EdgeWeights weights = weights_of_gradients(images, problem.alpha, parallel_for);
-    return solver.solve(problem, weights, {}, image, parallel_for, watch);
+    solvers_->weights = weights_of_gradients(images, problem.alpha, parallel_for);
+    return solver.solve(problem, solvers_->weights, {}, image, parallel_for, watch);
 }
 
 /// The noise of a picture that was made by the same equations, radiance: what the halves of the samples make of
-/// it, with what of `held` is in one or the other. Empty: stopped, or unknown.
+/// it, with what of `held` is in one or the other. Anything: stopped.
 RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
                                  const RgbImage& held, const RgbImage& picture, const ParallelFor& parallel_for,
                                  const SolveWatch& watch) {
-    if (images.halves.empty())
-        return {};
     RgbImage noise = images.halves.primal;
     if (images.has_gradients() && settings.norm == Norm::guided) {
         const float alpha = alpha_of_patches(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
-        const EdgeWeights weights = weights_of_gradients(images, alpha, parallel_for);
         // Noise need not be known better than it is alike from one half to another.
         constexpr WeightedSettings quick{.cold_iterations = 6, .warm_iterations = 2};
-        solvers_->made(solvers_->noise).solve(halves, weights, quick, noise, parallel_for, watch);
-        if (watch.is_stopped())
-            return {};
+        solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
+        solvers_->weights = {};
     }
     const Demodulation& d = images.demodulation;
     for (int y = 0; y < noise.height() && !d.empty(); ++y)
@@ -350,12 +348,13 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
         picture = denoised_by_oidn(picture, images.guides);
     const bool smooths =
         settings.norm == Norm::smoothed || (settings.norm == Norm::guided && images.has_gradients());
-    if (smooths && !images.guides.empty()) {
+    if (smooths && !images.guides.empty() && !images.halves.empty()) {
+        const double light = sum_of(picture);
         RgbImage noise = noise_of(images, settings, held, picture, parallel_for, watch);
-        if (!noise.empty())
-            picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
-        if (settings.spikes == Spikes::consistent && can_bound(images) && !picture.empty())
+        picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
+        if (!picture.empty() && settings.spikes == Spikes::consistent && can_bound(images))
             hold_to_bounds(images, picture, parallel_for);
+        keep_light(light, picture); // pixels do not get of others what they give them: some tenths of a percent
     }
     if (watch.is_stopped())
         picture = {};
@@ -384,6 +383,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     }
     if (!result.image.empty())
         finish(counted, settings, held, result.image, parallel_for, watch);
+    solvers_->weights = {};
     if (!result.image.empty())
         add(result.image, images.very_direct);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -40,9 +40,9 @@ inline constexpr std::array all_norms = {Norm::none,     Norm::l2,     Norm::l1,
                                          Norm::weighted, Norm::guided, Norm::smoothed, Norm::oidn};
 static_assert(all_norms.size() == enumerator_count<Norm>);
 
-/// What it comes to for a method without gradients.
-inline Norm without_gradients(Norm norm) {
-    return norm == Norm::smoothed || norm == Norm::oidn ? norm : Norm::none;
+/// What it comes to: without gradients, none but for those that smooth the primal.
+inline Norm applied(Norm norm, bool has_gradients) {
+    return has_gradients || norm == Norm::smoothed || norm == Norm::oidn ? norm : Norm::none;
 }
 
 /// "none", "l2", "l1", "mixed", "uniform", "weighted", "guided", "smoothed", "oidn".

@@ -66,10 +66,12 @@ std::vector<Enum> parse_list(const std::string& option, const std::string& text,
 } // namespace
 
 std::vector<Norm> parse_norms(const std::string& text) {
-    const std::vector<Norm> norms = parse_list<Norm>("--recon", text, norm_choices());
+    return parse_list<Norm>("--recon", text, norm_choices());
+}
+
+void check_available(const std::vector<Norm>& norms) {
     if (std::ranges::find(norms, Norm::oidn) != norms.end() && !oidn_problem().empty())
         throw BadInput("--recon oidn: " + oidn_problem());
-    return norms;
 }
 
 std::vector<Method> parse_methods(const std::string& text) {

@@ -27,6 +27,9 @@ glm::ivec2 parse_size(const std::string& option, const std::string& text);
 SceneVariables parse_variables(const std::vector<std::string>& definitions);
 /// "l2,none", as given to --recon.
 std::vector<Norm> parse_norms(const std::string& text);
+/// Throws BadInput where this machine lacks the library that one of them needs: before something is rendered or
+/// reconstructed, not where it is only spoken of.
+void check_available(const std::vector<Norm>& norms);
 /// "gpr,pt", as given to -m.
 std::vector<Method> parse_methods(const std::string& text);
 

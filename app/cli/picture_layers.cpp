@@ -104,9 +104,9 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
         wanted.settings.spikes == Spikes::consistent ? pixels * bytes_to_limit(gradients, demodulated) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most = std::max(most, images + remodulation + limits + done +
-                                  Reconstructor().bytes_for(
-                                      size.x, size.y, gradients ? norm : without_gradients(norm), threads, parts));
+        most = std::max(most,
+                        images + remodulation + limits + done +
+                            Reconstructor().bytes_for(size.x, size.y, applied(norm, gradients), threads, parts));
         done += pixels * sizeof(Rgb);
     }
     return most;

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,9 +60,10 @@ struct ViewOptions {
     bool log_actions = false;           ///< a line on stdout for every change of state, and where controls lie
 };
 
-/// The scenes that come with the program, with small pictures, what is known to fail there, and the verdicts of
-/// the stability suite as they were measured last (RESULTS.md).
-std::vector<GalleryEntry> gallery();
+/// The scene within the program and those that are found (built_in_stability_scenes), with small pictures, what is
+/// known to fail there, and the verdicts of the stability suite as they were measured last (RESULTS.md). Where
+/// they cannot be found, the first alone, and the problem.
+GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes);
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
 /// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.

@@ -3,8 +3,16 @@
 #include "embedded/gallery_pictures.h"
 #include "embedded/stability_results.h"
 #include "render/io/picture_formats.h"
+#include "render/io/text.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -16,6 +24,10 @@
 namespace tessera {
 
 namespace {
+
+/// The setup whose verdict stands below a picture, and those that its help has.
+constexpr std::string_view judged_setup = "gpr-weighted";
+constexpr std::string_view shown_setups[] = {"pr", "gpt-weighted", judged_setup};
 
 RgbImage picture_of(const std::string& name) {
     for (const EmbeddedFile& file : gallery_pictures) {
@@ -30,75 +42,102 @@ RgbImage picture_of(const std::string& name) {
     return {};
 }
 
-/// The cells of a table's line, without stars and links.
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream in(line.substr(1));
-    for (std::string cell; std::getline(in, cell, '|');) {
-        if (const std::size_t link = cell.find("]("); link != cell.npos)
-            cell = cell.substr(0, link);
-        std::erase_if(cell, [](char c) { return c == '*' || c == '['; });
-        const std::size_t begin = cell.find_first_not_of(' '), end = cell.find_last_not_of(' ');
-        cells.push_back(begin == cell.npos ? "" : cell.substr(begin, end - begin + 1));
+/// The cells of a line of CSV, of which some are in quotes.
+std::vector<std::string> cells_of(std::string_view line) {
+    std::vector<std::string> cells(1);
+    bool is_quoted = false;
+    for (const char c : line) {
+        is_quoted = is_quoted != (c == '"');
+        if (c == ',' && !is_quoted)
+            cells.emplace_back();
+        else if (c != '"')
+            cells.back() += c;
     }
     return cells;
 }
 
-/// The first table of the suite's report: a line of names, and one a scene.
-const std::vector<std::vector<std::string>>& verdicts() {
-    static const std::vector<std::vector<std::string>> table = [] {
-        std::vector<std::vector<std::string>> lines;
-        std::istringstream in{std::string(stability_results)};
-        for (std::string line; std::getline(in, line);) {
-            if (line.starts_with("| ") && !line.starts_with("| ---"))
-                lines.push_back(cells_of(line));
-            else if (lines.size() > 1 && line.empty())
-                break;
-        }
-        return lines;
-    }();
-    return table;
+/// What the suite has found of a setup on a scene, or on one of the values that it is varied by.
+struct Finding {
+    std::string scene, setup, text; ///< "glossy-0.01", "gpr-weighted", "worse 1.17"
+    bool is_ok = false;
+};
+
+/// "worse than PT" and "1.1653" as "worse 1.17"; without a factor, the verdict alone.
+std::string in_short(const std::string& verdict, const std::string& factor) {
+    const std::optional<double> number = parse_number(factor);
+    return verdict.substr(0, verdict.find(' ')) + (number ? fmt::format(" {:.3g}", *number) : "");
 }
 
-/// Adds what the suite has found of a scene, or of the values that it was varied by.
-void add_verdicts(GalleryEntry& entry) {
-    const auto& table = verdicts();
-    for (std::size_t i = 1; i < table.size(); ++i) {
-        const std::vector<std::string>& row = table[i];
-        if (row.size() != table[0].size() || !(row[0] == entry.title || row[0].starts_with(entry.title + "-")))
-            continue;
-        std::string line = row[0] + ":";
-        for (std::size_t column = 1; column < row.size(); ++column) {
-            const std::string& name = table[0][column];
-            if (name == "pr" || name == "gpt-weighted" || name == "gpr-weighted")
-                line += fmt::format("  {} {}", name, row[column]);
+/// All of them, of the table that the suite has last written.
+const std::vector<Finding>& findings() {
+    static const std::vector<Finding> all = [] {
+        std::vector<Finding> found;
+        std::istringstream in{std::string(stability_results)};
+        std::string line;
+        std::getline(in, line);
+        const std::vector<std::string> names = cells_of(line);
+        while (std::getline(in, line)) {
+            const std::vector<std::string> cells = cells_of(line);
+            const auto cell = [&](std::string_view name) {
+                const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+                return place < cells.size() ? cells[place] : std::string();
+            };
+            const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
+            found.push_back({cell("scene"),
+                             recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
+                             in_short(verdict, cell("factor")), verdict == "ok"});
         }
-        entry.help += "\n" + line;
-        const bool is_worse = !row.back().starts_with("ok");
-        if (entry.verdict.empty() || is_worse)
-            entry.verdict = "G-PR " + row.back();
-        entry.is_worse = entry.is_worse || is_worse;
+        return found;
+    }();
+    return all;
+}
+
+/// Adds what the suite has found of a scene, or of the values that it was varied by. `names`: of all scenes.
+void add_verdicts(GalleryEntry& entry, const std::set<std::string>& names) {
+    std::string scene;
+    for (const Finding& finding : findings()) {
+        const bool is_value = finding.scene.starts_with(entry.title + "-") && !names.contains(finding.scene);
+        if (!(is_value || finding.scene == entry.title) ||
+            std::ranges::find(shown_setups, finding.setup) == std::end(shown_setups))
+            continue;
+        if (std::exchange(scene, finding.scene) != finding.scene)
+            entry.help += "\n" + finding.scene + ":";
+        entry.help += fmt::format("  {} {}", finding.setup, finding.text);
+        if (finding.setup != judged_setup)
+            continue;
+        if (entry.verdict.empty() || !finding.is_ok)
+            entry.verdict = "G-PR " + finding.text;
+        entry.is_worse = entry.is_worse || !finding.is_ok;
     }
 }
 
 } // namespace
 
-std::vector<GalleryEntry> gallery() {
-    std::vector<GalleryEntry> entries;
-    entries.push_back({"cornell-box",
-                       "The scene within the program, which the viewer begins with.",
-                       "",
-                       false,
-                       {},
-                       picture_of("cornell-box")});
-    for (const std::filesystem::path& file : built_in_stability_scenes()) {
+GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes) {
+    GalleryContents found;
+    found.entries.push_back({"cornell-box",
+                             "The scene within the program, which the viewer begins with.",
+                             "",
+                             false,
+                             {},
+                             picture_of("cornell-box")});
+    std::vector<std::filesystem::path> files;
+    try {
+        files = find_scenes();
+    } catch (const std::exception& error) {
+        found.problem = std::string("the scenes on which methods fail are not there: ") + error.what();
+    }
+    std::set<std::string> names;
+    for (const std::filesystem::path& file : files)
+        names.insert(file.stem().string());
+    for (const std::filesystem::path& file : files) {
         const std::string name = file.stem().string();
         GalleryEntry entry{name, known_failure(file), "", false, file, picture_of(name)};
         entry.help += "\nError at equal time over that of PT, as measured last:";
-        add_verdicts(entry);
-        entries.push_back(std::move(entry));
+        add_verdicts(entry, names);
+        found.entries.push_back(std::move(entry));
     }
-    return entries;
+    return found;
 }
 
 } // namespace tessera

@@ -99,6 +99,7 @@ void check_finite(const ExrFile& file, const std::filesystem::path& input) {
 } // namespace
 
 int run_reconstruct(const ReconstructOptions& options) {
+    check_available(options.layers.norms);
     check_picture_name(options.output, options.layers);
     check_outputs({{"-o", options.output}, {"--stats", options.stats}}, {}); // an input may be replaced
     check_writable(options.output);

@@ -95,6 +95,7 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
 
 int run_reference(const ReferenceOptions& options) {
     check(options.recipe.settings);
+    check_available(options.recipe.norms);
     const char* const extension = options.is_share ? ".share" : ".exr";
     if (extension_of(options.output) != extension)
         throw BadInput(fmt::format("{}: the name must end in {}", options.output.string(), extension));

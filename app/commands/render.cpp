@@ -1,6 +1,7 @@
 #include "render/run/render.h"
 
 #include "app/cli/opened_scene.h"
+#include "app/cli/option_values.h"
 #include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
@@ -104,6 +105,7 @@ ExrFile layers_of(Render& render, const ResolvedRender& wanted, bool is_exr, Thr
 
 int run_render(const RenderOptions& options) {
     check(options.settings);
+    check_available(options.layers.norms);
     check_outputs({{"-o", options.output}, {"--stats", options.stats}},
                   {{"the scene", options.scene.file}, {"--camera", options.scene.camera}});
     check_writable(options.output);

@@ -90,8 +90,7 @@ void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
 
 void write_saved_picture(const std::filesystem::path& file, const SavedPicture& picture) {
     const Snapshot& snapshot = *picture.snapshot;
-    const Norm chosen = picture.reconstruction.norm;
-    const Norm norm = has_gradients(snapshot.settings.method) ? chosen : without_gradients(chosen);
+    const Norm norm = applied(picture.reconstruction.norm, has_gradients(snapshot.settings.method));
     std::vector<ReconstructionStats> stats;
     ExrFile exr = render_layers(picture, norm, stats);
     add_companion_layers(exr, picture);

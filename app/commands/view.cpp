@@ -1,6 +1,7 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
-#include "app/report/folder_reader.h"
+#include "app/experiment/stability.h"
+#include "app/report/reports.h"
 #include "render/io/available_memory.h"
 #include "render/io/plain_images.h"
 #include "ui/gl/gl.h"
@@ -149,7 +150,7 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.write_exr = write_saved_picture;
     result.read_jobs = folder_reader;
     result.jobs = options.jobs;
-    result.gallery = gallery;
+    result.gallery = [] { return gallery(built_in_stability_scenes); };
     result.begins_with_gallery = options.shows_gallery && is_interactive(options) && options.jobs.empty() &&
                                  options.scene.source.file.empty() && !options.sample;
     if (is_interactive(options))

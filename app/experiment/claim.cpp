@@ -209,4 +209,18 @@ std::string claimed_by(const std::string& name) {
     return is_number ? name.substr(0, end) : "";
 }
 
+Listing list(const fs::path& folder) {
+    Listing listing;
+    fs::directory_iterator it(folder, listing.error);
+    for (; !listing.error && it != fs::directory_iterator(); it.increment(listing.error)) {
+        const std::string name = it->path().filename().string();
+        listing.files.insert(name);
+        if (const std::string file = claimed_by(name); !file.empty())
+            listing.claimed.insert(file);
+    }
+    if (listing.error == std::errc::no_such_file_or_directory)
+        listing.error.clear();
+    return listing;
+}
+
 } // namespace tessera

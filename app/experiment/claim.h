@@ -8,7 +8,9 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <thread>
+#include <unordered_set>
 
 namespace tessera {
 
@@ -81,5 +83,13 @@ private:
 
 /// FILE of "FILE.claim" and "FILE.claim2": what is claimed by it; empty: it is no claim's name.
 std::string claimed_by(const std::string& name);
+
+/// What a folder of files that are claimed holds.
+struct Listing {
+    std::unordered_set<std::string> files;   ///< the names of all, claims too
+    std::unordered_set<std::string> claimed; ///< of claims, the names of what is claimed
+    std::error_code error;                   ///< why the names may not be all; a folder that is not there has none
+};
+Listing list(const std::filesystem::path& folder);
 
 } // namespace tessera

@@ -1,6 +1,7 @@
 #include "app/experiment/experiment.h"
 
 #include "app/cli/opened_scene.h"
+#include "app/cli/option_values.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "render/io/exr.h"
@@ -105,11 +106,20 @@ const std::shared_ptr<const Scene>& Experiment::open(std::size_t scene) {
     return geometry_;
 }
 
+void Experiment::check_norms() const {
+    std::vector<Norm> norms;
+    for (const Setup& setup : setups_)
+        norms.push_back(setup.settings.reconstruction.norm);
+    check_available(norms);
+}
+
 bool Experiment::render_reference(std::size_t scene, FolderReference& reference) {
+    check_norms(); // before the hours that it may take: whoever renders it goes on to the jobs
     return reference.render(scenes_[scene].source(), open(scene), pool(options_.settings.threads));
 }
 
 bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& tell) {
+    check_norms();
     const Job& job = jobs_[index];
     std::string found;
     std::vector<SharedRun> runs = runs_of(job, open(job.scene));

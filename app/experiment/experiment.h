@@ -83,12 +83,13 @@ public:
     /// The file that the job makes; empty: a reference is missing.
     std::filesystem::path file_of(std::size_t job);
     bool is_done(std::size_t job);
-    /// Whether the job has no file, as those of other lists of jobs have all that it is to find.
-    bool is_recalled(std::size_t job) const { return is_recalled_[job] != 0; }
+    /// The files of other lists of jobs that have all that the job is to find, so that it makes none; empty: it is
+    /// to make its own.
+    std::vector<std::filesystem::path> known_in(std::size_t job) const;
     /// Renders a job whose references are there, and makes its file. `tell` is told how much of it is done. Throws
-    /// as open_scene does, and BadInput for references of another scene. False: Ctrl-C ended it.
+    /// as open_scene and check_available do, and BadInput for references of another scene. False: Ctrl-C ended it.
     bool run(std::size_t job, Claim& claim, const std::function<void(double)>& tell);
-    /// Renders a reference of the scene. False: Ctrl-C ended it.
+    /// Renders a reference of the scene. Throws as run() does. False: Ctrl-C ended it.
     bool render_reference(std::size_t scene, FolderReference& reference);
 
     /// The results that have a run, by scene, setup, time or samples, and kind of machine where there are several.
@@ -106,6 +107,7 @@ private:
     using Setups = std::vector<std::size_t>; // by their indices
     struct SharedRun;
     void list_jobs();
+    void check_norms() const;
     std::string file_name_of(const Job& job);
     void recall();
     const std::shared_ptr<const Scene>& open(std::size_t scene);

@@ -13,6 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
@@ -132,7 +133,9 @@ std::string ExperimentJobs::list() {
 JobPlan ExperimentJobs::plan(const fs::path& folder) {
     JobPlan plan;
     std::map<const Experiment*, std::size_t> works;
-    const fs::path from = fs::absolute(folder).lexically_normal();
+    const auto near = [from = fs::absolute(folder).lexically_normal()](const fs::path& file) {
+        return file.empty() ? fs::path() : fs::absolute(file).lexically_normal().lexically_proximate(from);
+    };
     for (std::size_t item = 0; item < items_.size(); ++item) {
         const Item& i = items_[item];
         const auto [work, is_new] = works.try_emplace(i.experiment, plan.works.size());
@@ -142,12 +145,14 @@ JobPlan ExperimentJobs::plan(const fs::path& folder) {
                 plan.works.back().scenes.push_back(scene.name());
         }
         const fs::path file = file_of(item);
-        plan.jobs.push_back(
-            {work->second,
-             i.reference ? "reference " + file.filename().string()
-                         : i.experiment->text_of(i.experiment->jobs()[i.job]),
-             file.empty() ? fs::path() : fs::absolute(file).lexically_normal().lexically_proximate(from),
-             i.reference != nullptr, !i.reference && i.experiment->is_recalled(i.job)});
+        JobPlan::Job& job = plan.jobs.emplace_back();
+        job.work = work->second;
+        job.what = i.reference ? "reference " + file.filename().string()
+                               : i.experiment->text_of(i.experiment->jobs()[i.job]);
+        job.file = near(file);
+        job.is_reference = i.reference != nullptr;
+        if (!i.reference)
+            std::ranges::transform(i.experiment->known_in(i.job), std::back_inserter(job.known_in), near);
     }
     return plan;
 }
@@ -187,17 +192,24 @@ public:
             fs::remove(folder_ / mark);
     }
 
-    /// Says what is to be done; again when more is known, as files are named by what references there are.
+    /// Says what is to be done; again when more is known, as files are named by what references there are. Where
+    /// that cannot be written, those who look at the folder see less, and the work goes on.
     void write_plan() {
         if (is_plan_whole_)
             return;
-        is_plan_whole_ = !jobs_.mark().empty();
-        tessera::write_plan(plan_file(options_.output), jobs_.plan(options_.output));
+        const bool is_whole = !jobs_.mark().empty();
+        const JobPlan plan = jobs_.plan(options_.output);
+        try {
+            tessera::write_plan(plan_file(options_.output), plan);
+            is_plan_whole_ = is_whole;
+        } catch (const std::runtime_error& error) {
+            if (!std::exchange(has_warned_, true))
+                fmt::print(stderr, "warning: {}\n", error.what());
+        }
     }
 
     /// Writes one of what there is, unless another process is writing.
     void write_if_free() {
-        write_plan();
         if (const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report"))
             write_();
     }
@@ -208,6 +220,7 @@ public:
         const Clock::time_point begin = Clock::now();
         if (begin < next_)
             return;
+        write_plan(); // a reference may be there since
         write_if_free();
         constexpr int pauses = 20;
         const Clock::time_point end = Clock::now();
@@ -216,7 +229,6 @@ public:
 
     /// Writes the last one, unless another process has since all is done. `anew`: in any case.
     void write_last(bool anew) {
-        write_plan();
         const fs::path written = folder_ / jobs_.mark();
         for (Patience patience(silence_); anew || !fs::exists(written);) {
             const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
@@ -240,6 +252,7 @@ private:
     double silence_;
     Claims claims_;
     bool is_plan_whole_ = false; ///< it was written with the names of all files
+    bool has_warned_ = false;    ///< that it cannot be written
     const std::function<void()>& write_;
     std::chrono::steady_clock::time_point next_{};
 };

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -137,6 +138,15 @@ nlohmann::json Experiment::recalled(const Job& job, std::size_t setup) const {
 bool Experiment::is_known(const Job& job) const {
     return std::none_of(job.setups.begin(), job.setups.end(),
                         [&](std::size_t i) { return recalled(job, i).is_null(); });
+}
+
+std::vector<fs::path> Experiment::known_in(std::size_t index) const {
+    const Job& job = jobs_[index];
+    std::set<fs::path> files;
+    for (std::size_t setup : job.setups)
+        if (is_recalled_[index])
+            files.insert(journal_.file_of(key_of(job.scene, setups_[setup], job.seed)));
+    return {files.begin(), files.end()};
 }
 
 void Experiment::collect(std::size_t index) {

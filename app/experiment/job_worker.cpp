@@ -9,7 +9,6 @@
 #include <string>
 #include <system_error>
 #include <thread>
-#include <unordered_set>
 
 namespace tessera {
 
@@ -28,30 +27,12 @@ constexpr int misses_in_place = 4;
 /// would otherwise keep a file server busy.
 constexpr int watched_at_once = 8;
 
-/// What a folder of jobs holds.
-struct Listing {
-    std::unordered_set<std::string> files, claimed; ///< names; of claims, those of what is claimed
-};
-
 /// Claims of files that are there are of workers that were killed before they took them away.
 void remove_leftovers(const fs::path& folder, const Listing& listing) {
     std::error_code ignored;
     for (const std::string& claim : listing.files)
         if (const std::string file = claimed_by(claim); !file.empty() && listing.files.contains(file))
             fs::remove(folder / claim, ignored);
-}
-
-Listing list(const fs::path& folder) {
-    Listing listing;
-    std::error_code none;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-        const std::string name = entry.path().filename().string();
-        listing.files.insert(name);
-        if (const std::string file = claimed_by(name); !file.empty())
-            listing.claimed.insert(file);
-    }
-    remove_leftovers(folder, listing);
-    return listing;
 }
 
 } // namespace
@@ -87,8 +68,10 @@ void JobWorker::look() {
         if (file.empty())
             continue;
         auto [folder, is_new] = folders.try_emplace(file.parent_path());
-        if (is_new)
-            folder->second = list(file.parent_path());
+        if (is_new) {
+            folder->second = list(file.parent_path()); // what cannot be listed is found out job by job
+            remove_leftovers(file.parent_path(), folder->second);
+        }
         const std::string name = file.filename().string();
         const bool is_claimed = folder->second.claimed.contains(name);
         const bool is_there = folder->second.files.contains(name);

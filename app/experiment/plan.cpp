@@ -1,12 +1,12 @@
 #include "app/experiment/plan.h"
 
 #include "app/cli/option_values.h"
+#include "recon/enumeration.h"
 #include "render/io/files.h"
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 #include "render/settings/settings_table.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <span>
@@ -21,7 +21,7 @@ namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using nlohmann::json, nlohmann::ordered_json;
 
 constexpr const char* const mark_key = "{\"plan\":";
 
@@ -50,18 +50,20 @@ json options_json(const ExperimentOptions& options) {
             {"any_machine", options.sharing.takes_any_machine}};
 }
 
-ExperimentOptions options_from(const json& from) {
+ExperimentOptions options_from(const ordered_json& from) {
     ExperimentOptions options;
     options.command = from.at("command");
     options.methods = parse_methods(from.at("methods"));
     options.norms = parse_norms(from.at("norms"));
-    for (const json& text : from.at("vary"))
+    for (const ordered_json& text : from.at("vary"))
         options.variations.push_back(parse_variation(text.get<std::string>()));
     for (const Setting& setting : settings_of(options.settings))
         setting.set_text(from.at("settings").at(std::string(setting.id)).get<std::string>());
     options.settings.render.seed = from.at("seed");
     const int unit = from.at("unit");
-    options.effort = {from.at("effort"), static_cast<Effort::Unit>(std::clamp(unit, 0, 2))};
+    if (unit < 0 || unit >= static_cast<int>(enumerator_count<Effort::Unit>))
+        throw std::runtime_error(fmt::format("an unknown unit, {}", unit));
+    options.effort = {from.at("effort"), static_cast<Effort::Unit>(unit)};
     options.halvings = from.at("halvings");
     options.seeds = from.at("seeds");
     options.sharing.takes_any_machine = from.at("any_machine");
@@ -79,21 +81,26 @@ std::string contents(const JobPlan& plan) {
         json line{{"work", job.work}, {"what", job.what}, {"file", job.file.string()}};
         if (job.is_reference)
             line["reference"] = true;
-        if (job.is_known)
-            line["known"] = true;
+        for (const fs::path& file : job.known_in)
+            line["known"].push_back(file.string());
         text += fmt::format("{}\n{}", &job == plan.jobs.data() ? "" : ",", to_text(line));
     }
     return text + "\n]";
 }
 
-JobPlan plan_from(const json& from) {
+JobPlan plan_from(const ordered_json& from) {
     JobPlan plan;
-    for (const json& work : from.at("works"))
+    for (const ordered_json& work : from.at("works"))
         plan.works.push_back({options_from(work.at("options")), work.at("scenes")});
-    for (const json& job : from.at("jobs")) {
-        plan.jobs.push_back({job.at("work"), job.at("what"), job.at("file").get<std::string>(),
-                             job.value("reference", false), job.value("known", false)});
-        if (plan.jobs.back().work >= plan.works.size())
+    for (const ordered_json& from_job : from.at("jobs")) {
+        JobPlan::Job& job = plan.jobs.emplace_back();
+        job.work = from_job.at("work");
+        job.what = from_job.at("what");
+        job.file = from_job.at("file").get<std::string>();
+        job.is_reference = from_job.value("reference", false);
+        for (const std::string& file : from_job.value("known", std::vector<std::string>()))
+            job.known_in.emplace_back(file);
+        if (job.work >= plan.works.size())
             throw std::runtime_error("a job of no work");
     }
     return plan;
@@ -119,12 +126,13 @@ std::string plan_mark(const fs::path& file) {
 }
 
 JobPlan read_plan(const fs::path& file) {
-    const json from = parse_json(read_bytes(file));
+    const std::string text = read_text(file), name = file.string();
+    const ordered_json from = JsonText(text, name).parse();
     try {
         return plan_from(from);
     } catch (const std::exception& error) {
         throw std::runtime_error(
-            fmt::format("{}: is no list of jobs that this version knows ({})", file.string(), error.what()));
+            fmt::format("{}: is no list of jobs that this version knows ({})", name, error.what()));
     }
 }
 

@@ -23,7 +23,8 @@ struct JobPlan {
         std::string what;           ///< "box, seed 3, tile 4"
         std::filesystem::path file; ///< that it makes, from the folder on; empty: a reference is missing
         bool is_reference = false;
-        bool is_known = false; ///< files of other lists have all that it is to find
+        /// Files of other lists that have all that it is to find, likewise; empty: it makes its own.
+        std::vector<std::filesystem::path> known_in = {};
     };
 
     std::vector<Work> works;
@@ -39,7 +40,8 @@ void write_plan(const std::filesystem::path& file, const JobPlan& plan);
 /// A line by which plans differ; empty: there is none, or it is none.
 std::string plan_mark(const std::filesystem::path& file);
 
-/// Throws std::runtime_error that names the file where it holds something else, as one by another version does.
+/// Throws std::runtime_error that names the file where it holds something else, as one by another version does;
+/// where it is broken, with line and column.
 JobPlan read_plan(const std::filesystem::path& file);
 
 } // namespace tessera

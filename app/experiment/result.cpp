@@ -28,22 +28,28 @@ std::string Journal::line(const json& key, const json& value) {
 
 void Journal::read(const std::filesystem::path& file) {
     const std::string text = read_text(file);
+    files_.push_back(file);
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1) {
         const json line = parse_json(std::string_view(text).substr(begin, end - begin));
         if (line.is_object() && line.contains("key") && line.contains("value"))
-            entries_[to_text(line["key"])] = to_text(line["value"]);
+            entries_[to_text(line["key"])] = {to_text(line["value"]), files_.size() - 1};
     }
 }
 
 json Journal::find(const json& key) const {
     const auto found = entries_.find(to_text(key));
-    return found == entries_.end() ? json() : parse_json(found->second);
+    return found == entries_.end() ? json() : parse_json(found->second.value);
+}
+
+std::filesystem::path Journal::file_of(const json& key) const {
+    const auto found = entries_.find(to_text(key));
+    return found == entries_.end() ? std::filesystem::path() : files_[found->second.file];
 }
 
 void Journal::for_each(const std::function<void(const json&, const json&)>& take) const {
-    for (const auto& [key, value] : entries_)
-        take(parse_json(key), parse_json(value));
+    for (const auto& [key, entry] : entries_)
+        take(parse_json(key), parse_json(entry.value));
 }
 
 std::vector<Result> results_of(const std::vector<Record>& records, const std::vector<NamedScene>& scenes,

@@ -5,6 +5,7 @@
 #include "app/experiment/measured_run.h"
 #include "app/experiment/setup.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -29,11 +30,18 @@ public:
     void read(const std::filesystem::path& file);
     /// What was last read under this key; null: nothing was.
     nlohmann::json find(const nlohmann::json& key) const;
+    /// The file that this is from; empty: nothing was read under this key.
+    std::filesystem::path file_of(const nlohmann::json& key) const;
     /// Calls it with each key and what was last read under it.
     void for_each(const std::function<void(const nlohmann::json& key, const nlohmann::json& value)>& take) const;
 
 private:
-    std::unordered_map<std::string, std::string> entries_; // values by their keys, both as text
+    struct Entry {
+        std::string value; // as text
+        std::size_t file;  // of files_
+    };
+    std::vector<std::filesystem::path> files_;       // that were read
+    std::unordered_map<std::string, Entry> entries_; // by their keys, as text
 };
 
 /// What is known of one setup on one scene after one share of its time or samples.

@@ -1,7 +1,6 @@
 #include "app/experiment/setup.h"
 
 #include "app/cli/terminal.h"
-#include "recon/oidn.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
@@ -14,12 +13,9 @@ namespace tessera {
 
 std::vector<Setting> settings_of(PictureSettings& s) {
     std::vector<Setting> all = settings_of(s.render);
-    for (Setting& setting : settings_of(s.reconstruction)) {
+    for (Setting& setting : settings_of(s.reconstruction, has_gradients(s.render.method))) {
         if (setting.id == "joint_colour") // journals and names of pictures do not tell it
             continue;
-        const bool smooths = without_gradients(s.reconstruction.norm) != Norm::none;
-        const bool is_of_all = setting.id == "spikes" || (setting.id == "norm" && smooths);
-        setting.matters = setting.matters && (is_of_all || has_gradients(s.render.method));
         if (setting.id == "norm") {
             setting.id = "recon";
             setting.label = "Reconstruction";
@@ -71,14 +67,6 @@ std::vector<PictureSettings> varied(const std::vector<PictureSettings>& all, con
     return result;
 }
 
-/// Without gradients there is nothing to solve: all settings of that are one.
-PictureSettings plain(PictureSettings settings) {
-    if (!has_gradients(settings.render.method))
-        settings.reconstruction = {.norm = without_gradients(settings.reconstruction.norm),
-                                   .spikes = settings.reconstruction.spikes};
-    return settings;
-}
-
 } // namespace
 
 Variation parse_variation(std::string_view text) {
@@ -115,9 +103,8 @@ std::vector<Setup> setups_of(const PictureSettings& base, const std::vector<Meth
 
     std::vector<Setup> setups;
     for (const PictureSettings& settings : all) {
-        Setup setup{plain(settings), {}};
-        if (setup.settings.reconstruction.norm == Norm::oidn && !oidn_problem().empty())
-            throw BadInput(oidn_problem());
+        Setup setup{settings, {}};
+        setup.settings.reconstruction = applied(settings.reconstruction, has_gradients(settings.render.method));
         for (const Variation& v : variations)
             setup.values.push_back(v.variable.matters(settings) ? v.variable.text(settings) : "");
         const auto is_same = [&](const Setup& p) {

@@ -125,7 +125,7 @@ float usual_exposure(const RgbImage& image) {
 namespace {
 
 struct Picture {
-    std::string name, caption; ///< HTML
+    std::string name, figures; ///< HTML
     RgbImage image;
 };
 
@@ -151,9 +151,7 @@ std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves
         const RgbImage& image = require_layer(exr, "", file);
         if (image.width() == reference.width() && image.height() == reference.height())
             pictures.push_back({escaped(curve_label(experiment.options(), curve)),
-                                fmt::format("<b>{}</b><br>{}", escaped(curve_label(experiment.options(), curve)),
-                                            figures_of(result, experiment.options().settings.render.seed)),
-                                image});
+                                figures_of(result, experiment.options().settings.render.seed), image});
     }
     return pictures;
 }
@@ -204,11 +202,12 @@ std::string comparison(const RgbImage& truth, const std::vector<Picture>& pictur
         exposure, images, option(0, "reference", false), first, second);
 }
 
-std::string captioned(const RgbImage& image, float exposure, const std::string& caption) {
+/// `name` and `figures` as of a Picture.
+std::string captioned(const RgbImage& image, float exposure, const std::string& name, const std::string& figures) {
     constexpr int shown = 200; // pixels of the page
-    return fmt::format("<figure style=\"width:{0}px\">{1}<figcaption>{2}</figcaption></figure>\n", shown,
-                       inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)),
-                       caption);
+    return fmt::format(
+        "<figure style=\"width:{0}px\">{1}<figcaption><b>{2}</b><br>{3}</figcaption></figure>\n", shown,
+        inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)), name, figures);
 }
 
 } // namespace
@@ -239,9 +238,9 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
         const RgbImage true_crop = crop(truth, rect);
         const float shown = std::min(exposure, usual_exposure(true_crop)); // bright corners are not to burn out
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
-        html += captioned(true_crop, shown, fmt::format("<b>reference</b><br>exposure {:+.1f}", shown));
+        html += captioned(true_crop, shown, "reference", fmt::format("exposure {:+.1f}", shown));
         for (const Picture& picture : pictures)
-            html += captioned(crop(picture.image, rect), shown, picture.caption);
+            html += captioned(crop(picture.image, rect), shown, picture.name, picture.figures);
         html += "</div>\n";
     }
     return html;

@@ -1,5 +1,3 @@
-#include "app/report/folder_reader.h"
-
 #include "app/experiment/claim.h"
 #include "app/experiment/plan.h"
 #include "app/report/reports.h"
@@ -8,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,7 +14,6 @@
 #include <string>
 #include <system_error>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -28,24 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// The names in a folder.
-struct Names {
-    std::unordered_set<std::string> files, claimed; ///< of claims, those of what is claimed
-};
-
-Names names_in(const fs::path& folder) {
-    Names names;
-    std::error_code none; // a scene's folder may not be there yet
-    for (fs::directory_iterator it(folder, none); !none && it != fs::directory_iterator(); it.increment(none)) {
-        const std::string name = it->path().filename().string();
-        if (std::string file = claimed_by(name); !file.empty())
-            names.claimed.insert(std::move(file));
-        else
-            names.files.insert(name);
-    }
-    return names;
-}
 
 /// A key without its seed, as text, and without what only the worker knows.
 std::string without_seed(json key) {
@@ -122,27 +102,31 @@ public:
     explicit Reader(fs::path folder) : folder_(std::move(folder)) {}
 
     std::shared_ptr<const FollowedFolder> look() {
-        const bool is_new = read_plan_if_new();
+        read_plan_if_new();
         FollowedFolder now = seen_;
         now.jobs = states();
         for (std::size_t i = 0; i < now.jobs.size(); ++i)
             if (now.jobs[i].state == FollowedJob::State::done && !is_read_[i])
-                read(i, now);
-        if (!is_new && now.jobs == seen_.jobs)
+                read(i);
+        now.trouble.clear();
+        for (const auto& [file, text] : trouble_)
+            now.trouble.push_back(text);
+        if (!is_new_ && now.jobs == seen_.jobs && now.trouble == seen_.trouble)
             return {};
-        if (std::exchange(has_more_, false) || is_new) {
+        if (has_more_ || is_new_) {
             now.charts.clear();
             for (const Work& work : works_)
                 for (Chart& chart : work.charts())
                     now.charts.push_back(std::move(chart));
         }
         seen_ = now;
+        is_new_ = has_more_ = false;
         return std::make_shared<const FollowedFolder>(std::move(now));
     }
 
 private:
     /// Throws where there is no plan.
-    bool read_plan_if_new() {
+    void read_plan_if_new() {
         std::error_code ignored;
         if (!fs::exists(folder_, ignored))
             throw std::runtime_error(folder_.string() + ": there is no such folder");
@@ -156,73 +140,81 @@ private:
                             "(it has no {})",
                             folder_.string(), file.lexically_relative(folder_).string()));
         if (mark == mark_)
-            return false;
-        plan_ = read_plan(file);
-        mark_ = mark;
-        works_.clear();
-        for (const JobPlan::Work& work : plan_.works)
-            works_.emplace_back(work);
-        is_read_.assign(plan_.jobs.size(), 0);
+            return;
+        JobPlan plan = read_plan(file);
+        std::vector<Work> works(plan.works.begin(), plan.works.end());
         seen_ = {};
-        seen_.command = plan_.works.empty() ? "" : plan_.works.front().options.command;
-        return true;
+        seen_.command = plan.works.empty() ? "" : plan.works.front().options.command;
+        is_read_.assign(plan.jobs.size(), 0);
+        trouble_.clear();
+        plan_ = std::move(plan);
+        works_ = std::move(works);
+        is_new_ = true;
+        mark_ = mark; // last: what throws before that is told again by the next look
     }
 
+    /// Throws where a folder that is there cannot be listed.
     std::vector<FollowedJob> states() {
         using State = FollowedJob::State;
-        std::map<fs::path, Names> folders;
+        std::map<fs::path, Listing> folders;
         std::vector<FollowedJob> jobs;
         for (const JobPlan::Job& job : plan_.jobs) {
             FollowedJob& now = jobs.emplace_back(FollowedJob{job.what});
-            if (job.is_known)
+            if (!job.known_in.empty())
                 now.state = State::done;
-            if (job.is_known || job.file.empty())
+            if (!job.known_in.empty() || job.file.empty())
                 continue;
-            const auto [folder, is_new] = folders.try_emplace(job.file.parent_path());
-            if (is_new)
-                folder->second = names_in(folder_ / job.file.parent_path());
+            const Listing& listing = listing_of(folder_ / job.file.parent_path(), folders);
             const std::string name = job.file.filename().string();
-            if (folder->second.files.contains(name))
+            if (listing.files.contains(name))
                 now.state = State::done;
-            else if (folder->second.claimed.contains(name))
+            else if (listing.claimed.contains(name))
                 now = {job.what, State::claimed, Claims::owner_of(folder_ / job.file)};
         }
         return jobs;
     }
 
-    /// Takes in what a job has found; of one that is known, all that other lists have.
-    void read(std::size_t job, FollowedFolder& now) {
-        is_read_[job] = 1;
-        const JobPlan::Job& of = plan_.jobs[job];
-        if (of.is_reference)
-            return;
-        has_more_ = true;
-        if (!of.is_known)
-            return read(works_[of.work], folder_ / of.file, now);
-        std::error_code none;
-        for (fs::directory_iterator it((folder_ / of.file).parent_path(), none);
-             !none && it != fs::directory_iterator(); it.increment(none))
-            if (it->path().extension() == ".jsonl")
-                read(works_[of.work], it->path(), now);
-        for (std::size_t other = 0; other < plan_.jobs.size(); ++other)
-            if (plan_.jobs[other].is_known)
-                is_read_[other] = 1;
+    static const Listing& listing_of(const fs::path& folder, std::map<fs::path, Listing>& known) {
+        const auto [entry, is_new] = known.try_emplace(folder);
+        if (is_new)
+            entry->second = list(folder);
+        if (const std::error_code error = entry->second.error)
+            throw std::runtime_error(
+                fmt::format("{}: cannot be listed: {}", folder.lexically_normal().string(), error.message()));
+        return entry->second;
     }
 
-    static void read(Work& work, const fs::path& file, FollowedFolder& now) {
+    /// Takes in what a job has found; where that fails, the next look tries again.
+    void read(std::size_t job) {
+        const JobPlan::Job& of = plan_.jobs[job];
+        bool is_whole = true;
+        for (const fs::path& file : of.known_in)
+            is_whole = read(works_[of.work], folder_ / file) && is_whole;
+        if (of.known_in.empty() && !of.is_reference)
+            is_whole = read(works_[of.work], folder_ / of.file);
+        is_read_[job] = is_whole;
+    }
+
+    bool read(Work& work, const fs::path& file) {
         try {
+            has_more_ = true;
             work.read(file);
+            trouble_.erase(file);
+            return true;
         } catch (const std::exception& error) {
-            now.trouble.push_back(fmt::format("{}: {}", file.string(), error.what()));
+            trouble_[file] = fmt::format("{}: {}", file.string(), error.what());
+            return false;
         }
     }
 
     fs::path folder_;
     std::string mark_; ///< of the plan that was read
     JobPlan plan_;
-    std::vector<Work> works_;           ///< of the plan
-    std::vector<std::uint8_t> is_read_; ///< 1: what the job has found is taken in
-    bool has_more_ = false;             ///< than the charts show
+    std::vector<Work> works_;                 ///< of the plan
+    std::vector<std::uint8_t> is_read_;       ///< 1: what the job has found is taken in
+    std::map<fs::path, std::string> trouble_; ///< of files, those that cannot be read
+    bool is_new_ = false;                     ///< the plan, which nobody has been told of
+    bool has_more_ = false;                   ///< than the charts show
     FollowedFolder seen_;
 };
 

@@ -1,4 +1,5 @@
-// What experiments write: pictures, charts, files of results, pages, and the report of the stability suite.
+// What experiments write: pictures, charts, files of results, pages, and the report of the stability suite; and
+// what is seen of them while they are at work.
 #pragma once
 
 #include "app/experiment/experiment.h"
@@ -6,7 +7,9 @@
 #include "app/experiment/stability.h"
 #include "recon/image.h"
 #include "ui/charts/chart.h"
+#include "ui/jobs/followed_folder.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -124,5 +127,12 @@ void write_stability(const ExperimentOptions& suite, const std::vector<Stability
 
 /// Writes SCENE.png: the reference, and the pictures of the first seed with the names of their setups.
 void write_sheet(const ExperimentOptions& suite, const StabilityCase& of);
+
+// What others see of it.
+
+/// What reads the folder that `tessera bench`, `sweep` or `stability` works in, on whichever machine: its list of
+/// jobs, which of them are claimed by whom or done, and charts of what is done, as the reports have them. Claims
+/// nothing and changes nothing. Throws std::runtime_error that says what of the folder is missing.
+FolderReader folder_reader(const std::filesystem::path& folder);
 
 } // namespace tessera

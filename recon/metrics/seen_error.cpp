@@ -23,13 +23,8 @@ void check_sizes(const RgbImage& a, const RgbImage& b) {
         throw std::invalid_argument("pictures to compare must be of one size, and not empty");
 }
 
-/// The transfer function of sRGB, from linear to code.
-double linear_to_srgb(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 glm::dvec3 shown(Rgb c) {
-    const glm::dvec3 v = glm::clamp(glm::dvec3(c), 0.0, 1.0);
+    const Rgb v = glm::clamp(c, Rgb(0), Rgb(1));
     return {linear_to_srgb(v.r), linear_to_srgb(v.g), linear_to_srgb(v.b)};
 }
 

@@ -48,8 +48,8 @@ public:
     }
 
 private:
-    /// How far a lobe reaches, in radians, by its roughness: some way into its tail. (From 2 to 16, this was
-    /// best.)
+    /// How far a lobe reaches, in radians, by its roughness: some way into its tail. (8 and 16 are alike; less
+    /// is worse where it is glossy.)
     static constexpr float lobe_of_roughness = 8;
 
     float threshold_, roughness_a_turn_;

@@ -120,13 +120,13 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
     for (int m = 0; m < y.count(); ++m) {
         if (!asked[m])
             continue;
+        const float distance = light.distance_from(y.position[m]);
+        sight.distance2[m] = distance * distance;
         const std::optional<LightRay> ray = light.seen_from(y.position[m]);
         if (!ray)
             continue;
         sight.valid[m] = -1;
         sight.direction.set(m, ray->direction);
-        const float distance = light.distance_from(y.position[m]);
-        sight.distance2[m] = distance * distance;
         arriving.pdf_w[m] = ray->pdf_w;
         arriving.radiance.set(m, ray->radiance);
     }

@@ -1,5 +1,6 @@
 // Shift: scatterings done again at an offset vertex, by the same half vector or the same random numbers.
 #include "render/estimator/shift.h"
+
 #include <glm/geometric.hpp>
 
 namespace tessera {

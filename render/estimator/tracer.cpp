@@ -173,7 +173,7 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     Guide& guide = look.guide;
     float length = 0;
     Vertex x;
-    for (int i = 1; tracer.closest(ray, x, RayKind::camera); ++i) {
+    for (int i = 1; tracer.closest(ray, x, RayKind::look); ++i) {
         length += glm::distance(ray.origin, x.position);
         if (i == 1)
             look.albedo = x.bsdf.albedo(x.to_previous);

@@ -77,14 +77,13 @@ struct Tracer {
 
     float density_factor() const { return static_cast<float>(settings.light_samples); }
 
+    static bool sees_first(RayKind kind) { return kind == RayKind::camera || kind == RayKind::look; }
     /// What make_vertex() wants to know of textures. Camera rays have a width of their own.
     const TextureView* texture_view(RayKind kind) const {
-        const bool is_spared = kind == RayKind::camera && view.spares_first();
+        const bool is_spared = sees_first(kind) && view.spares_first();
         return view.filter() == TextureFilter::off || is_spared ? nullptr : &view;
     }
-    float width_of(RayKind kind, float width) const {
-        return kind == RayKind::camera ? view.first_width() : width;
-    }
+    float width_of(RayKind kind, float width) const { return sees_first(kind) ? view.first_width() : width; }
     /// That of the pixel which sees what lies beyond a vertex, by that of the vertex.
     float width_beyond(float width, float distance, bool is_delta) const {
         const bool is_its_own = width >= 0 && is_delta && view.filter() == TextureFilter::path;

@@ -16,7 +16,7 @@ std::string_view to_string(ShiftOutcome outcome) {
 }
 
 std::string_view to_string(RayKind kind) {
-    constexpr std::string_view names[] = {"camera", "bounce", "light", "shift_bounce", "shift_edge"};
+    constexpr std::string_view names[] = {"camera", "look", "bounce", "light", "shift_bounce", "shift_edge"};
     static_assert(std::size(names) == ray_kind_count);
     return names[static_cast<int>(kind)];
 }

@@ -30,9 +30,10 @@ std::string_view to_string(ShiftOutcome outcome);
 
 /// What a ray is shot for.
 enum class RayKind : std::uint8_t {
-    camera,       ///< from the camera to x_1
-    bounce,       ///< on from a vertex of a base path
-    light,        ///< from a vertex of a base path to a point on a light: occlusion only
+    camera, ///< from the camera to x_1
+    look,   ///< to what a pixel shows, which is no sample's (PixelLooks): from the camera on, through mirrors
+    bounce, ///< on from a vertex of a base path
+    light,  ///< from a vertex of a base path to a point on a light: occlusion only
     shift_bounce, ///< on from a vertex of an offset path
     shift_edge,   ///< a new edge of an offset path, to a base vertex or a light: occlusion only
     count

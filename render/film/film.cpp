@@ -44,8 +44,8 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
 }
 
 Film::Film(int width, int height, const FilmBuffers& buffers)
-    : primal_(width, height), brightest_(width, height), differences_(width, height), looks_(width, height),
-      parts_a_pixel_(buffers.parts), parts_(width * buffers.parts, height),
+    : primal_(width, height), brightest_(width, height), differences_(width, height),
+      looks_(width, height, buffers.albedo), parts_a_pixel_(buffers.parts), parts_(width * buffers.parts, height),
       projections_(width * buffers.parts, height), very_direct_(width, height) {
     if (buffers.gradients) {
         dx_ = Image<Moments>(width, height);
@@ -164,7 +164,6 @@ void Film::add_look(int x, int y, int pass, const Look& look, Counters& counters
 
 void Film::finish(int pass) {
     balance_ += static_cast<int>(sign_of(pass));
-    looks_.ask_for_more(pass + 1);
 }
 
 void Film::find_lamp_edges(const RgbImage& lamps) {

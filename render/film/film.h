@@ -88,8 +88,10 @@ public:
     /// takes its place, so that the next point is another.
     void add_look(int x, int y, int pass, const Look& look, Counters& counters);
 
-    /// To be called between passes, after each: what the next is to look for, and which half this one was of.
+    /// To be called after each pass: it counts to one half or the other.
     void finish(int pass);
+    /// Between passes: finds out where more looks are needed, for the means of so many passes.
+    void ask_for_looks(int passes) { looks_.ask_for_more(passes); }
 
     /// Adds what another film of the same size and buffers has summed, of other passes of the same render. The
     /// bits depend on the order in which films are added. Of albedos, whose points are the same ones in each,

@@ -49,7 +49,7 @@ void PixelLooks::ask_for_more(int passes) {
     // before the pixels around help. Tried on stability's texture: 0.002 is as good, 0.015 costs a fifth more
     // time. Guides are to be known well beside what counts as alike (recon/guided.cpp).
     constexpr double enough_of_one = 0.004, enough_of_guides = 0.003;
-    constexpr double most = 16;
+    constexpr double most = 1 << 20;
     const auto needed = [](double variance, double enough) { return std::pow(variance / enough, 2 / 3.0); };
     for (int y = 0; y < points_.height(); ++y)
         for (int x = 0; x < points_.width(); ++x) {
@@ -59,8 +59,9 @@ void PixelLooks::ask_for_more(int passes) {
                 for (int i = std::max(x - 1, 0); i <= std::min(x + 1, points_.width() - 1); ++i)
                     around += points_(i, j);
             Points& here = points_(x, y);
-            const double count = std::max(needed(around.relative_albedo_variance(), enough_of_one / passes),
-                                          needed(around.guide_variance(), enough_of_guides));
+            double count = needed(around.guide_variance(), enough_of_guides);
+            if (for_albedo_)
+                count = std::max(count, needed(around.relative_albedo_variance(), enough_of_one / passes));
             here.wanted = static_cast<int>(std::clamp(count - here.count, 0.0, most));
         }
 }

@@ -3,6 +3,7 @@
 #include "recon/image.h"
 #include "render/io/memory.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,18 +22,25 @@ struct Look {
 /// a render, and each pixel has as many as it takes to know it well.
 class PixelLooks {
 public:
-    PixelLooks(int width, int height) : points_(width, height) {}
+    /// @param for_albedo  albedos are to be known as well as the light is; else as guides are
+    PixelLooks(int width, int height, bool for_albedo) : points_(width, height), for_albedo_(for_albedo) {}
 
     static std::uint64_t bytes(int width, int height) {
         return sizeof(Points) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     }
 
-    /// At how many points a pixel is known, and how many more it takes in this pass.
+    /// At how many points a pixel is known, and at how many more it is to be after the pass at hand.
     int count(int x, int y) const { return points_(x, y).count; }
-    int wanted(int x, int y) const { return points_(x, y).wanted; }
-    void add(int x, int y, const Look& look) { points_(x, y) += look; }
+    int wanted(int x, int y) const {
+        constexpr int most = 16; // a pass: all pixels are to have some soon
+        return std::min(points_(x, y).wanted, most);
+    }
+    void add(int x, int y, const Look& look) {
+        points_(x, y) += look;
+        --points_(x, y).wanted;
+    }
 
-    /// Between passes: finds out where more points are needed.
+    /// Between passes: finds out where more points are needed, for the means of so many passes.
     void ask_for_more(int passes);
 
     /// Takes those of another render of the same picture, whose points are the same ones, where it has more.
@@ -55,7 +63,7 @@ private:
         Guide guide{};
         float guide_squares = 0; ///< of the lengths of followed albedos and of normals
         int count = 0;
-        int wanted = 4; ///< more, in the next pass
+        int wanted = 4; ///< more
 
         void operator+=(const Look& look);
         void operator+=(const Points& other);
@@ -64,6 +72,7 @@ private:
     };
 
     Image<Points> points_;
+    bool for_albedo_;
 };
 
 } // namespace tessera

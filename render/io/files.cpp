@@ -210,7 +210,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     out << text;
     out.close();
     if (!out)
-        throw std::runtime_error(path.string() + ": cannot be written");
+        throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
     temporary.commit();
 }
 

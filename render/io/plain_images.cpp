@@ -62,14 +62,10 @@ std::vector<std::uint8_t> srgb_bytes(const RgbImage& image, float exposure) {
 
 } // namespace
 
-float srgb_encoded(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 std::uint8_t srgb_byte(float linear) {
     if (!(linear > 0)) // comparisons with NaN are false
         return 0;
-    return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(std::min(linear, 1.0f))));
+    return static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(linear, 1.0f))));
 }
 
 void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {

@@ -12,9 +12,6 @@
 
 namespace tessera {
 
-/// The sRGB code, in [0, 1], of a linear value in [0, 1] [IEC 61966-2-1].
-float srgb_encoded(float linear);
-
 /// The 8-bit sRGB code of a linear value: 0 to 1 becomes 0 to 255, the rest is cut, what is not a number becomes
 /// 0.
 std::uint8_t srgb_byte(float linear);

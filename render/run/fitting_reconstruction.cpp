@@ -14,7 +14,7 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
                                       const ReconstructionSettings& settings, const ParallelFor& parallel_for,
                                       int threads, const SolveWatch& watch) {
     const int width = images.primal.width(), height = images.primal.height();
-    const Norm norm = images.has_gradients() ? settings.norm : without_gradients(settings.norm);
+    const Norm norm = applied(settings.norm, images.has_gradients());
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
     const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
     const std::uint64_t limits =

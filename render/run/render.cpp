@@ -82,9 +82,12 @@ public:
     }
     void expect(std::size_t pieces) { pieces_ = static_cast<float>(pieces); } ///< while nobody adds any
     void add(std::ptrdiff_t pieces) {
-        const std::ptrdiff_t done = done_ += pieces;
-        if (told_)
-            *told_ = static_cast<float>(done) / pieces_;
+        const float share = static_cast<float>(done_ += pieces) / pieces_;
+        if (!told_)
+            return;
+        // Threads may come here in another order than they have counted.
+        for (float last = *told_; last < share && !told_->compare_exchange_weak(last, share);)
+            ;
     }
 
 private:
@@ -198,17 +201,28 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
     }
+    const bool is_whole = std::cmp_equal(done, blocks.size());
+    if (is_whole)
+        learn_from_pass();
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (std::cmp_less(done, blocks.size()))
-        return false;
+    return is_whole;
+}
+
+/// What is worked out between passes, in the calling thread. What takes a look at all pixels, and changes little
+/// from pass to pass, is worked out whenever there are twice as many.
+void Render::learn_from_pass() {
+    const double before = thread_cpu_seconds();
     std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
     plan_.learn(film_.path_luminance());
     film_.finish(first_pass_ + spp_);
     ++spp_;
-    if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first && std::has_single_bit(unsigned(spp_)))
-        plan_.learn_noise(film_.noise(spp_));
-    return true;
+    if (std::has_single_bit(unsigned(spp_))) {
+        film_.ask_for_looks(first_pass_ + 2 * spp_);
+        if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first)
+            plan_.learn_noise(film_.noise(spp_));
+    }
+    cpu_seconds_ += thread_cpu_seconds() - before;
 }
 
 ReuseMaps Render::reuse_maps() const {

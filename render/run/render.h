@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/film/film.h"
 #include "render/estimator/reuse_policy.h"
+#include "render/film/film.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
 
@@ -33,7 +33,8 @@ public:
     /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
     /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
     /// picture. Throws OutOfMemory where the first has none for its threads.
-    /// @param share  is told, from the pool's threads, which share of the pass is done, from 0 on, the pilot of the
+    /// @param share  is told, from the pool's threads, which share of the pass is done, from 0 on, the pilot of
+    /// the
     ///               first one included; null: nobody wants to know
     bool pass(ThreadPool& pool, std::stop_token stop = {}, std::atomic<float>* share = nullptr);
 
@@ -66,6 +67,7 @@ private:
 
     bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share);
     bool look_first(Workers& workers);
+    void learn_from_pass();
     GradientImages with_patch(GradientImages images) const;
 
     std::shared_ptr<const Scene> scene_;

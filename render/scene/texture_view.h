@@ -20,8 +20,15 @@ public:
     TextureView() = default;
     /// @param spares_first  x_1 is not filtered: light is divided by its albedo, and the mean albedo of many
     /// points
-    ///                      of each pixel knows more of it than any footprint (Film::add_albedo)
-    TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size);
+    ///                      of each pixel knows more of it than any footprint (PixelLooks)
+    TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size)
+        : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(spares_first) {
+        const Projection projection(camera, size);
+        const Ray middle = projection.ray(glm::vec2(size) * 0.5f);
+        eye_ = middle.origin;
+        forward_ = middle.direction;
+        width_ = projection.pixel_width();
+    }
 
     /// How wide a footprint is, of a pixel: the path's share if it is one of sixteen [Suykens 2001, 3.4]. A whole
     /// pixel would be blurred once more by the pixel filter.

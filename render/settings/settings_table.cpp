@@ -212,13 +212,15 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",
          Setting::Real{&s.shift_threshold, 0, 1, 0, 1}, joins, true},
         {"shift_distance", "Distance",
-         "Shift distance: edges shorter than so many pixels are wide at the first hit are not joined, but bounced "
-         "along: from other pixels, what is close in a corner looks quite different. 0: all are joined.",
+         "Shift distance: how far pixels that share are taken to be apart, in pixels' widths there. Edges shorter "
+         "than "
+         "that are not joined, but bounced along: from other pixels, what is close in a corner looks quite "
+         "different; and by footprint, lobes must be as wide as it is from there. 0: all edges are long enough.",
          Setting::Real{&s.shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
         {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
          Setting::Whole{&s.max_depth, 1, most_edges}},
         {"filter_textures", "Filter textures",
-         "What of a texture a path looks up: colours of surfaces, and of lamps that the camera sees.",
+         "What of a texture a path looks up: colours of surfaces, and with PT of lamps that the camera sees.",
          one_of(texture_filters, s.filter_textures), true, true},
         {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
          Setting::Whole{&s.light_samples, 1, 16}, true, true},
@@ -248,6 +250,22 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
          Setting::Switch{&s.joint_colour}, s.norm == Norm::l1 || s.norm == Norm::mixed},
         spikes_setting(s.spikes),
     };
+}
+
+std::vector<Setting> settings_of(ReconstructionSettings& s, bool has_gradients) {
+    std::vector<Setting> all = settings_of(s);
+    const bool smooths = applied(s.norm, false) != Norm::none;
+    for (Setting& setting : all) {
+        const bool is_of_all = setting.id == "spikes" || (setting.id == "norm" && smooths);
+        setting.matters = setting.matters && (has_gradients || is_of_all);
+    }
+    return all;
+}
+
+ReconstructionSettings applied(const ReconstructionSettings& settings, bool has_gradients) {
+    if (has_gradients)
+        return settings;
+    return {.norm = applied(settings.norm, false), .spikes = settings.spikes};
 }
 
 void check(const RenderSettings& settings) {

@@ -93,9 +93,11 @@ Rgb filtered(const BitmapTexture& texture, glm::vec2 uv, glm::vec2 along, glm::v
     const Bitmap& bitmap = *texture.bitmap;
     const glm::vec2 size(bitmap.width, bitmap.height);
     const Row row = row_of(uv, along * size, across * size); // but for its middle in pixels of the bitmap
-    if (!(row.width > 1) || bitmap.mips.of(bitmap).empty())
+    if (!(row.width > 1))
         return look_up(texture, uv);
     const std::vector<Bitmap>& mips = bitmap.mips.of(bitmap);
+    if (mips.empty())
+        return look_up(texture, uv);
     const auto last = static_cast<float>(mips.size());
     const float level = std::min(std::log2(row.width), last), finer = std::min(std::floor(level), last - 1);
     const auto at_level = [&](int i, glm::vec2 point) {
@@ -159,7 +161,7 @@ const std::vector<Bitmap>& MipLevels::of(const Bitmap& bitmap) const {
 Rgb Texture::filtered(const SurfacePoint& at) const {
     if (const Rgb* constant = std::get_if<Rgb>(&kind))
         return *constant;
-    if (at.mesh)
+    if (at.mesh || at.footprint.along == glm::vec2(0))
         return evaluate(at);
     const glm::mat2 turn(to_uv);
     const glm::vec2 along = turn * at.footprint.along, across = turn * at.footprint.across;

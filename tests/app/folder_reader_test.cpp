@@ -2,7 +2,7 @@
 // there is nothing to follow.
 #include "app/experiment/claim.h"
 #include "app/experiment/plan.h"
-#include "app/report/folder_reader.h"
+#include "app/report/reports.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
 
@@ -133,6 +133,28 @@ TEST_F(FollowedFolderTest, SaysWhichFileIsDamaged) {
     ASSERT_EQ(seen->trouble.size(), 1u);
     EXPECT_THAT(seen->trouble[0], HasSubstr(job.string()));
     EXPECT_FALSE(seen->charts.empty());
+}
+
+TEST_F(FollowedFolderTest, GoesOnWhereWhatWasDamagedIsMended) {
+    sweep("");
+    const fs::path plan_path = plan_file(folder() / "out");
+    const fs::path job = folder() / "out" / read_plan(plan_path).jobs[1].file;
+    const std::string plan = text(plan_path), found = text(job);
+    std::ofstream(job) << found.substr(0, found.find("\"measurements\"")) << "\"measurements\":3}}\n";
+    const FolderReader reader = folder_reader(folder() / "out");
+    std::shared_ptr<const FollowedFolder> seen = reader();
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->trouble.size(), 1u);
+    std::ofstream(plan_path) << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
+    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs"));
+    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs")) << "and again";
+    std::ofstream(plan_path) << plan;
+    std::ofstream(job) << found;
+    seen = reader();
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->jobs.size(), 7u);
+    EXPECT_TRUE(seen->trouble.empty());
+    EXPECT_EQ(to_svg(seen->charts.at(0)), text("out/sweep-cornell-box.svg"));
 }
 
 } // namespace

@@ -3,7 +3,10 @@
 #include "app/experiment/stability.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +16,9 @@ namespace tessera::test {
 namespace {
 
 TEST(Gallery, HasAllScenesOfTheSuite) {
-    const std::vector<GalleryEntry> entries = gallery();
+    const GalleryContents found = gallery(built_in_stability_scenes);
+    const std::vector<GalleryEntry>& entries = found.entries;
+    EXPECT_EQ(found.problem, "");
     ASSERT_EQ(entries.size(), 1 + built_in_stability_scenes().size());
     EXPECT_TRUE(entries.front().file.empty());
     for (const GalleryEntry& entry : entries) {
@@ -26,6 +31,14 @@ TEST(Gallery, HasAllScenesOfTheSuite) {
     EXPECT_THAT(glossy->help, testing::HasSubstr("\nglossy-0.01:  pr worse 1.39"));
     EXPECT_THAT(glossy->verdict, testing::StartsWith("G-PR worse"));
     EXPECT_TRUE(glossy->is_worse);
+}
+
+TEST(Gallery, HasTheSceneWithinTheProgramWhereOthersAreNotFound) {
+    const GalleryContents found =
+        gallery([]() -> std::vector<std::filesystem::path> { throw std::runtime_error("no room in /tmp"); });
+    ASSERT_EQ(found.entries.size(), 1u);
+    EXPECT_TRUE(found.entries.front().file.empty());
+    EXPECT_THAT(found.problem, testing::HasSubstr("no room in /tmp"));
 }
 
 } // namespace

@@ -46,7 +46,7 @@ TEST(PixelLooks, AMirrorShowsWhatIsSeenInIt) {
 
 /// Pixels that see one thing need few looks, those at an edge more.
 TEST(PixelLooks, AreManyWherePixelsSeeMoreThanOneThing) {
-    PixelLooks looks(9, 9);
+    PixelLooks looks(9, 9, true);
     const auto pass = [&](int index) {
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 9; ++x)

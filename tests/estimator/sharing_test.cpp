@@ -173,25 +173,11 @@ TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     }
 }
 
-/// Small squares seen directly, in a mirror, through glass, and by metal: what is filtered.
-std::shared_ptr<const Scene> squares_in_mirrors() {
-    Room r;
-    DiffuseMaterial checker;
-    checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.2f, 0.1f), Rgb(0.1f, 0.3f, 0.8f)};
-    checker.reflectance.to_uv = glm::mat3(40, 0, 0, 0, 40, 0, 0, 0, 1);
-    r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.material({"squares", checker}));
-    r.quad({-0.9f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.mirror());
-    r.quad({0.1f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.conductor(0.05f));
-    r.quad({-0.5f, -0.8f, 0.3f}, {0.6f, 0, 0}, {0, 0.6f, 0}, r.glass(1.5f, true));
-    return r.build();
-}
-
 /// All scenes but those with masks: a mask lets a ray through by chance, which is another one for a ray that
 /// differs by rounding.
 std::vector<TestScene> scenes_without_masks() {
     std::vector<TestScene> scenes = all_test_scenes();
     std::erase_if(scenes, [](const TestScene& t) { return t.name.starts_with("masks"); });
-    scenes.push_back({"squares_in_mirrors", squares_in_mirrors(), 5});
     return scenes;
 }
 

@@ -219,6 +219,19 @@ std::shared_ptr<const Scene> phong() {
 }
 
 /// Slats and a glossy floor, out of focus in front and behind, and a blurred lamp.
+/// Small squares seen directly, in a mirror, through glass, and by metal: what is filtered.
+std::shared_ptr<const Scene> squares_in_mirrors() {
+    Room r;
+    DiffuseMaterial checker;
+    checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.2f, 0.1f), Rgb(0.1f, 0.3f, 0.8f)};
+    checker.reflectance.to_uv = glm::mat3(40, 0, 0, 0, 40, 0, 0, 0, 1);
+    r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.material({"squares", checker}));
+    r.quad({-0.9f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.mirror());
+    r.quad({0.1f, -0.9f, -0.8f}, {0.8f, 0, 0}, {0, 1.2f, 0}, r.conductor(0.05f));
+    r.quad({-0.5f, -0.8f, 0.3f}, {0.6f, 0, 0}, {0, 0.6f, 0}, r.glass(1.5f, true));
+    return r.build();
+}
+
 std::shared_ptr<const Scene> thin_lens() {
     Room r;
     for (int i = 0; i < 5; ++i)
@@ -290,6 +303,7 @@ std::vector<TestScene> all_test_scenes() {
         {"shining_wall", shining_wall(), 4},
         {"short_edges", blinds(), 4, 0.001f, 1, 20},
         {"mirrors_in_plastic", mirrors_in_plastic(), 6, 0.001f, 3, 12},
+        {"squares_in_mirrors", squares_in_mirrors(), 5},
         {"thin_lens", thin_lens(), 4, 0.001f, 2},
         {"orthographic", orthographic(), 4},
         {"no_light", no_light(), 4},

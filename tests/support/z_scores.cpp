@@ -86,12 +86,18 @@ ZResult z_test(const Measured& a, const Measured& b) {
     ZResult r;
     double squares = 0;
     double sum = 0;
+    // What is solved for is rounded as all of the picture is: beside bright pixels, no black one is exactly 0.
+    double brightness = 0;
+    for (const Rgb& value : b.mean)
+        for (int c = 0; c < 3; ++c)
+            brightness += std::abs(double(value[c])) / (3.0 * double(b.mean.size()));
     for (std::size_t i = 0; i < a.mean.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const double difference = double(a.mean.data()[i][c]) - b.mean.data()[i][c];
             const double error = std::hypot(a.standard_error.data()[i][c], b.standard_error.data()[i][c]);
             const double scale = std::abs(a.mean.data()[i][c]) + std::abs(b.mean.data()[i][c]);
-            const double z = difference / std::max(error, 1e-6 * scale + 1e-12); // rounding, where nothing varies
+            const double rounding = 1e-6 * (scale + brightness) + 1e-12;
+            const double z = difference / std::max(error, rounding);
             r.largest = std::max(r.largest, std::abs(z));
             squares += z * z;
             sum += z;

@@ -95,7 +95,7 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     EXPECT_EQ(state.layout.choosing, FilePurpose::save);
     state.layout.choosing.reset();
     type(state, {Key::f12, false, false, 0});
-    EXPECT_TRUE(state.wishes.save_window);
+    EXPECT_TRUE(state.wishes.saves.has(SaveKind::window));
     type(state, {Key::i, true, false, 0});
     EXPECT_TRUE(state.layout.sample_form.show);
     type(state, key(Key::escape));
@@ -103,7 +103,7 @@ TEST(Actions, EveryShortcutRunsItsAction) {
     type(state, key(Key::f5));
     EXPECT_TRUE(state.wishes.reload);
     type(state, key(Key::k));
-    EXPECT_TRUE(state.wishes.save_camera);
+    EXPECT_TRUE(state.wishes.saves.has(SaveKind::camera));
     EXPECT_FALSE(state.wishes.copy_camera);
     type(state, {Key::k, false, true, 0});
     EXPECT_TRUE(state.wishes.copy_camera);

@@ -47,7 +47,7 @@ TEST_F(CameraActions, SavesInTheCurrentFolderAndWritesOverNothing) {
     finish_saving();
     EXPECT_TRUE(read_camera(file) == first);
     EXPECT_TRUE(read_camera(elsewhere.path() / "room-camera-2.json") == state().camera.camera());
-    EXPECT_FALSE(state().wishes.save_camera);
+    EXPECT_FALSE(state().wishes.saves.has(SaveKind::camera));
 }
 
 TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {

@@ -72,7 +72,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     wait_until([&] { return !errors(1).empty(); });
     type(Key::z); // with the panel closed
     finish_saving();
-    EXPECT_FALSE(state().wishes.save_charts);
+    EXPECT_FALSE(state().wishes.saves.has(SaveKind::charts));
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
     EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
     const auto files = files_here();
@@ -96,7 +96,7 @@ TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
     viewer.keyboard().press(Key::z, Key::z, false, false);
     frame();
     EXPECT_TRUE(state().histograms_due); // the wish alone asks for them
-    EXPECT_TRUE(state().wishes.save_charts);
+    EXPECT_TRUE(state().wishes.saves.has(SaveKind::charts));
     finish_saving();
     EXPECT_NE(files_here().at(".csv").find("luminance,pixels"), std::string::npos);
 }

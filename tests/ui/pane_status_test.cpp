@@ -28,7 +28,7 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     snapshot->spp = 12;
     snapshot->seconds = 2;
     snapshot->settings.method = Method::gpr;
-    snapshot->counters.rays = {1000000, 2000000, 2000000};
+    snapshot->counters.rays = {1000000, 0, 2000000, 2000000};
     auto reconstruction = std::make_shared<Reconstruction>();
     reconstruction->iterations = 14;
     reconstruction->seconds = 0.0214;

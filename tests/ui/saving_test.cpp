@@ -117,10 +117,10 @@ TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.rest(2);
-        h.state().wishes.save_exr = true;
+        h.state().save(SaveKind::exr);
         testing::internal::CaptureStderr();
         h.frame();
-        h.state().wishes.save_exr = true;
+        h.state().save(SaveKind::exr);
         h.frame();
     }
     told = testing::internal::GetCapturedStderr();
@@ -245,6 +245,25 @@ TEST_F(SavedView, UnderANameAndInAFolderOfOnesOwn) {
     EXPECT_EQ(files_in(folder.path).size(), 1u);
 }
 
+/// A name that could not be written is forgotten: the next picture does not go there unasked.
+TEST_F(SavedView, ANameIsOfOneSaveAlone) {
+    rest(2);
+    type(Key::s, true);
+    frames(2);
+    const fs::path beside = folder.path / "taken";
+    std::ofstream(beside) << "a file, no folder";
+    state().save(SaveKind::picture, (beside / "first.png").string());
+    finish_saving();
+    EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
+    fs::remove(beside);
+    fs::create_directory(beside);
+    state().layout.save_folder = folder.path.string();
+    state().save(SaveKind::picture);
+    finish_saving();
+    EXPECT_FALSE(fs::exists(beside / "first.png"));
+    EXPECT_EQ(files_in(folder.path).size(), 2u) << "the folder, and a picture named by the date";
+}
+
 TEST_F(SavedView, EveryKindIsSavedByTheDialog) {
     rest(2);
     const char* const kinds[] = {"window", "settings", "camera", "charts"};
@@ -254,7 +273,7 @@ TEST_F(SavedView, EveryKindIsSavedByTheDialog) {
         choose("file.kind", kind);
         click("file.open");
         finish_saving();
-        EXPECT_FALSE(state().wishes.save_as) << kind;
+        EXPECT_FALSE(state().wishes.saves.has_any()) << kind;
     }
     std::set<fs::path> expected;
     for (const char* name :

@@ -14,7 +14,7 @@ Snapshot snapshot_of_counts() {
     Counters& c = snapshot.counters;
     c.camera_paths = 2000;
     c.path_vertices = 5000;
-    c.rays = {20000, 10000, 0, 40000, 10000};
+    c.rays = {20000, 0, 10000, 0, 40000, 10000};
     c.dark_paths = 10;
     c.skipped_paths = 830;
     c.reused_paths = 160;

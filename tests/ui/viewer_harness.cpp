@@ -76,11 +76,7 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
 }
 
 void ViewerHarness::finish_saving() {
-    wait_until([&] {
-        const Wishes& w = state().wishes;
-        return !w.save_window && !w.save_charts && !w.save_camera && !w.save_settings && !w.save_exr &&
-               !w.save_picture && !viewer.saving();
-    });
+    wait_until([&] { return !state().wishes.saves.has_any() && !viewer.saving(); });
 }
 
 void ViewerHarness::load_scene() {

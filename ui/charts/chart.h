@@ -56,8 +56,8 @@ struct ChartPoint {
 struct ChartSeries {
     std::string label; ///< the key's; series of one label in several plots look alike
     std::vector<ChartPoint> points;
-    bool is_level =
-        false; ///< one value for every x: a line without markers at the first point's y, whatever its x
+    /// One value for every x: a line without markers at the first point's y, whatever its x.
+    bool is_level = false;
     bool is_dense = false; ///< too many points to mark each: the last alone is
     LineLook look{};       ///< without a method: dashed where it is level, else solid, with a marker by its label
 };

@@ -221,8 +221,8 @@ void draw_chart_buttons(Controls& controls, ViewerState& state) {
     ImGui::SameLine();
     if (controls.button("charts.save", "Save",
                         "Writes the points of all panes and the histogram as CSV, the chart as SVG, and a picture "
-                        "of it as PNG, to the current folder."))
-        state.wishes.save_charts = true;
+                        "of it as PNG, to the folder where was saved last."))
+        state.save(SaveKind::charts);
 }
 
 void draw_contents(Controls& controls, ViewerState& state) {

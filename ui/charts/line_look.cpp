@@ -15,8 +15,7 @@ std::span<const float> dashes_of(const LineLook& look) {
                            dash_dot_dots[] = {6, 2, 1, 2, 1, 2}, sparse_dots[] = {1, 4}, sparse_dashes[] = {4, 5};
     static constexpr std::span<const float> by_norm[] = {
         dots, dashes, short_dashes, dash_dots, long_dashes, {}, dash_dot_dots, sparse_dots, sparse_dashes};
-    const bool has_norm =
-        look.method && (has_gradients(*look.method) || without_gradients(look.norm) != Norm::none);
+    const bool has_norm = look.method && (has_gradients(*look.method) || applied(look.norm, false) != Norm::none);
     return has_norm ? entry_of(by_norm, look.norm) : std::span<const float>{};
 }
 

@@ -53,9 +53,9 @@ Rgb displayed(const Rgb& radiance, const Tone& tone) {
     for (int i = 0; i < 3; ++i) {
         const float c = std::clamp(radiance[i] * std::exp2(tone.exposure), 0.0f, 1e4f);
         const float unit = std::min(c, 1.0f);
-        result[i] = tone.curve == Tone::Curve::filmic  ? srgb_encoded(filmic(c))
+        result[i] = tone.curve == Tone::Curve::filmic  ? linear_to_srgb(filmic(c))
                     : tone.curve == Tone::Curve::gamma ? std::pow(unit, 1 / tone.gamma)
-                                                       : srgb_encoded(unit);
+                                                       : linear_to_srgb(unit);
     }
     return result;
 }

@@ -1,4 +1,5 @@
 #include "render/run/thread_pool.h"
+#include "render/settings/settings_table.h"
 #include "ui/jobs/jobs.h"
 #include "ui/state/companions.h"
 
@@ -22,7 +23,7 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     for (std::size_t slot = 0; slot < jobs_.size(); ++slot)
         take(state, slot);
-    const bool wants_histograms = state.layout.shows_charts() || state.wishes.save_charts;
+    const bool wants_histograms = state.layout.shows_charts() || state.wishes.saves.has(SaveKind::charts);
     state.histograms_due = false;
     for (const PaneState& pane : state.panes) {
         Job& job = jobs_[static_cast<std::size_t>(pane.slot)];
@@ -46,10 +47,9 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     if (!source || !(reference || wants_histogram))
         return;
     const Snapshot& s = *pane.snapshot;
-    Request request{source, reference, wants_histogram, s.generation, s.settings.method, s.reconstructed_with};
-    if (!has_gradients(request.method))
-        request.reconstruction = {.norm = without_gradients(request.reconstruction.norm),
-                                  .spikes = request.reconstruction.spikes};
+    Request request{
+        source,       reference,         wants_histogram,
+        s.generation, s.settings.method, applied(s.reconstructed_with, has_gradients(s.settings.method))};
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {

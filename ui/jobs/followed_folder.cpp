@@ -2,11 +2,11 @@
 
 #include "render/io/available_memory.h"
 
-#include <stop_token>
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <stop_token>
 #include <utility>
 
 namespace tessera {
@@ -28,22 +28,31 @@ std::size_t FollowedFolder::count(FollowedJob::State state) const {
 
 void FolderFollower::follow(const std::filesystem::path& folder, FolderReader reader, std::function<void()> wake) {
     stop();
-    view_ = {folder};
-    thread_ = std::jthread([this, reader = std::move(reader),
-                            wake = std::move(wake)](const std::stop_token& stop) { run(stop, reader, wake); });
+    now_ = std::make_unique<Following>();
+    now_->view = {folder};
+    now_->thread = std::jthread(
+        [following = now_.get(), reader = std::move(reader), wake = std::move(wake)](const std::stop_token& stop) {
+            run(*following, stop, reader, wake);
+            following->has_ended = true;
+        });
 }
 
 void FolderFollower::stop() {
-    thread_ = {};
-    view_ = {};
+    std::erase_if(given_up_, [](const auto& following) { return following->has_ended.load(); });
+    if (!now_)
+        return;
+    now_->thread.request_stop();
+    given_up_.push_back(std::move(now_));
 }
 
 FolderFollower::View FolderFollower::view() const {
-    const std::scoped_lock lock(mutex_);
-    return view_;
+    if (!now_)
+        return {};
+    const std::scoped_lock lock(now_->mutex);
+    return now_->view;
 }
 
-void FolderFollower::run(const std::stop_token& stop, const FolderReader& reader,
+void FolderFollower::run(Following& following, const std::stop_token& stop, const FolderReader& reader,
                          const std::function<void()>& wake) {
     std::mutex mutex;
     std::unique_lock waiting(mutex);
@@ -58,14 +67,16 @@ void FolderFollower::run(const std::stop_token& stop, const FolderReader& reader
         } catch (const std::exception& e) {
             error = message_of(e);
         }
+        if (stop.stop_requested()) // meanwhile: nobody asks for it any more
+            return;
         pause = std::max<Clock::duration>(least_pause, pauses_a_look * (Clock::now() - begin));
         {
-            const std::scoped_lock lock(mutex_);
-            if (!seen && error == view_.error)
+            const std::scoped_lock lock(following.mutex);
+            if (!seen && error == following.view.error)
                 continue;
             if (seen)
-                view_.seen = std::move(seen);
-            view_.error = error;
+                following.view.seen = std::move(seen);
+            following.view.error = error;
         }
         if (wake)
             wake();

@@ -1,16 +1,15 @@
 #pragma once
 
 #include "ui/charts/chart.h"
-#include "ui/state/viewer_state.h"
 
-#include <stop_token>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -45,9 +44,12 @@ using FolderReader = std::function<std::shared_ptr<const FollowedFolder>()>;
 /// Makes the reader of a folder; called from the UI's thread, and touches no file.
 using FolderOpener = std::function<FolderReader(const std::filesystem::path&)>;
 
-/// Follows one folder in the background. Its end waits for the look under way.
+/// Follows one folder in the background. Nothing waits for a look under way, which may hang with its server, but
+/// the end.
 class FolderFollower {
 public:
+    ~FolderFollower() { stop(); } // all of them, before the first is waited for
+
     /// What is known now.
     struct View {
         std::filesystem::path folder;                 ///< empty: none is followed
@@ -57,16 +59,23 @@ public:
 
     /// Follows that folder from now on. `wake` is called from another thread when there is something new.
     void follow(const std::filesystem::path& folder, FolderReader reader, std::function<void()> wake);
+    /// Gives the folder up.
     void stop();
 
     View view() const;
 
 private:
-    void run(const std::stop_token& stop, const FolderReader& reader, const std::function<void()>& wake);
+    struct Following {
+        mutable std::mutex mutex; // of the next
+        View view;
+        std::atomic<bool> has_ended = false;
+        std::jthread thread; // last: ends first
+    };
+    static void run(Following& following, const std::stop_token& stop, const FolderReader& reader,
+                    const std::function<void()>& wake);
 
-    mutable std::mutex mutex_; // of the next
-    View view_;
-    std::jthread thread_; // last: ends first
+    std::unique_ptr<Following> now_;                   // null: no folder is followed
+    std::vector<std::unique_ptr<Following>> given_up_; // until their looks have ended
 };
 
 } // namespace tessera

@@ -30,7 +30,7 @@ private:
         bool wants_histogram = false;
         std::uint64_t generation = 0; // of the pane's request
         Method method = Method::gpr;
-        ReconstructionSettings reconstruction; // without_gradients() where the method has none
+        ReconstructionSettings reconstruction; // as applied()
         bool operator==(const Request&) const = default;
     };
     struct Measured {

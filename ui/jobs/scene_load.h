@@ -52,8 +52,13 @@ struct GalleryEntry {
     RgbImage picture{};         ///< small, in sRGB; empty: none
 };
 
+struct GalleryContents {
+    std::vector<GalleryEntry> entries;
+    std::string problem; ///< why some are missing; empty: none is
+};
+
 /// Finds them, on a thread other than the UI's.
-using GalleryMaker = std::function<std::vector<GalleryEntry>()>;
+using GalleryMaker = std::function<GalleryContents()>;
 
 /// How a load ended.
 struct SceneLoadResult {

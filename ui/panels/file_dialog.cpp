@@ -73,9 +73,8 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     draw_buttons(controls, state);
     if (!chosen_.empty()) {
         if (saves()) {
-            state.wishes.save_as = {kind_, chosen_.string()};
             state.layout.save_folder = chosen_.parent_path().string();
-            state.save(kind_);
+            state.save(kind_, chosen_.string());
         } else {
             std::string* const wishes[] = {&state.wishes.open_scene, &state.wishes.open_reference,
                                            &state.wishes.open_settings, &state.wishes.follow_jobs};
@@ -102,7 +101,7 @@ void FileDialog::begin(const ViewerState& state) {
 }
 
 const char* FileDialog::extension() const {
-    return saves() ? saved_extension(kind_) : text_of(*purpose_).extension;
+    return saves() ? saved_endings(kind_).front() : text_of(*purpose_).extension;
 }
 
 void FileDialog::set_text(const std::string& text) {
@@ -217,12 +216,11 @@ void FileDialog::enter() {
 
 void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     const TypedPath typed = typed_path(text_.data());
-    std::error_code ignored;
     const fs::path path = typed_file(text_.data());
     const bool is_file = can_take(path);
     const float width = ImGui::GetFontSize() * 6;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_file ? 1.0f : 0.5f);
-    const bool is_there = fs::exists(path, ignored);
+    const bool is_there = saves() && replaces(path);
     const char* const verb = wants_folder() ? "Follow" : !saves() ? "Open" : is_there ? "Replace" : "Save";
     if (controls.button("file.open", verb, text_of(*purpose_).help, width) && is_file)
         wants_folder() ? void(chosen_ = path) : enter(); // what is typed of a folder's name may be whole
@@ -230,7 +228,7 @@ void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     ImGui::SameLine();
     if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
         state.layout.choosing.reset();
-    if (saves() && is_file && is_there) {
+    if (is_file && is_there) {
         ImGui::SameLine();
         ImGui::TextDisabled("There is such a file: it will be replaced");
     }

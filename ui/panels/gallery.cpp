@@ -2,13 +2,13 @@
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <stop_token>
-#include <utility>
-#include <algorithm>
-#include <cmath>
 #include <string>
+#include <utility>
 
 #include <imgui.h>
 
@@ -18,12 +18,12 @@ namespace {
 
 constexpr float card_width = 10.5f; // heights of a line
 
-void open(const GalleryEntry& entry, ViewerState& state) {
-    if (entry.file.empty())
+/// Empty: the scene within the program.
+void open(const std::filesystem::path& file, ViewerState& state) {
+    if (file.empty())
         state.wishes.open_built_in = true;
     else
-        state.wishes.open_scene = entry.file.string();
-    state.layout.show_gallery = false;
+        state.wishes.open_scene = file.string();
 }
 
 void draw_recent(Controls& controls, ViewerState& state) {
@@ -34,7 +34,7 @@ void draw_recent(Controls& controls, ViewerState& state) {
         const std::filesystem::path file = state.recent_scenes[i];
         const std::string name = (file.parent_path().filename() / file.filename()).string();
         if (controls.button(("gallery.recent" + std::to_string(i)).c_str(), name.c_str(), file.string().c_str()))
-            open({{}, {}, {}, false, file, {}}, state);
+            open(file, state);
         if (i % 3 != 2 && i + 1 < state.recent_scenes.size())
             ImGui::SameLine();
     }
@@ -50,7 +50,7 @@ void Gallery::draw_card(std::size_t index, Controls& controls, ViewerState& stat
     const ImVec2 size(width, picture.y + 2.6f * font);
     const std::string id = "gallery/" + entry.title;
     if (ImGui::InvisibleButton(id.c_str(), size))
-        open(entry, state);
+        open(entry.file, state);
     const bool hovered = ImGui::IsItemHovered();
     controls.place(id.c_str(), entry.help.c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -85,9 +85,10 @@ void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& sta
             0, [maker](const std::stop_token&) { return maker(); }, wake);
     if (auto outcome = job_.take()) {
         if (outcome->result)
-            entries_ = std::move(*outcome->result);
-        else
-            state.add_message(Message::Kind::error, "The gallery: " + outcome->error);
+            entries_ = std::move(outcome->result->entries);
+        const std::string& problem = outcome->result ? outcome->result->problem : outcome->error;
+        if (!problem.empty())
+            state.add_message(Message::Kind::error, "The gallery: " + problem);
         textures_.resize(entries_.size());
     }
     const float font = ImGui::GetFontSize(), margin = std::floor(font);

@@ -92,6 +92,25 @@ void draw_trouble(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
+/// The first of them: a folder that is damaged may have thousands.
+void draw_trouble(const std::vector<std::string>& texts) {
+    constexpr std::size_t most = 3;
+    for (std::size_t i = 0; i < std::min(texts.size(), most); ++i)
+        draw_trouble(texts[i]);
+    if (texts.size() > most)
+        draw_trouble(fmt::format("and {} more files that cannot be read", texts.size() - most));
+}
+
+/// Beside what was drawn last.
+void draw_count(Controls& controls, const FollowedFolder& seen) {
+    ImGui::SameLine();
+    ImGui::Text("%s", fmt::format("{}: {} of {} jobs done, {} claimed, {} waiting", seen.command,
+                                  seen.count(State::done), seen.jobs.size(), seen.count(State::claimed),
+                                  seen.count(State::waiting))
+                          .c_str());
+    controls.place("jobs.count", "References that are missing are jobs, too.");
+}
+
 } // namespace
 
 void JobsPanel::draw_charts(Controls& controls, const FollowedFolder& seen, glm::vec2 room) {
@@ -156,20 +175,17 @@ void JobsPanel::draw(const ScreenRect& where, Controls& controls, ViewerState& s
         if (controls.button("jobs.close", "Close",
                             "Shows the pictures again (Esc); the folder is still followed."))
             state.layout.show_jobs = false;
+        if (view.seen)
+            draw_count(controls, *view.seen);
         if (!view.error.empty()) {
             draw_trouble(view.error);
-            controls.place("jobs.error", "What is wrong with the folder; it is looked at again and again.");
-        } else if (view.seen) {
+            controls.place("jobs.error", "What is wrong with the folder; it is looked at again and again. Below "
+                                         "stands what was seen before.");
+        }
+        if (view.seen) {
             const FollowedFolder& seen = *view.seen;
-            ImGui::SameLine();
-            ImGui::Text("%s", fmt::format("{}: {} of {} jobs done, {} claimed, {} waiting", seen.command,
-                                          seen.count(State::done), seen.jobs.size(), seen.count(State::claimed),
-                                          seen.count(State::waiting))
-                                  .c_str());
-            controls.place("jobs.count", "References that are missing are jobs, too.");
             draw_bar(controls, seen);
-            for (const std::string& text : seen.trouble)
-                draw_trouble(text);
+            draw_trouble(seen.trouble);
             const ImVec2 room = ImGui::GetContentRegionAvail();
             draw_charts(controls, seen, {room.x, room.y * 0.62f});
             draw_list(controls, seen);

@@ -1,6 +1,7 @@
 #include "ui/panels/panels.h"
 
 #include "ui/gl/theme.h"
+#include "ui/panes/pane_parts.h"
 #include "ui/state/actions.h"
 
 #include <algorithm>
@@ -16,13 +17,6 @@
 namespace tessera {
 
 namespace {
-
-void draw_menu_item(Controls& controls, const Action& action, ViewerState& state) {
-    const bool checked = action.checked != nullptr && action.checked(state);
-    if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
-        action.run(state);
-    controls.place((std::string("menu ") + action.menu + "/" + action.name).c_str(), action.help);
-}
 
 void draw_recent_scenes(Controls& controls, ViewerState& state) {
     if (!state.recent_scenes.empty())
@@ -44,7 +38,7 @@ void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
         return;
     for (const Action& action : actions()) {
         if (std::strcmp(action.menu, menu) == 0)
-            draw_menu_item(controls, action, state);
+            draw_menu_item(std::string("menu ") + menu, action, controls, state);
     }
     if (std::strcmp(menu, "File") == 0)
         draw_recent_scenes(controls, state);

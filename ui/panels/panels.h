@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,7 @@ private:
     void draw_card(std::size_t index, Controls& controls, ViewerState& state);
     void draw_cards(Controls& controls, ViewerState& state);
 
-    BackgroundJob<int, std::vector<GalleryEntry>> job_;
+    BackgroundJob<int, GalleryContents> job_;
     std::vector<GalleryEntry> entries_;
     std::vector<GlTexture> textures_; // of the entries
 };
@@ -130,8 +131,9 @@ std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
 /// "9999", "12.3 k", "4.56 M", "7.89 G".
 std::string count_text(std::uint64_t count);
 
-/// ".png": of a file of that kind.
-const char* saved_extension(SaveKind kind);
+/// The endings of what is written of that kind: ".png", or ".csv", ".svg", ".png". The first is that of the file
+/// that is chosen; the others follow from it.
+std::span<const char* const> saved_endings(SaveKind kind);
 
 /// Chooses a file: a path to be typed, which Tab completes, and the folder that it leads to, to be
 /// clicked.
@@ -146,6 +148,7 @@ private:
     void draw_kind(Controls& controls, ViewerState& state);
     const char* extension() const;
     bool can_take(const std::filesystem::path& path) const;
+    bool replaces(const std::filesystem::path& path) const;
     void draw_path(Controls& controls);
     void draw_list(Controls& controls, float height);
     void draw_entry(Controls& controls, const FileEntry& entry);

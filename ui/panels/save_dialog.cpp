@@ -3,7 +3,9 @@
 #include "ui/panels/panels.h"
 #include "ui/state/words.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -35,9 +37,13 @@ std::string stem_of(const ViewerState& state, SaveKind kind) {
 
 } // namespace
 
-const char* saved_extension(SaveKind kind) {
-    static constexpr const char* extensions[] = {".png", ".exr", ".png", ".csv", ".json", ".json"};
-    return entry_of(extensions, kind);
+std::span<const char* const> saved_endings(SaveKind kind) {
+    static constexpr const char* png[] = {".png"};
+    static constexpr const char* exr[] = {".exr"};
+    static constexpr const char* charts[] = {".csv", ".svg", ".png"};
+    static constexpr const char* json[] = {".json"};
+    static constexpr std::span<const char* const> endings[] = {png, exr, png, charts, json, json};
+    return entry_of(endings, kind);
 }
 
 /// Begins where was saved last, with a name that nothing has.
@@ -47,7 +53,17 @@ void FileDialog::begin_saving(const ViewerState& state) {
     const fs::path folder =
         state.layout.save_folder.empty() ? fs::current_path(ignored) : fs::path(state.layout.save_folder);
     folder_.clear(); // other files are listed
-    set_text(free_name(folder / stem_of(state, kind_), extension()).string());
+    const auto is_taken = [this](const fs::path& file) { return replaces(file); };
+    set_text(free_name(folder / stem_of(state, kind_), extension(), is_taken).string());
+}
+
+/// Whether saving to that file replaces one: it itself, or what is written beside it.
+bool FileDialog::replaces(const fs::path& path) const {
+    std::error_code ignored;
+    const auto is_there = [&](const char* ending) {
+        return fs::exists(fs::path(path).replace_extension(ending), ignored);
+    };
+    return fs::exists(path, ignored) || std::ranges::any_of(saved_endings(kind_).subspan(1), is_there);
 }
 
 /// Another kind is called otherwise.

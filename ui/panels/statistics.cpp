@@ -17,6 +17,8 @@ namespace {
 
 constexpr const char* ray_help[] = {
     "From the camera to the first surface.",
+    "To what a pixel shows, for the guides of reconstructions: from the camera on, through mirrors. No sample of "
+    "its own.",
     "On from a vertex of a base path.",
     "From a vertex of a base path to a point on a light: is anything in between?",
     "On from a vertex of an offset path.",

@@ -91,7 +91,7 @@ Legend signed_legend(const std::string& about, const std::string& unit, float sc
     for (int i = -signed_steps; i <= signed_steps; ++i) {
         const float share = static_cast<float>(i) / signed_steps;
         legend.colours.push_back(
-            glm::mix(zero_colour, share < 0 ? minus_colour : plus_colour, srgb_encoded(std::abs(share))));
+            glm::mix(zero_colour, share < 0 ? minus_colour : plus_colour, linear_to_srgb(std::abs(share))));
     }
     return legend;
 }

@@ -2,10 +2,10 @@
 #include "render/scene/scene.h"
 #include "ui/panes/pane_parts.h"
 
-#include <glm/vec3.hpp>
 #include <cmath>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <imgui.h>
 
 namespace tessera {

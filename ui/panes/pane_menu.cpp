@@ -1,37 +1,32 @@
 #include "ui/panes/pane_parts.h"
 #include "ui/state/actions.h"
 
-#include <glm/vec3.hpp>
-#include <algorithm>
-#include <cstring>
+#include <optional>
+#include <span>
 #include <string>
 
+#include <glm/vec3.hpp>
 #include <imgui.h>
 
 namespace tessera {
 
-namespace {
-
-/// What is most asked for of a picture: names of actions; null: a line between groups.
-constexpr const char* items[] = {"Save picture", "Save as EXR",
-                                 nullptr,        "Automatic exposure",
-                                 "Fit picture",  "Only the active pane",
-                                 nullptr,        "Wipe",
-                                 "Difference",   "Compare reconstructions",
-                                 nullptr,        "Path inspector",
-                                 "Slow motion",  "Bookmark this view"};
-
-void draw_item(const char* name, Controls& controls, ViewerState& state) {
-    const auto all = actions();
-    const auto action =
-        std::find_if(all.begin(), all.end(), [&](const Action& a) { return std::strcmp(a.name, name) == 0; });
-    const bool checked = action->checked != nullptr && action->checked(state);
-    if (ImGui::MenuItem(action->name, to_string(action->shortcut).c_str(), checked))
-        action->run(state);
-    controls.place((std::string("pane_menu/") + name).c_str(), action->help);
+std::span<const char* const> pane_menu_items() {
+    static constexpr const char* items[] = {"Save picture", "Save as EXR",
+                                            nullptr,        "Automatic exposure",
+                                            "Fit picture",  "Only the active pane",
+                                            nullptr,        "Wipe",
+                                            "Difference",   "Compare reconstructions",
+                                            nullptr,        "Path inspector",
+                                            "Slow motion",  "Bookmark this view"};
+    return items;
 }
 
-} // namespace
+void draw_menu_item(const std::string& menu, const Action& action, Controls& controls, ViewerState& state) {
+    const bool checked = action.checked != nullptr && action.checked(state);
+    if (ImGui::MenuItem(action.name, to_string(action.shortcut).c_str(), checked))
+        action.run(state);
+    controls.place((menu + "/" + action.name).c_str(), action.help);
+}
 
 void draw_pane_menu(int pane, const PictureFrame& frame, bool is_click, PaneTools& tools) {
     std::optional<glm::vec3>& point = tools.state.layout.menu_point;
@@ -46,9 +41,9 @@ void draw_pane_menu(int pane, const PictureFrame& frame, bool is_click, PaneTool
         tools.state.camera.focus(*point);
     tools.controls.place("pane_menu/Look at this",
                          "Turns the camera to what is under the mouse, and orbits about it.");
-    for (const char* name : items) {
+    for (const char* name : pane_menu_items()) {
         if (name)
-            draw_item(name, tools.controls, tools.state);
+            draw_menu_item("pane_menu", action_named(name), tools.controls, tools.state);
         else
             ImGui::Separator();
     }

@@ -5,11 +5,14 @@
 #include "ui/gl/controls.h"
 #include "ui/gl/image_view.h"
 #include "ui/panes/showing.h"
+#include "ui/state/actions.h"
 #include "ui/state/viewer_state.h"
 
-#include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
+
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -92,6 +95,12 @@ PaneMouse read_mouse(const PictureFrame& frame);
 
 /// What the camera sees at a place of the pane, pixels; empty: nothing.
 std::optional<glm::vec3> point_under(glm::vec2 place, const PictureFrame& frame, const ViewerState& state);
+
+/// What is most asked for of a picture: names of actions; null: a line between groups.
+std::span<const char* const> pane_menu_items();
+
+/// An item of a menu that runs the action, noted as "MENU/name".
+void draw_menu_item(const std::string& menu, const Action& action, Controls& controls, ViewerState& state);
 
 /// The menu of a pane, which a click of the right button opens over its picture, but not a drag. To be called
 /// after the item that the picture is.

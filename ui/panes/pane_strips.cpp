@@ -67,12 +67,11 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
     }
     const bool solves = has_gradients(pane.settings.render.method);
     Norm& chosen = pane.settings.reconstruction.norm;
-    int norm = static_cast<int>(solves ? chosen : without_gradients(chosen));
+    int norm = static_cast<int>(applied(chosen, solves));
     ImGui::SameLine();
     if (controls.bare_choice((id + ".norm").c_str(), norms[static_cast<std::size_t>(norm)].label.c_str(), norms,
                              norm, font * 7, "How this pane's picture is reconstructed.")) {
-        const Norm wanted = all_norms[static_cast<std::size_t>(norm)];
-        chosen = solves ? wanted : without_gradients(wanted);
+        chosen = applied(all_norms[static_cast<std::size_t>(norm)], solves);
         changed = true;
     }
     if (changed && state.panes.size() > 1)
@@ -211,8 +210,7 @@ std::string status_text(const ViewerState& state, int index) {
     if (snapshot.coarse())
         line += "   first look";
     else if (!reconstructs_long && snapshot.reconstruction &&
-             (has_gradients(snapshot.settings.method) ||
-              without_gradients(snapshot.reconstructed_with.norm) != Norm::none))
+             applied(snapshot.reconstructed_with.norm, has_gradients(snapshot.settings.method)) != Norm::none)
         line += "   " + reconstruction_text(snapshot);
     if (const double held =
             snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->held_share : 0;

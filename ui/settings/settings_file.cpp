@@ -201,10 +201,6 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         state.add_message(Message::Kind::note, std::move(line));
 }
 
-} // namespace
-
-namespace {
-
 ordered_json bookmarks_json(const ViewerState& state) {
     ordered_json all = ordered_json::array();
     for (const Bookmark& bookmark : state.bookmarks)

@@ -48,25 +48,24 @@ constexpr Action table[] = {
      "Saves picture, buffers, window, charts, settings or camera, under a name and in a folder.", ctrl(Key::s),
      no_shortcut, [](State& s) { s.layout.choosing = FilePurpose::save; }, nullptr},
     {"File", "Save window", "Writes what the window shows to a PNG file in the folder where was saved last.",
-     key(Key::f12), no_shortcut, [](State& s) { s.wishes.save_window = true; }, nullptr},
+     key(Key::f12), no_shortcut, [](State& s) { s.save(SaveKind::window); }, nullptr},
     {"File", "Save picture",
      "Writes the active pane's buffer, a pixel for each of its pixels and in the colours on show, to a PNG file "
      "in "
      "the folder where was saved last.",
-     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.wishes.save_picture = true; }, nullptr},
+     ctrl_shift(Key::s), no_shortcut, [](State& s) { s.save(SaveKind::picture); }, nullptr},
     {"File", "Save as EXR",
      "Writes the active pane's picture with all its buffers, first hits, errors to the reference, camera and "
      "settings to an EXR file in the folder where was saved last.",
-     ctrl(Key::e), no_shortcut, [](State& s) { s.wishes.save_exr = true; }, nullptr},
+     ctrl(Key::e), no_shortcut, [](State& s) { s.save(SaveKind::exr); }, nullptr},
     {"File", "Save settings",
      "Writes panes, camera, size, display and what is inspected to a JSON file in the folder where was saved "
      "last.",
-     ctrl(Key::p), no_shortcut, [](State& s) { s.wishes.save_settings = true; }, nullptr},
+     ctrl(Key::p), no_shortcut, [](State& s) { s.save(SaveKind::settings); }, nullptr},
     {"File", "Save charts",
      "Writes the chart on show as SVG and as a picture, PNG, and all points and the histogram as CSV, to the "
-     "current "
-     "folder.",
-     key(Key::z), no_shortcut, [](State& s) { s.wishes.save_charts = true; }, nullptr},
+     "folder where was saved last.",
+     key(Key::z), no_shortcut, [](State& s) { s.save(SaveKind::charts); }, nullptr},
     {"File", "Quit", "Ends the program.", ctrl(Key::q), no_shortcut, [](State& s) { s.wishes.quit = true; },
      nullptr},
 
@@ -259,9 +258,10 @@ constexpr Action table[] = {
     {"Camera", "Forget bookmark", "Forgets the view that was gone to or kept last.", ctrl(Key::f7), no_shortcut,
      forget_bookmark, nullptr},
     {"Camera", "Save camera",
-     "Writes the camera to NAME-camera.json in the current folder; to be read by --camera, or dropped on the "
-     "window.",
-     key(Key::k), no_shortcut, [](State& s) { s.wishes.save_camera = true; }, nullptr},
+     "Writes the camera to NAME-camera.json in the folder where was saved last; to be read by --camera, or "
+     "dropped "
+     "on the window.",
+     key(Key::k), no_shortcut, [](State& s) { s.save(SaveKind::camera); }, nullptr},
     {"Camera", "Copy camera as XML",
      "Puts what stands for the camera in a Mitsuba <sensor>, such as fov and to_world, on the clipboard.",
      shift(Key::k), no_shortcut, [](State& s) { s.wishes.copy_camera = true; }, nullptr},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -167,6 +168,13 @@ void close_overlays(bool entering_text, ViewerState& state) {
 }
 
 } // namespace
+
+const Action& action_named(std::string_view name) {
+    for (const Action& action : actions())
+        if (action.name == name)
+            return action;
+    throw std::invalid_argument("no action is named " + std::string(name));
+}
 
 std::span<const Gesture> gestures() {
     return gesture_table;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
@@ -87,6 +88,8 @@ struct Action {
 
 /// All actions, in the order of the menus.
 std::span<const Action> actions();
+/// The one of that name. Throws std::invalid_argument where there is none.
+const Action& action_named(std::string_view name);
 
 /// How the mouse and the held keys move camera and picture, for the help page.
 struct Gesture {

@@ -132,7 +132,7 @@ private:
 /// The errors of a pane's pictures that were made in one way: a line of the chart.
 struct ErrorCurve {
     Method method = Method::gpr;
-    ReconstructionSettings reconstruction; ///< without_gradients() where the method has none
+    ReconstructionSettings reconstruction; ///< its norm is applied()
     PassHistory<ErrorPoint> history;
 
     const std::vector<ErrorPoint>& points() const { return history.points(); }

@@ -15,13 +15,8 @@ namespace {
 /// All that makes the picture, but the method, which is no difference: it is named first.
 std::vector<Setting> picture_settings(PaneSettings& pane) {
     std::vector<Setting> all = settings_of(pane.render);
-    const bool has_choice = has_gradients(pane.render.method);
-    for (Setting& setting : settings_of(pane.reconstruction)) {
-        const bool smooths = without_gradients(pane.reconstruction.norm) != Norm::none;
-        setting.matters =
-            setting.matters && (has_choice || setting.id == "spikes" || (setting.id == "norm" && smooths));
+    for (const Setting& setting : settings_of(pane.reconstruction, has_gradients(pane.render.method)))
         all.push_back(setting);
-    }
     all.push_back(seed_setting(pane.render.seed));
     return all;
 }

@@ -20,6 +20,20 @@ bool has_error(const std::vector<Message>& messages) {
 
 } // namespace
 
+void SaveWishes::add(SaveKind kind, std::string file) {
+    std::optional<std::string>& wish = files_[static_cast<std::size_t>(kind)];
+    if (!wish || !file.empty())
+        wish = std::move(file);
+}
+
+bool SaveWishes::has_any() const {
+    return std::ranges::any_of(files_, [](const auto& wish) { return wish.has_value(); });
+}
+
+std::optional<std::string> SaveWishes::take(SaveKind kind) {
+    return std::exchange(files_[static_cast<std::size_t>(kind)], std::nullopt);
+}
+
 glm::ivec2 ViewerState::fitting_size() const {
     const glm::ivec2 film = scene ? scene->size() : glm::ivec2(16, 9);
     glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : active().canvas_size;
@@ -48,12 +62,6 @@ void ViewerState::add_message(Message::Kind kind, std::string text, Message::Ori
     wishes.redraw = true;
     if (kind == Message::Kind::error)
         layout.show_messages = wishes.scroll_to_newest = true;
-}
-
-void ViewerState::save(SaveKind kind) {
-    bool* const all[] = {&wishes.save_picture, &wishes.save_exr,      &wishes.save_window,
-                         &wishes.save_charts,  &wishes.save_settings, &wishes.save_camera};
-    *entry_of(all, kind) = true;
 }
 
 void ViewerState::tell(std::string text) {

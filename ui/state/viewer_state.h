@@ -1,21 +1,34 @@
 #pragma once
 
+#include "recon/enumeration.h"
 #include "ui/state/document.h"
 #include "ui/state/history.h"
 #include "ui/state/layout.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <glm/vec2.hpp>
 
 namespace tessera {
 
-/// A file that was chosen for what is to be saved.
-struct SaveAs {
-    SaveKind kind = SaveKind::picture;
-    std::string file;
+/// What is to be saved: at most one of each kind, with its file.
+class SaveWishes {
+public:
+    /// Adds one, to that file; empty: to the one that was chosen before, or else one named by what it is and the
+    /// date.
+    void add(SaveKind kind, std::string file = {});
+    bool has(SaveKind kind) const { return files_[static_cast<std::size_t>(kind)].has_value(); }
+    bool has_any() const;
+    /// Its file, or an empty name; the wish is gone with that, whatever becomes of it. Nothing: there is none.
+    std::optional<std::string> take(SaveKind kind);
+
+private:
+    std::array<std::optional<std::string>, enumerator_count<SaveKind>> files_;
 };
 
 /// What panels, actions and the mouse ask for. Who fulfils a wish clears it.
@@ -41,21 +54,15 @@ struct Wishes {
     bool cancel_reference = false; ///< the one that is being read
 
     // These are for what is saved or made.
-    std::optional<SaveAs> save_as; ///< the file for one of those that follow; empty: by name and date
-    bool save_camera = false;
-    bool copy_camera = false;  ///< to the clipboard
-    bool save_window = false;  ///< of the window
-    bool save_picture = false; ///< of the active pane's image
-    bool save_charts = false;  ///< as CSV, SVG and PNG
-    bool save_exr = false;     ///< of the active pane
-    bool save_settings = false;
+    SaveWishes saves;
+    bool copy_camera = false;    ///< to the clipboard
     bool make_reference = false; ///< as ViewerState::reference_making says
     bool stop_making = false;    ///< that reference
 };
 
 /// Everything that panels, actions and the mouse may change. They do no more than that: the viewer compares the
 /// state with what it last asked of the session, and sends what differs. The document is a base, as most that is
-/// said of the state is said of it: state.panes, but state.layout.show_help and state.wishes.save_exr.
+/// said of the state is said of it: state.panes, but state.layout.show_help and state.wishes.reload.
 struct ViewerState : Document {
     Layout layout;
     Wishes wishes;
@@ -77,8 +84,8 @@ struct ViewerState : Document {
     /// Adds a note, and shows it over the pictures for a while.
     void tell(std::string text);
 
-    /// Wishes that it is saved.
-    void save(SaveKind kind);
+    /// Wishes that it is saved: SaveWishes::add.
+    void save(SaveKind kind, std::string file = {}) { wishes.saves.add(kind, std::move(file)); }
 
     /// Adds a note on samples of the scene that a render refused, the first few of which can be inspected if the
     /// scene is still on show. Adds nothing where there are none. `whose` begins it; `slot` is of the pane that

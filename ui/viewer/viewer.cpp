@@ -176,8 +176,9 @@ void Viewer::draw_frame() {
     surroundings_job_.update(state_, options_.wake);
     reference_job_.update(state_, options_.threads, options_.wake);
     chart_job_.update(state_, options_.wake);
-    if (state_.wishes.save_charts && !state_.histograms_due) // their end brings a frame
-        save_charts();
+    if (!state_.histograms_due) // their end brings a frame
+        if (const auto file = state_.wishes.saves.take(SaveKind::charts))
+            save_charts(*file);
     log_changes();
 }
 
@@ -331,10 +332,10 @@ void Viewer::log_changes() {
 
 bool PictureSaver::after_frame(Viewer& viewer, glm::ivec2 pixels) {
     ViewerState& state = viewer.state();
-    age_ = state.wishes.save_window ? age_ + 1 : 0;
+    age_ = state.wishes.saves.has(SaveKind::window) ? age_ + 1 : 0;
     if (age_ == frames_until_still) {
-        state.wishes.save_window = false;
-        viewer.save([file = viewer.file_to_save(SaveKind::window, ".png"), screen = read_screen(pixels)] {
+        const std::string chosen = *state.wishes.saves.take(SaveKind::window);
+        viewer.save([file = viewer.file_to_save(chosen, ".png"), screen = read_screen(pixels)] {
             write_png(file, screen.size, screen.rgb);
             return file.string();
         });

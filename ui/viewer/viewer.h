@@ -124,8 +124,9 @@ public:
     /// Writes in the background, after what is being written already: a message then says "Saved " and what that
     /// was, or what was thrown.
     void save(SaveQueue::Work write) { save_queue_.add(std::move(write), options_.wake); }
-    /// The file that was chosen for this, or one that is named by the date and this ending, where was saved last.
-    std::filesystem::path file_to_save(SaveKind kind, const std::string& ending);
+    /// The file that was chosen, or where it is empty one that is named by the date and this ending, where was
+    /// saved last.
+    std::filesystem::path file_to_save(const std::string& chosen, const std::string& ending) const;
     bool saving() const { return save_queue_.running(); }
 
     /// Stores what the next viewer begins with: the layout, the recent scenes. At once.
@@ -163,10 +164,12 @@ private:
     void follow_jobs();
     void fulfil_saves();
     void take(const SaveQueue::Outcome& outcome);
-    void save_camera();
-    void save_exr();
-    void save_picture();
-    void save_charts();
+    // Each saves to the file, or to one that is named by the date.
+    void save_camera(const std::string& file);
+    void save_settings(const std::string& file);
+    void save_exr(const std::string& file);
+    void save_picture(const std::string& file);
+    void save_charts(const std::string& file);
     void take_preferences();
     Preferences current_preferences() const;
     void take(const KeptPreferences& kept);

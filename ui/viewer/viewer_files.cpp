@@ -49,6 +49,7 @@ void Viewer::reload() {
 void Viewer::open(const std::filesystem::path& file) {
     const SceneOrigin origin = options_.open(file);
     load(origin.name, origin.loader, origin.source);
+    state_.layout.show_gallery = false; // it would hide the scene
 }
 
 void Viewer::drop(const std::vector<std::filesystem::path>& files) {
@@ -115,42 +116,38 @@ void Viewer::follow_jobs() {
     state_.layout.show_jobs = true;
 }
 
-std::filesystem::path Viewer::file_to_save(SaveKind kind, const std::string& ending) {
-    std::optional<SaveAs>& chosen = state_.wishes.save_as;
-    if (!chosen || chosen->kind != kind)
-        return dated_file(ending, state_.layout.save_folder);
-    const std::filesystem::path file = chosen->file;
-    chosen.reset();
-    return file;
+std::filesystem::path Viewer::file_to_save(const std::string& chosen, const std::string& ending) const {
+    return chosen.empty() ? dated_file(ending, state_.layout.save_folder) : std::filesystem::path(chosen);
 }
 
-void Viewer::save_camera() {
-    const Camera camera = state_.camera.camera();
-    std::optional<SaveAs>& chosen = state_.wishes.save_as;
-    if (chosen && chosen->kind == SaveKind::camera) {
-        save([file = chosen->file, camera] {
-            write_camera(file, camera);
-            return "the camera to " + file;
-        });
-        return chosen.reset();
-    }
-    save([scene = shown_.source.file, folder = state_.layout.save_folder, camera] {
-        return "the camera to " + store_camera(scene, camera, folder).string();
+void Viewer::save_camera(const std::string& file) {
+    if (!state_.scene)
+        return;
+    save([file, scene = shown_.source.file, folder = state_.layout.save_folder, camera = state_.camera.camera()] {
+        if (file.empty())
+            return "the camera to " + store_camera(scene, camera, folder).string();
+        write_camera(file, camera);
+        return "the camera to " + file;
     });
 }
 
+void Viewer::save_settings(const std::string& file) {
+    save([file = file_to_save(file, "-settings.json"), text = settings_json(state_)] {
+        write_text(file, text);
+        return "the settings to " + file.string();
+    });
+}
+
+/// Each wish is gone with its file before it is known whether there is something to save.
 void Viewer::fulfil_saves() {
-    if (std::exchange(state_.wishes.save_camera, false) && state_.scene)
-        save_camera();
-    if (std::exchange(state_.wishes.save_settings, false))
-        save([file = file_to_save(SaveKind::settings, "-settings.json"), text = settings_json(state_)] {
-            write_text(file, text);
-            return "the settings to " + file.string();
-        });
-    if (std::exchange(state_.wishes.save_exr, false))
-        save_exr();
-    if (std::exchange(state_.wishes.save_picture, false))
-        save_picture();
+    const auto fulfil = [this](SaveKind kind, void (Viewer::*save_as)(const std::string&)) {
+        if (const auto file = state_.wishes.saves.take(kind))
+            (this->*save_as)(*file);
+    };
+    fulfil(SaveKind::camera, &Viewer::save_camera);
+    fulfil(SaveKind::settings, &Viewer::save_settings);
+    fulfil(SaveKind::exr, &Viewer::save_exr);
+    fulfil(SaveKind::picture, &Viewer::save_picture);
     if (const auto outcome = save_queue_.take())
         take(*outcome);
 }
@@ -164,15 +161,14 @@ void Viewer::take(const SaveQueue::Outcome& outcome) {
         outcome.result->then();
 }
 
-void Viewer::save_exr() {
+void Viewer::save_exr(const std::string& file) {
     const PaneState& pane = state_.active();
     if (!options_.write_exr)
         return state_.add_message(Message::Kind::error, "EXR files cannot be written here.");
     if (!pane.snapshot || pane.snapshot->coarse())
         return state_.add_message(Message::Kind::error, no_picture_yet);
     save([write = options_.write_exr,
-          file =
-              file_to_save(SaveKind::exr, "-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
+          file = file_to_save(file, "-" + std::string(short_name(pane.snapshot->settings.method)) + ".exr"),
           picture = SavedPicture{pane.snapshot, pane.settings.reconstruction, shown_.source,
                                  pane.snapshot->scene.lock(), state_.companions.reference}] {
         write(file, picture);
@@ -180,7 +176,7 @@ void Viewer::save_exr() {
     });
 }
 
-void Viewer::save_picture() {
+void Viewer::save_picture(const std::string& file) {
     const PaneSettings& pane = state_.active().settings;
     ScreenPixels picture = view_picture(state_.active_pane, shader_, images_, state_);
     if (picture.rgb.empty()) {
@@ -189,15 +185,14 @@ void Viewer::save_picture() {
     }
     const std::string name =
         std::string(short_name(pane.render.method)) + "-" + std::string(short_name(pane.buffer));
-    save([file = file_to_save(SaveKind::picture, "-" + name + ".png"), picture = std::move(picture)] {
+    save([file = file_to_save(file, "-" + name + ".png"), picture = std::move(picture)] {
         write_png(file, picture.size, picture.rgb);
         return file.string();
     });
 }
 
-void Viewer::save_charts() {
-    state_.wishes.save_charts = false;
-    save([file = file_to_save(SaveKind::charts, "-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
+void Viewer::save_charts(const std::string& file) {
+    save([file = file_to_save(file, "-charts.csv"), csv = chart_csv(state_), svg = chart_svg(state_),
           picture = chart_picture(state_)] {
         const auto with_ending = [&](const char* ending) {
             return std::filesystem::path(file).replace_extension(ending);
