@@ -303,7 +303,7 @@ std::vector<TestScene> all_test_scenes() {
         {"shining_wall", shining_wall(), 4},
         {"short_edges", blinds(), 4, 0.001f, 1, 20},
         {"mirrors_in_plastic", mirrors_in_plastic(), 6, 0.001f, 3, 12},
-        {"squares_in_mirrors", squares_in_mirrors(), 5},
+        {"squares_in_mirrors", squares_in_mirrors(), 5, 0.001f, 4},
         {"thin_lens", thin_lens(), 4, 0.001f, 2},
         {"orthographic", orthographic(), 4},
         {"no_light", no_light(), 4},
