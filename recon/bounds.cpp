@@ -53,29 +53,32 @@ bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for, float reach) {
+UpperBounds upper_bounds(const GradientImages& images, const ParallelFor& parallel_for) {
     const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
     const Image<float> lit = lit_shares(images.radiance(), parallel_for);
-    RgbImage bounds = images.primal;
+    UpperBounds bounds{images.primal, RgbImage(squares.width(), squares.height())};
     const bool is_demodulated = !images.demodulation.empty();
     if (is_demodulated)
-        remodulate(images, false, bounds, parallel_for);
-    parallel_for(bounds.height(), [&](int y) {
-        for (int x = 0; x < bounds.width(); ++x) {
+        remodulate(images, false, bounds.light, parallel_for);
+    parallel_for(squares.height(), [&](int y) {
+        for (int x = 0; x < squares.width(); ++x) {
             const Rgb albedo = is_demodulated ? images.demodulation.sampled_albedo(x, y) : Rgb(1);
-            const Rgb p = glm::max(bounds(x, y), glm::max(images.radiance()(x, y), Rgb(0)));
-            bounds(x, y) = lit(x, y) < least_lit ? Rgb(most) : p + reach * std::sqrt(squares(x, y)) * albedo;
+            Rgb& light = bounds.light(x, y);
+            light = glm::max(light, glm::max(images.radiance()(x, y), Rgb(0)));
+            bounds.error(x, y) = lit(x, y) < least_lit ? Rgb(most) : std::sqrt(squares(x, y)) * albedo;
         }
     });
     return bounds;
 }
 
-RgbImage take_excess(const RgbImage& bounds, RgbImage& image) {
+RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for) {
     RgbImage excess(image.width(), image.height());
-    for (std::size_t i = 0; i < image.size(); ++i) {
-        excess.data()[i] = glm::max(image.data()[i] - bounds.data()[i], Rgb(0));
-        image.data()[i] -= excess.data()[i];
-    }
+    parallel_for(image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x) {
+            excess(x, y) = glm::max(image(x, y) - (bounds.light(x, y) + reach * bounds.error(x, y)), Rgb(0));
+            image(x, y) -= excess(x, y);
+        }
+    });
     return excess;
 }
 

@@ -24,12 +24,16 @@ namespace tessera {
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
-/// P + reach s, radiance without very direct light; 1e30 where there are none. P is the picture that the primal
-/// makes, or the mean of its samples where that is more.
-/// @param reach  how many standard errors they are above P
-RgbImage upper_bounds(const GradientImages& images, const ParallelFor& parallel_for, float reach = 2);
+/// P and s, radiance without very direct light. P is the picture that the primal makes, or the mean of its samples
+/// where that is more; s is 1e30 where there are no bounds.
+struct UpperBounds {
+    RgbImage light, error;
 
-/// Takes what is above the bounds from the image, and returns it.
-RgbImage take_excess(const RgbImage& bounds, RgbImage& image);
+    bool empty() const { return light.empty(); }
+};
+UpperBounds upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
+
+/// Takes what is above P + reach s from the image, and returns it.
+RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for);
 
 } // namespace tessera

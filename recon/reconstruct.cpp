@@ -102,23 +102,24 @@ void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& p
 
 /// Gives what spikes hold back, and what the solver has put above the bounds, to the pixels around, and once more
 /// what pixels thereby have above the bounds: no light is lost, and hardly any goes where it is known to be dark.
-/// (Three more times gain nothing.)
-void spread_within_bounds(const GradientImages& images, RgbImage held, RgbImage& image,
+/// (Three more times gain nothing.) Without bounds, only the first.
+void spread_within_bounds(const UpperBounds& bounds, RgbImage held, RgbImage& image,
                           const ParallelFor& parallel_for) {
-    if (!can_bound(images))
-        return LightSpreader(image, parallel_for).spread(held, image, parallel_for);
-    const RgbImage bounds = upper_bounds(images, parallel_for);
-    add(held, take_excess(bounds, image));
+    constexpr float reach = 2;
+    if (!bounds.empty())
+        add(held, take_excess(bounds, reach, image, parallel_for));
     const LightSpreader spreader(image, parallel_for);
     spreader.spread(held, image, parallel_for);
-    spreader.spread(take_excess(bounds, image), image, parallel_for);
+    if (!bounds.empty())
+        spreader.spread(take_excess(bounds, reach, image, parallel_for), image, parallel_for);
 }
 
-/// Takes off what smoothing has put above bounds of three standard errors, where it gave a dark pixel some of the
-/// light beside it. (Bathroom at 3 samples: relMSE 3.3 without, 1.5 where that is spread about, 0.08 so.)
-void hold_to_bounds(const GradientImages& images, RgbImage& picture, const ParallelFor& parallel_for) {
+/// Takes off what smoothing has put above wider bounds, where it gave a dark pixel some of the light beside it.
+/// (Bathroom at 3 samples: relMSE 3.3 without, 1.5 where that is spread about, 0.08 so.)
+void hold_to_bounds(const UpperBounds& bounds, RgbImage& picture, const ParallelFor& parallel_for) {
     constexpr float reach = 3;
-    take_excess(upper_bounds(images, parallel_for, reach), picture);
+    if (!bounds.empty())
+        take_excess(bounds, reach, picture, parallel_for);
 }
 
 /// Gives the picture the light that it had, by one factor.
@@ -266,9 +267,10 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         solvers_->weights = {};
     }
     const Demodulation& d = images.demodulation;
-    for (int y = 0; y < noise.height() && !d.empty(); ++y)
+    parallel_for(d.empty() ? 0 : noise.height(), [&](int y) {
         for (int x = 0; x < noise.width(); ++x)
             noise(x, y) *= known_albedo(d, x, y);
+    });
     if (!held.empty() && !images.brightest.half.empty()) {
         RgbImage held_noise = held;
         for (std::size_t i = 0; i < held.size(); ++i)
@@ -342,8 +344,8 @@ Reconstruction Reconstructor::picture_of(const GradientImages& images, const Rec
 
 /// What is done to a picture without very direct light after it is solved. Empties it: stopped.
 void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
-                           const RgbImage& held, RgbImage& picture, const ParallelFor& parallel_for,
-                           const SolveWatch& watch) {
+                           const UpperBounds& bounds, const RgbImage& held, RgbImage& picture,
+                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     if (settings.norm == Norm::oidn)
         picture = denoised_by_oidn(picture, images.guides);
     const bool smooths =
@@ -352,8 +354,8 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
         const double light = sum_of(picture);
         RgbImage noise = noise_of(images, settings, held, picture, parallel_for, watch);
         picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
-        if (!picture.empty() && settings.spikes == Spikes::consistent && can_bound(images))
-            hold_to_bounds(images, picture, parallel_for);
+        if (!picture.empty())
+            hold_to_bounds(bounds, picture, parallel_for);
         keep_light(light, picture); // pixels do not get of others what they give them: some tenths of a percent
     }
     if (watch.is_stopped())
@@ -375,14 +377,17 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     const GradientImages limited_images = limits ? limited(images, held, parallel_for) : GradientImages();
     const GradientImages& counted = limits ? limited_images : images;
     Reconstruction result = picture_of(counted, settings, parallel_for, watch);
+    UpperBounds bounds;
     if (limits) {
+        if (can_bound(counted))
+            bounds = upper_bounds(counted, parallel_for);
         if (!result.image.empty())
-            spread_within_bounds(counted, held, result.image, parallel_for);
+            spread_within_bounds(bounds, held, result.image, parallel_for);
         const double all = sum_of(images.radiance());
         result.held_share = all > 0 ? sum_of(held) / all : 0;
     }
     if (!result.image.empty())
-        finish(counted, settings, held, result.image, parallel_for, watch);
+        finish(counted, settings, bounds, held, result.image, parallel_for, watch);
     solvers_->weights = {};
     if (!result.image.empty())
         add(result.image, images.very_direct);

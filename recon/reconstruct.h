@@ -13,6 +13,8 @@
 
 namespace tessera {
 
+struct UpperBounds;
+
 /// Uniform image-space control variates [Rousselle 2016]: each pixel's neighbours, with the gradients to it added,
 /// are as many estimates of the pixel as there are, and it takes their mean with its own, again and again,
 ///     I <- I + (sum over neighbours n of I(n) + gradient from n - I) / 5 ,
@@ -107,8 +109,8 @@ public:
 
 private:
     struct Solvers;
-    void finish(const GradientImages& images, const ReconstructionSettings& settings, const RgbImage& held,
-                RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
+    void finish(const GradientImages& images, const ReconstructionSettings& settings, const UpperBounds& bounds,
+                const RgbImage& held, RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const ParallelFor& parallel_for, const SolveWatch& watch);
     int solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,

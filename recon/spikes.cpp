@@ -240,8 +240,8 @@ std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
                                BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
                                GuideImages::bytes_a_pixel;
-    // Two images of light to be spread, one on its way, the bounds, and the spreader's own.
-    const std::size_t spreading = 4 * sizeof(Rgb) + 2 * sizeof(float);
+    // Two images of light to be spread, one on its way, two of the bounds, and the spreader's own.
+    const std::size_t spreading = 5 * sizeof(Rgb) + 2 * sizeof(float);
     return copies + spreading;
 }
 

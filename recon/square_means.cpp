@@ -30,9 +30,9 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
 namespace {
 
 /// Means along each row. Sums from the left on, in double, have no rounding that would be seen.
-Image<float> row_means(const Image<float>& values, int radius, const ParallelFor& parallel_for) {
+void write_row_means(const Image<float>& values, int radius, const ParallelFor& parallel_for,
+                     Image<float>& means) {
     const int width = values.width();
-    Image<float> means(width, values.height());
     parallel_for(values.height(), [&](int y) {
         std::vector<double> sums(static_cast<std::size_t>(width) + 1);
         for (int x = 0; x < width; ++x)
@@ -44,16 +44,14 @@ Image<float> row_means(const Image<float>& values, int radius, const ParallelFor
                 (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(left)]) / (end - left));
         }
     });
-    return means;
 }
 
 } // namespace
 
-Image<float> wide_means(const Image<float>& values, int radius, const ParallelFor& parallel_for) {
+void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for) {
     constexpr int strip = 64; // columns
     const int width = values.width(), height = values.height();
-    const Image<float> rows = row_means(values, radius, parallel_for);
-    Image<float> means(width, height);
+    write_row_means(values, radius, parallel_for, rows);
     parallel_for((width + strip - 1) / strip, [&](int s) {
         const int begin = s * strip, end = std::min(begin + strip, width);
         std::array<double, strip> sums{};
@@ -71,10 +69,10 @@ Image<float> wide_means(const Image<float>& values, int radius, const ParallelFo
                 add(y - radius - 1, -1);
             const int count = std::min(y + radius, height - 1) - std::max(y - radius, 0) + 1;
             for (int i = 0; i < end - begin; ++i)
-                means(begin + i, y) = static_cast<float>(std::max(sums[static_cast<std::size_t>(i)], 0.0) / count);
+                values(begin + i, y) =
+                    static_cast<float>(std::max(sums[static_cast<std::size_t>(i)], 0.0) / count);
         }
     });
-    return means;
 }
 
 } // namespace tessera

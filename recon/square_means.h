@@ -11,8 +11,9 @@ namespace tessera {
 Image<float> square_means(const Image<float>& values, int radius, int columns, int rows,
                           const ParallelFor& parallel_for);
 
-/// The same of numbers that are not negative, at a cost that does not depend on the radius: by running sums
-/// in double.
-Image<float> wide_means(const Image<float>& values, int radius, const ParallelFor& parallel_for);
+/// Puts the same of numbers that are not negative in their place, at a cost that does not depend on the radius: by
+/// running sums in double.
+/// @param rows  of the same size: anything, and anything after
+void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for);
 
 } // namespace tessera

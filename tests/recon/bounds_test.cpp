@@ -30,7 +30,7 @@ GradientImages even_images() {
 
 RgbImage bounded(const GradientImages& images, float value) {
     RgbImage image(width, height, Rgb(value));
-    take_excess(upper_bounds(images, serial_for), image);
+    take_excess(upper_bounds(images, serial_for), 2, image, serial_for);
     return image;
 }
 
@@ -124,12 +124,12 @@ TEST(Bounds, HaveTheSameBitsWithThreads) {
     for (int i = 0; i < width * height; ++i)
         images.primal_variance.data()[i] *= static_cast<float>(1 + i % 17);
     RgbImage image(width, height, Rgb(1.7f));
-    const RgbImage bounds = upper_bounds(images, [](int count, const std::function<void(int)>& body) {
+    const ParallelFor in_threads = [](int count, const std::function<void(int)>& body) {
         std::vector<std::jthread> threads;
         for (int i = count - 1; i >= 0; --i)
             threads.emplace_back(body, i);
-    });
-    take_excess(bounds, image);
+    };
+    take_excess(upper_bounds(images, in_threads), 2, image, in_threads);
     const RgbImage alone = bounded(images, 1.7f);
     EXPECT_TRUE(std::equal(alone.begin(), alone.end(), image.begin()));
 }
