@@ -7,9 +7,24 @@
 #include <new>
 
 #include <fmt/core.h>
+#include <malloc.h>
+
+namespace {
+
+/// Pictures come and go with every solve. What they leave is kept for the next: pages that the system has to clear
+/// anew cost a tenth of a reconstruction.
+void keep_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 64 << 20);
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
+} // namespace
 
 /// One message and an exit code for whatever goes wrong: nobody is left with a stack trace.
 int main(int argc, char** argv) {
+    keep_memory();
     try {
         return tessera::run_command_line(argc, argv);
     } catch (const tessera::OutOfMemory& error) {

@@ -15,18 +15,6 @@ namespace tessera {
 
 struct UpperBounds;
 
-/// Uniform image-space control variates [Rousselle 2016]: each pixel's neighbours, with the gradients to it added,
-/// are as many estimates of the pixel as there are, and it takes their mean with its own, again and again,
-///     I <- I + (sum over neighbours n of I(n) + gradient from n - I) / 5 ,
-/// beginning with the primal. That is a descent on the gradients' misfits, and stopping it takes the part of the
-/// screened Poisson problem's alpha. A border stands for a neighbour like the pixel itself, so that no light is
-/// lost.
-///
-/// Writes the answer to `image`, which is none of the problem's, whose alpha does not matter. Returns
-/// `iterations`, or 0 if stopped, which is looked at between them.
-int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
-                       const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
-
 /// How a picture is made. mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours
 /// (average_neighbours; alpha does not matter). weighted: L2, where gradients count the less the noisier they are
 /// (weights_of_gradients). guided: weighted, then smoothed where pixels look alike as far as two halves of the
