@@ -71,7 +71,7 @@ void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
     Companions companions{saved.reference, nullptr};
     if (saved.scene)
         companions.first_hits = std::make_shared<FirstHits>(
-            trace_first_hits(*saved.scene, snapshot.camera, {image.width(), image.height()}));
+            trace_first_hits(*saved.scene, snapshot.camera, {image.width(), image.height()}, true));
     for (Buffer buffer : all_buffers) {
         const bool is_error = family(buffer) == BufferFamily::error;
         if (!is_error && family(buffer) != BufferFamily::first_hit)

@@ -1,8 +1,11 @@
 #include "render/run/first_hits.h"
 
+#include "render/estimator/base_path.h"
 #include "render/estimator/tracer.h"
+#include "render/inspect/path_differentials.h"
 
 #include <cmath>
+#include <cstdint>
 
 namespace tessera {
 
@@ -25,11 +28,33 @@ Rgb albedo_of(const Vertex& vertex) {
     return sum / static_cast<float>(albedo_samples);
 }
 
+/// Of a path through the middle of pixel (x, y).
+void write_footprints(const Tracer& tracer, const Projection& projection, int x, int y, FirstHits& hits) {
+    const glm::vec2 pixel = glm::vec2(x, y) + 0.5f;
+    const auto index = static_cast<std::uint32_t>(y * hits.depth.width() + x);
+    BasePath path;
+    trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), Random(0, index, 0), path);
+    const PathDifferentials d = differentiate(tracer, projection, pixel, glm::vec2(0), path);
+    int i = 0;
+    for (Image<float>* widths : {&hits.footprint_1, &hits.footprint_2}) {
+        if (i < static_cast<int>(d.vertices.size()))
+            (*widths)(x, y) = std::sqrt(footprint(d, i, {}).area());
+        ++i;
+    }
+}
+
 } // namespace
 
-FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, std::stop_token stop) {
-    FirstHits hits{RgbImage(size.x, size.y, Rgb(0)), RgbImage(size.x, size.y, Rgb(0)), {size.x, size.y, 0.0f}};
+FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, bool with_footprints,
+                           std::stop_token stop) {
+    FirstHits hits;
+    hits.albedo = hits.normal = RgbImage(size.x, size.y, Rgb(0));
+    hits.depth = Image<float>(size.x, size.y, 0);
+    if (with_footprints)
+        hits.footprint_1 = hits.footprint_2 = hits.depth;
     const Projection projection(camera, size);
+    Counters counters;
+    const Tracer tracer{scene, counters, {2, 1, 0}};
     for (int y = 0; y < size.y; ++y) {
         if (stop.stop_requested())
             return {};
@@ -43,6 +68,8 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
             hits.albedo(x, y) = albedo_of(vertex);
             hits.normal(x, y) = vertex.frame.to_world({0, 0, 1});
             hits.depth(x, y) = hit.distance;
+            if (with_footprints)
+                write_footprints(tracer, projection, x, y, hits);
         }
     }
     return hits;

@@ -36,11 +36,34 @@ TEST(FirstHits, OfAWall) {
     EXPECT_NEAR(slanted, std::hypot(3.0f, 3 * 6 * 2 * std::tan(glm::radians(30.0f)) / 33), 1e-3f);
 }
 
+/// A wall that is a mirror, and one that is none, in front of a wall behind the camera: footprints are as wide as a
+/// pixel at the first, and go on as wide as its cone in a mirror, but over all of the room where light is scattered.
+TEST(FirstHits, FootprintsAreWideWhereLightIsScattered) {
+    SceneBuilder scene;
+    const int grey = scene.diffuse(Rgb(0.5f));
+    scene.quad({-3, -3, 0}, {3, 0, 0}, {0, 6, 0}, grey);
+    scene.quad({0, -3, 0}, {3, 0, 0}, {0, 6, 0}, scene.conductor(0));
+    scene.quad({-30, -30, 9}, {0, 60, 0}, {60, 0, 0}, grey, scene.light(Rgb(5)));
+    scene.camera({0, 0, 3}, {0, 0, 0}, 60);
+    const auto built = scene.build();
+    const glm::ivec2 size(32, 32);
+    EXPECT_TRUE(trace_first_hits(*built, built->camera(), size).footprint_1.empty());
+    const FirstHits hits = trace_first_hits(*built, built->camera(), size, true);
+    const float pixel = 2 * std::tan(glm::radians(30.0f)) / 32; // at one unit
+    EXPECT_NEAR(hits.footprint_1(14, 15), 3 * pixel, 0.02f * pixel);
+    EXPECT_NEAR(hits.footprint_1(17, 15), 3 * pixel, 0.02f * pixel);
+    EXPECT_NEAR(hits.footprint_2(17, 15), 12 * pixel, 0.1f * pixel);
+    int wide = 0;
+    for (int y = 8; y < 24; ++y)
+        wide += hits.footprint_2(14, y) > 3;
+    EXPECT_GT(wide, 12);
+}
+
 TEST(FirstHits, StopWhenTold) {
     const auto scene = wall();
     std::stop_source source;
     source.request_stop();
-    EXPECT_TRUE(trace_first_hits(*scene, scene->camera(), {16, 16}, source.get_token()).depth.empty());
+    EXPECT_TRUE(trace_first_hits(*scene, scene->camera(), {16, 16}, true, source.get_token()).depth.empty());
 }
 
 } // namespace

@@ -228,11 +228,14 @@ TEST(Buffer, FirstHitsNeedNoSamples) {
     hits->albedo = RgbImage(2, 2, Rgb(0.5f));
     hits->normal = RgbImage(2, 2, Rgb(0, 1, 0));
     hits->depth = Image<float>(2, 2, 9);
+    hits->footprint_1 = Image<float>(2, 2, 0.25f);
     RgbImage scratch;
     const Companions companions{nullptr, hits};
     EXPECT_EQ(picture({}, Buffer::albedo, scratch, companions)(0, 0), Rgb(0.5f));
     EXPECT_EQ(picture({}, Buffer::normal, scratch, companions)(0, 0), Rgb(0, 1, 0));
     EXPECT_EQ(picture({}, Buffer::depth, scratch, companions)(0, 0), Rgb(9));
+    EXPECT_EQ(picture({}, Buffer::footprint_1, scratch, companions)(0, 0), Rgb(0.25f));
+    EXPECT_TRUE(picture({}, Buffer::footprint_2, scratch, companions).empty()) << "not asked for";
     EXPECT_TRUE(picture({}, Buffer::depth, scratch).empty());
 }
 

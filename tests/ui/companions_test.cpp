@@ -192,6 +192,24 @@ TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
 }
 
+TEST_F(CompanionsTest, FootprintsComeWhenOneIsToBeSeen) {
+    state().panes[0].settings.buffer = Buffer::depth;
+    wait_until([&] {
+        const auto& hits = state().companions.first_hits;
+        return hits && hits->depth.width() == 48;
+    });
+    EXPECT_TRUE(state().companions.first_hits->footprint_1.empty());
+    state().panes[0].settings.buffer = Buffer::footprint_2;
+    wait_until([&] {
+        const auto& hits = state().companions.first_hits;
+        return hits && hits->footprint_2.width() == 48;
+    });
+    frames(2);
+    EXPECT_GT(brightness("pane0.picture"), 10);
+    EXPECT_TRUE(has("pane0.legend"));
+    save("footprint.png");
+}
+
 TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     EXPECT_EQ(state().companions.first_hits, nullptr); // only if one is to be seen
     type(Key::digit4, false, true);

@@ -45,6 +45,11 @@ bool wants_first_hits(const ViewerState& state) {
     });
 }
 
+bool wants_footprints(const ViewerState& state) {
+    return std::any_of(state.panes.begin(), state.panes.end(),
+                       [](const PaneState& pane) { return is_footprint(pane.settings.buffer); });
+}
+
 } // namespace
 
 void CompanionJobs::update(ViewerState& state, const std::function<void()>& wake) {
@@ -114,9 +119,18 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
         wake);
 }
 
+/// What the panes show.
+CompanionJobs::View CompanionJobs::view_of(const ViewerState& state) {
+    return {state.scene, state.camera.camera(), state.request_size(), wants_footprints(state)};
+}
+
 /// Whether the view is what the panes show, at whatever fraction of the size it was traced.
 bool CompanionJobs::is_of(const std::optional<View>& view, const ViewerState& state) {
-    return view && *view == View{state.scene, state.camera.camera(), state.request_size(), view->divisor};
+    if (!view)
+        return false;
+    View shown = view_of(state);
+    shown.divisor = view->divisor;
+    return *view == shown;
 }
 
 void CompanionJobs::take_first_hits(ViewerState& state) {
@@ -124,7 +138,7 @@ void CompanionJobs::take_first_hits(ViewerState& state) {
     const Identity scene(state.scene);
     if (auto outcome = first_hits_.take()) {
         if (!outcome->result)
-            state.add_message(Message::Kind::error, "Albedo, normal and depth: " + outcome->error);
+            state.add_message(Message::Kind::error, "What is seen first: " + outcome->error);
         else if (outcome->request.scene == scene) {
             companions.first_hits = *outcome->result;
             hit_ = outcome->request;
@@ -144,13 +158,15 @@ void CompanionJobs::update_first_hits(ViewerState& state, const std::function<vo
     const bool is_under_way = first_hits_.running() && (is_asked || first_hits_.asked()->divisor > 1);
     if (!state.scene || is_under_way || !wants_first_hits(state))
         return;
-    const View view{state.scene, state.camera.camera(), state.request_size(), is_asked ? 1 : coarse_divisor};
+    View view = view_of(state);
+    view.divisor = is_asked ? 1 : coarse_divisor;
     first_hits_.ask(
         view,
         [scene = state.scene, view](std::stop_token stop) {
             work_in_background();
             const glm::ivec2 size = (view.size + view.divisor - 1) / view.divisor;
-            return std::make_shared<const FirstHits>(trace_first_hits(*scene, view.camera, size, stop));
+            return std::make_shared<const FirstHits>(
+                trace_first_hits(*scene, view.camera, size, view.with_footprints, stop));
         },
         wake);
 }

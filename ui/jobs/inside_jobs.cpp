@@ -234,7 +234,7 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, co
     around->camera = view.camera;
     around->size = view.size;
     around->lamps = lamps_of(scene.description());
-    const FirstHits hits = trace_first_hits(scene, view.camera, view.size, stop);
+    const FirstHits hits = trace_first_hits(scene, view.camera, view.size, false, stop);
     const Projection projection(view.camera, view.size);
     for (int y = 0; y < hits.depth.height(); ++y)
         for (int x = 0; x < hits.depth.width(); ++x) {

@@ -72,9 +72,11 @@ private:
         Identity scene;
         Camera camera;
         glm::ivec2 size{0};
+        bool with_footprints = false;
         int divisor = 1; // of the size
         bool operator==(const View&) const = default;
     };
+    static View view_of(const ViewerState& state);
     static bool is_of(const std::optional<View>& view, const ViewerState& state);
     void take_first_hits(ViewerState& state);
     void read_reference(std::string file, const std::function<void()>& wake);

@@ -76,6 +76,10 @@ bool is_of_parts(Buffer buffer) {
            buffer == Buffer::projection || buffer == Buffer::dx_variance || buffer == Buffer::dy_variance;
 }
 
+bool is_footprint(Buffer buffer) {
+    return buffer == Buffer::footprint_1 || buffer == Buffer::footprint_2;
+}
+
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
     if (is_of_parts(buffer))
         return companions.part;
@@ -139,6 +143,10 @@ const RgbImage& first_hit_picture(Buffer buffer, RgbImage& scratch, const Compan
         return no_picture;
     if (buffer == Buffer::depth)
         return scratch = grey(companions.first_hits->depth);
+    if (buffer == Buffer::footprint_1)
+        return scratch = grey(companions.first_hits->footprint_1);
+    if (buffer == Buffer::footprint_2)
+        return scratch = grey(companions.first_hits->footprint_2);
     return buffer == Buffer::albedo ? companions.first_hits->albedo : companions.first_hits->normal;
 }
 

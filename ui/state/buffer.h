@@ -17,7 +17,7 @@ enum class Buffer {
     reconstruction, primal, dx, dy, reused, outcomes, survival, very_direct,
     error_relative_squared, error_squared, error_absolute, error_relative, // in the order of ErrorKind
     reference,
-    albedo, normal, depth,
+    albedo, normal, depth, footprint_1, footprint_2,
     primal_variance, dx_variance, dy_variance,
     coefficient, mean_albedo, sampled_albedo, covariance, projection,
     held,
@@ -40,6 +40,8 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::albedo,
                                          Buffer::normal,
                                          Buffer::depth,
+                                         Buffer::footprint_1,
+                                         Buffer::footprint_2,
                                          Buffer::primal_variance,
                                          Buffer::dx_variance,
                                          Buffer::dy_variance,
@@ -95,6 +97,9 @@ inline BufferFamily family(Buffer buffer) {
 
 /// A method's name as papers write it: "PT", "PR", "G-PT", "G-PR".
 std::string_view paper_name(Method method);
+
+/// Whether it shows how wide paths are: of first hits with footprints (FirstHits).
+bool is_footprint(Buffer buffer);
 
 /// Whether the buffer shows one part where one is wanted (Companions::part).
 bool is_of_parts(Buffer buffer);

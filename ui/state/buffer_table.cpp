@@ -63,6 +63,15 @@ constexpr BufferInfo table[] = {
     {Buffer::depth, "depth", "Depth",
      "The distance from the camera to the surface first seen, in units of the scene; 0: there is none.",
      Family::first_hit, ColourMap::false_colour, "units", 1},
+    {Buffer::footprint_1, "footprint_1", "Footprint at x1",
+     "How wide the part of the surface first seen is that a path stands for, at one sample a pixel: the root of "
+     "the "
+     "area of its footprint by path differentials [Suykens 2001], in units of the scene.",
+     Family::first_hit, ColourMap::false_colour, "units", 1},
+    {Buffer::footprint_2, "footprint_2", "Footprint at x2",
+     "The same at the path's second vertex, of one path a pixel: wide where light is scattered widely, narrow in "
+     "mirrors, and in glossy surfaces between. Where it is wider than what pixels see, they can share the path.",
+     Family::first_hit, ColourMap::false_colour, "units", 1},
     {Buffer::primal_variance, "primal_variance", "Variance of primal",
      "Variance of the primal's mean over the passes, the sum of red, green and blue; radiance squared. It falls "
      "with the samples; of the coefficient where the basis is the albedo. Pixels that share light err alike: "
