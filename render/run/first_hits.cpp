@@ -4,6 +4,7 @@
 #include "render/estimator/tracer.h"
 #include "render/inspect/path_differentials.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -28,19 +29,23 @@ Rgb albedo_of(const Vertex& vertex) {
     return sum / static_cast<float>(albedo_samples);
 }
 
-/// Of a path through the middle of pixel (x, y).
+/// Medians of some paths through the middle of pixel (x, y): a few go on along surfaces, and are far wider.
 void write_footprints(const Tracer& tracer, const Projection& projection, int x, int y, FirstHits& hits) {
+    constexpr std::uint32_t paths = 5;
     const glm::vec2 pixel = glm::vec2(x, y) + 0.5f;
     const auto index = static_cast<std::uint32_t>(y * hits.depth.width() + x);
+    std::array<std::array<float, paths>, 2> widths{};
     BasePath path;
-    trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), Random(0, index, 0), path);
-    const PathDifferentials d = differentiate(tracer, projection, pixel, glm::vec2(0), path);
-    int i = 0;
-    for (Image<float>* widths : {&hits.footprint_1, &hits.footprint_2}) {
-        if (i < static_cast<int>(d.vertices.size()))
-            (*widths)(x, y) = std::sqrt(footprint(d, i, {}).area());
-        ++i;
+    for (std::uint32_t k = 0; k < paths; ++k) {
+        trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), Random(0, index, k), path);
+        const PathDifferentials d = differentiate(tracer, projection, pixel, glm::vec2(0), path);
+        for (int i = 0; i < std::min(2, static_cast<int>(d.vertices.size())); ++i)
+            widths[static_cast<std::size_t>(i)][k] = std::sqrt(footprint(d, i, {}).area());
     }
+    for (auto& of_paths : widths)
+        std::ranges::nth_element(of_paths, of_paths.begin() + paths / 2);
+    hits.footprint_1(x, y) = widths[0][paths / 2];
+    hits.footprint_2(x, y) = widths[1][paths / 2];
 }
 
 } // namespace
@@ -54,7 +59,7 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
         hits.footprint_1 = hits.footprint_2 = hits.depth;
     const Projection projection(camera, size);
     Counters counters;
-    const Tracer tracer{scene, counters, {2, 1, 0}};
+    const Tracer tracer{scene, counters, {3, 1, 0}}; // a vertex at the last edge is not kept if it does not shine
     for (int y = 0; y < size.y; ++y) {
         if (stop.stop_requested())
             return {};

@@ -17,11 +17,12 @@ struct FirstHits {
     RgbImage normal;    ///< of shading, unit, in the world
     Image<float> depth; ///< distance from the camera, in units of the scene
     /// How wide the footprint of a path is at x_1 and x_2 (PathDifferentials): the root of its area, in units of
-    /// the scene, of one path through each pixel; 0 where it does not come that far. Empty: not asked for.
+    /// the scene, the median of five paths through each pixel; 0 where they do not come that far. Empty: not asked
+    /// for.
     Image<float> footprint_1, footprint_2;
 };
 
-/// Traces one ray a pixel, or a path of two edges where footprints are asked for, in the calling thread. Empty
+/// Traces one ray a pixel, or five paths where footprints are asked for, in the calling thread. Empty
 /// images: stopped on the way.
 FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, bool with_footprints = false,
                            std::stop_token stop = {});

@@ -43,7 +43,8 @@ TEST(FirstHits, FootprintsAreWideWhereLightIsScattered) {
     const int grey = scene.diffuse(Rgb(0.5f));
     scene.quad({-3, -3, 0}, {3, 0, 0}, {0, 6, 0}, grey);
     scene.quad({0, -3, 0}, {3, 0, 0}, {0, 6, 0}, scene.conductor(0));
-    scene.quad({-30, -30, 9}, {0, 60, 0}, {60, 0, 0}, grey, scene.light(Rgb(5)));
+    scene.quad({-30, -30, 9}, {0, 60, 0}, {60, 0, 0}, grey);
+    scene.quad({-1, 20, 0}, {2, 0, 0}, {0, 0, 2}, grey, scene.light(Rgb(5)));
     scene.camera({0, 0, 3}, {0, 0, 0}, 60);
     const auto built = scene.build();
     const glm::ivec2 size(32, 32);

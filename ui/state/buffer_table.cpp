@@ -69,7 +69,7 @@ constexpr BufferInfo table[] = {
      "area of its footprint by path differentials [Suykens 2001], in units of the scene.",
      Family::first_hit, ColourMap::false_colour, "units", 1},
     {Buffer::footprint_2, "footprint_2", "Footprint at x2",
-     "The same at the path's second vertex, of one path a pixel: wide where light is scattered widely, narrow in "
+     "The same at the second vertex, the median of five paths: wide where light is scattered widely, narrow in "
      "mirrors, and in glossy surfaces between. Where it is wider than what pixels see, they can share the path.",
      Family::first_hit, ColourMap::false_colour, "units", 1},
     {Buffer::primal_variance, "primal_variance", "Variance of primal",
