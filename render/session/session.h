@@ -60,8 +60,8 @@ public:
     std::uint64_t submit(int pane, RenderRequest request);
 
     /// Lets a pane show the passes of another, which renders, with a reconstruction of its own: it renders nothing
-    /// itself until it is submitted. To be called anew after a submit of the other. Returns the other's
-    /// generation.
+    /// itself until it is submitted. To be called anew after a submit of the other, of which it has no more than
+    /// previews before. Returns the other's generation.
     std::uint64_t follow(int pane, int other);
 
     /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
