@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,7 @@ using Planes = std::array<Plane, 6>;
 /// Planes that are used at every level: memory that is new each time costs a quarter of the smoothing.
 struct Scratch {
     Planes coarser;
-    Plane brightness, noise, squares, rows;
+    Plane brightness, noise, sizes, rows;
 };
 
 template <std::size_t count>
@@ -49,7 +50,7 @@ void make_planes(std::array<Plane, count>& planes, int width, int height) {
 Scratch scratch_of(int width, int height) {
     Scratch scratch;
     make_planes(scratch.coarser, width, height);
-    for (Plane* plane : {&scratch.brightness, &scratch.noise, &scratch.squares, &scratch.rows})
+    for (Plane* plane : {&scratch.brightness, &scratch.noise, &scratch.sizes, &scratch.rows})
         *plane = Plane(width, height);
     return scratch;
 }
@@ -195,21 +196,27 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
     write_brightness(from, least, parallel_for, brightness);
     parallel_for(noise.height(), [&](int y) {
         for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            const float relative = mean_of(from, 3, i) / brightness.data()[i];
-            noise.data()[i] = relative * relative;
+            noise.data()[i] = std::abs(mean_of(from, 3, i)) / brightness.data()[i];
             brightness.data()[i] = std::log(brightness.data()[i]);
         }
     });
     take_wide_means(noise, noise_radius + step, scratch.rows, parallel_for);
+    parallel_for(noise.height(), [&](int y) {
+        constexpr float of_gaussian =
+            std::numbers::pi_v<float> / 2; // variance over the mean absolute value's square
+        for (int x = 0; x < width; ++x)
+            noise(x, y) *= of_gaussian * noise(x, y);
+    });
     smooth({from, guides, brightness, noise, step}, parallel_for, scratch.coarser);
 }
 
-/// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius.
+/// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
+/// roots: in means of squares, the few pixels beside a lamp would decide on all that are near.
 void add_difference(const Planes& finer, int radius, float least, const ParallelFor& parallel_for,
                     Scratch& scratch, std::array<Plane, 3>& sum) {
     const Planes& coarser = scratch.coarser;
     const Plane& brightness = scratch.brightness;
-    Plane &squares = scratch.squares, &noise = scratch.noise;
+    Plane &sizes = scratch.sizes, &noise = scratch.noise;
     const int width = noise.width(), height = noise.height();
     write_brightness(coarser, least, parallel_for, scratch.brightness);
     parallel_for(height, [&](int y) {
@@ -219,16 +226,18 @@ void add_difference(const Planes& finer, int radius, float least, const Parallel
                 const float d = (finer[c].data()[i] - coarser[c].data()[i]) / brightness.data()[i];
                 here[c / 3] += d * d;
             }
-            squares.data()[i] = here[0];
-            noise.data()[i] = here[1];
+            sizes.data()[i] = std::sqrt(std::sqrt(here[0]));
+            noise.data()[i] = std::sqrt(std::sqrt(here[1]));
         }
     });
-    take_wide_means(squares, radius, scratch.rows, parallel_for);
+    take_wide_means(sizes, radius, scratch.rows, parallel_for);
     take_wide_means(noise, radius, scratch.rows, parallel_for);
     Plane& trust = noise;
     parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            trust(x, y) = squares(x, y) > 0 ? std::clamp(1 - noise(x, y) / squares(x, y), 0.0f, 1.0f) : 0;
+        for (int x = 0; x < width; ++x) {
+            const float ratio = sizes(x, y) > 0 ? noise(x, y) / sizes(x, y) : 1;
+            trust(x, y) = std::max(1 - ratio * ratio * ratio * ratio, 0.0f);
+        }
     });
     take_wide_means(trust, radius / 2, scratch.rows, parallel_for);
     parallel_for(height, [&](int y) {
