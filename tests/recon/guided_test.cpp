@@ -91,6 +91,34 @@ TEST(Guided, IsConsistent) {
     }
 }
 
+/// Light that changes from pixel to pixel where little noise is, and here and there a pixel of much: it does not
+/// decide on the others around.
+TEST(Guided, AFewNoisyPixelsLeaveTheOthersAlone) {
+    const auto is_noisy = [](int x, int y) { return (5 * x + 7 * y) % 53 == 0; };
+    RgbImage truth(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            truth(x, y) = Rgb(1 + 0.5f * std::cos(static_cast<float>(x)));
+    const auto noise_with_peaks = [&](std::uint32_t seed) {
+        RgbImage image = noise(seed, 0.03f);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                image(x, y) *= is_noisy(x, y) ? 50.0f : 1.0f;
+        return image;
+    };
+    const RgbImage picture = plus(truth, noise_with_peaks(1));
+    const RgbImage smooth = smooth_by_guides({picture, noise_with_peaks(2)}, even_guides(), serial_for);
+    double squares = 0;
+    int count = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            if (!is_noisy(x, y)) {
+                squares += std::pow(static_cast<double>(smooth(x, y).g - truth(x, y).g), 2);
+                ++count;
+            }
+    EXPECT_LT(std::sqrt(squares / count), 0.04);
+}
+
 /// Light does not cross to what looks different: nor does it get into the black.
 TEST(Guided, GuidesHoldLight) {
     for (const int guide : {0, 1, 2}) {
