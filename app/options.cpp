@@ -1,3 +1,4 @@
+#include "app/cli/grouped_help.h"
 #include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
 #include "app/cli/terminal.h"
@@ -234,6 +235,7 @@ int run_command_line(int argc, char** argv) {
     add_compare(app, compare_options);
     CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
     add_scene(info, info_words, true);
+    group_help(app);
     std::vector<const char*> words(argv, argv + argc);
     const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");
     if (is_alone) // a scene, or a folder, is to be looked at

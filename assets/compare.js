@@ -1,13 +1,15 @@
 // The pictures of a scene, one against another: one of both, a line between them that follows the mouse, both in turn, or
-// their difference. Wheel: enlarges about the mouse; a double click shows the whole again.
+// their difference. Wheel: enlarges about the mouse; a double click shows the whole again. The mouse on a small picture
+// shows it instead, as long as it is there; a click makes it the first of both.
 for (const box of document.querySelectorAll('.compare')) {
   const images = [...box.querySelectorAll('.pictures img')], canvas = box.querySelector('canvas');
   const [first, second] = box.querySelectorAll('select'), text = box.querySelector('output');
   const gain = box.querySelector('input[type=range]');
-  const width = images[0].width, height = images[0].height;
+  const width = +images[0].getAttribute('width'), height = +images[0].getAttribute('height');
   const scale = 2 ** +box.dataset.exposure;
-  let mode = 'wipe', wipe = 0.5, zoom = 1, left = 0, top = 0, odd = false, pixels = [], differences = {};
-  canvas.width = Math.max(width, 960); canvas.height = Math.round(canvas.width * height / width);
+  let mode = 'wipe', pointed = null, wipe = 0.5, zoom = 1, left = 0, top = 0, odd = false, pixels = [], differences = {};
+  canvas.width = Math.max(width, Math.min(960, Math.round(640 * width / height))); // small ones are enlarged
+  canvas.height = Math.round(canvas.width * height / width);
   const draw = canvas.getContext('2d');
 
   function bytes(index) { // of a picture, as it is in the page
@@ -44,6 +46,9 @@ for (const box of document.querySelectorAll('.compare')) {
     draw.clearRect(0, 0, canvas.width, canvas.height);
     draw.imageSmoothingEnabled = k < 1;
     draw.setTransform(k, 0, 0, k, -left * k, -top * k);
+    for (const [index, image] of images.entries())
+      image.parentElement.classList.toggle('on', index === +first.value);
+    if (pointed) return draw.drawImage(pointed, 0, 0);
     const a = images[first.value], b = images[second.value];
     if (mode === 'difference') draw.drawImage(difference(), 0, 0);
     else draw.drawImage(mode === 'second' || (mode === 'flicker' && odd) ? b : a, 0, 0);
@@ -86,6 +91,12 @@ for (const box of document.querySelectorAll('.compare')) {
       for (const other of box.querySelectorAll('button')) other.classList.toggle('on', other === button);
       show();
     };
+  for (const [index, image] of images.entries()) {
+    const small = image.parentElement;
+    small.onmouseenter = () => { pointed = image; show(); };
+    small.onmouseleave = () => { pointed = null; show(); };
+    small.onclick = () => { pointed = null; first.value = index; show(); };
+  }
   first.onchange = second.onchange = gain.oninput = show;
   setInterval(() => { if (mode === 'flicker') { odd = !odd; show(); } }, 500);
   Promise.all(images.map(image => image.decode())).then(show);

@@ -220,6 +220,14 @@ std::string option_words(RenderSettings from, RenderSettings to) {
     return words;
 }
 
+std::vector<std::string> render_option_names() {
+    RenderSettings settings;
+    std::vector<std::string> names;
+    for (const Setting& setting : settings_of(settings))
+        names.push_back(option_name(setting));
+    return names;
+}
+
 void add_picture_options(CLI::App& command, PictureWords words) {
     add_setting(command, size_setting(words.size))->default_str("the scene's");
     for (const Setting& setting : settings_of(words.settings))

@@ -69,6 +69,9 @@ CLI::Option* add_clock(CLI::App& command, std::string& clock);
 /// Without method and seed.
 std::string option_words(RenderSettings from, RenderSettings to);
 
+/// The options of all render settings but the method, "--tile", in the order of the panel.
+std::vector<std::string> render_option_names();
+
 /// Where options of a picture are written to.
 struct PictureWords {
     glm::ivec2& size; ///< 0: not given

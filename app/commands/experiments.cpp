@@ -119,7 +119,7 @@ int run_stability(ExperimentOptions suite) {
             write_sheet(suite, c);
     });
     if (suite.sharing.task != Sharing::Task::list)
-        fmt::print("{}\n", (suite.output / "stability.md").string());
+        fmt::print("{}\n", (suite.output / "stability.html").string());
     return code;
 }
 

@@ -152,7 +152,9 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
     CLI::App& command = *app.add_subcommand(
         "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
     command.footer(
-        std::string("Writes stability.md, stability.csv and SCENE.png to the output folder, anew now and then. "
+        std::string("Writes stability.html, which needs no other file, stability.md, stability.csv and SCENE.png "
+                    "to the output "
+                    "folder, anew now and then. "
                     "References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
         common_footer);
     add_experiment(command, words);

@@ -1,8 +1,7 @@
 #include "app/cli/terminal.h"
+#include "app/report/page.h"
 #include "app/report/reports.h"
-#include "embedded/compare_script.h"
 #include "recon/enumeration.h"
-#include "render/io/plain_images.h"
 #include "render/settings/settings_table.h"
 
 #include <cmath>
@@ -13,47 +12,6 @@
 namespace tessera {
 
 namespace {
-
-/// The bytes in base 64 [RFC 4648, 4].
-std::string base64(const std::vector<char>& bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        unsigned group = 0;
-        for (std::size_t k = i; k < i + 3; ++k)
-            group = group << 8 | (k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-    }
-    return text;
-}
-
-} // namespace
-
-std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes) {
-    return fmt::format(R"(<img width="{}" height="{}" {} src="data:image/png;base64,{}">)", image.width(),
-                       image.height(), attributes, base64(encode_png(image, exposure)));
-}
-
-namespace {
-
-constexpr const char* style = R"(
-body { font: 15px/1.45 Inter, "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; max-width: 1120px;
-       margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.25em; margin-top: 2.2em; border-bottom: 1px solid #ccc; }
-table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.2em 0.7em; border-bottom: 1px solid #e4e4e4; text-align: right;
-         white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; } th { font-weight: 600; }
-.note { color: #666; max-width: 52em; } svg { max-width: 100%; height: auto; }
-.crops { display: flex; flex-wrap: wrap; gap: 10px; } figure { margin: 0; }
-figcaption { font-size: 12px; color: #444; } .crops img { image-rendering: pixelated; display: block; }
-.compare canvas { width: 100%; display: block; background: #000; cursor: crosshair; }
-.compare output { font: 12px monospace; color: #444; white-space: pre; display: block; overflow: hidden; }
-.compare button { margin-right: 2px; } .compare button.on { background: #008c74; color: #fff; }
-code { background: #f4f4f4; padding: 0 0.2em; }
-)";
 
 std::string number(double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
@@ -90,15 +48,16 @@ std::string speed_up_section(const std::vector<SceneCurves>& scenes) {
 }
 
 std::string figures_table(const ExperimentOptions& options, const SceneCurves& scene) {
-    std::string html = "<table><tr><th>method</th><th>spp</th><th>CPU s</th><th>wall s</th><th>relMSE</th>"
-                       "<th>deviation of seeds</th><th>slope</th><th>efficiency</th><th>tiles</th></tr>\n";
+    std::string html =
+        "<table><tr><th>method</th><th>spp</th><th>CPU s</th><th>wall s</th><th>relMSE</th>"
+        "<th>deviation of seeds</th><th>FLIP</th><th>slope</th><th>efficiency</th><th>tiles</th></tr>\n";
     for (const Curve& curve : scene.curves) {
         const Result& r = last_of(curve);
         html += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-                            "<td>{}</td><td>{}</td></tr>\n",
+                            "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
                             escaped(curve_label(options, curve)), spp_of(r), number(cpu_seconds_of(r)),
                             number(wall_seconds_of(r)), error_text(r), number(error_deviation(r)),
-                            number(slope_of(curve)), number(efficiency_of(r)),
+                            number(column_value("flip", r)), number(slope_of(curve)), number(efficiency_of(r)),
                             number(column_value("tile_edge_spectrum", r)));
     }
     return html + "</table>\n";
@@ -163,24 +122,20 @@ std::string settings_section(const Experiment& experiment) {
 } // namespace
 
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes) {
-    std::string html = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-                                   "<title>Tessera: error against time</title><style>{}</style></head><body>\n"
-                                   "<h1>Error against time</h1>\n",
-                                   style);
-    if (interrupted())
-        html += "<p><b>Not complete: it was interrupted.</b> The same command goes on.</p>\n";
+    std::string html = not_complete();
     html +=
         "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the two halves of a "
         "reference, so that their noise does not count. After ± stands its uncertainty; an error below that is "
-        "given as &lt; and is in no chart. Times are of rendering and one reconstruction. “Tiles” is how much the "
+        "given as &lt; and is in no chart. FLIP is how much an observer who flips between picture and reference "
+        "sees them "
+        "differ, from 0 to 1, in the mean. Times are of rendering and one reconstruction. “Tiles” is how much the "
         "grid of tiles shows in the error, as a ratio of spectral power; 1: it does not.</p>\n";
     html += speed_up_section(scenes);
     if (scenes.size() > 1)
         html += to_svg(triangle_chart(experiment.options(), scenes));
     for (const SceneCurves& scene : scenes)
         html += scene_section(experiment, scene);
-    return fmt::format("{}{}<script>\n{}</script></body></html>\n", html, settings_section(experiment),
-                       compare_script);
+    return html_page("Error against time", html + settings_section(experiment));
 }
 
 } // namespace tessera

@@ -194,4 +194,15 @@ Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& r
              plot_of(options, results, "millions of samples a wall second", speed)}};
 }
 
+std::vector<Chart> sweep_charts(const ExperimentOptions& options, const std::vector<Result>& results) {
+    std::vector<Chart> charts;
+    for (auto begin = results.begin(); begin != results.end();) {
+        const auto end =
+            std::find_if(begin, results.end(), [&](const Result& r) { return r.title() != begin->title(); });
+        charts.push_back(sweep_chart(options, {begin, end}));
+        begin = end;
+    }
+    return charts;
+}
+
 } // namespace tessera

@@ -1,3 +1,4 @@
+#include "app/report/page.h"
 #include "app/report/reports.h"
 #include "recon/metrics/metrics.h"
 #include "render/io/exr.h"
@@ -124,37 +125,34 @@ float usual_exposure(const RgbImage& image) {
 
 namespace {
 
-struct Picture {
-    std::string name, figures; ///< HTML
-    RgbImage image;
-};
-
-/// "seed 1: relMSE 0.012<br>96 spp, 60.1 CPU s": of the run that made the picture.
+/// "seed 1: relMSE 0.012, FLIP 0.08<br>96 spp, 60.1 CPU s": of the run that made the picture.
 std::string figures_of(const Result& result, std::uint64_t seed) {
     for (const Measurement& m : result.runs)
         if (m.seed == seed)
-            return fmt::format("seed {}: relMSE {:.3g}<br>{} spp, {:.3g} CPU s", seed, m.floor_free.relative_mse,
-                               m.spp, m.cpu_seconds);
+            return fmt::format("seed {}: relMSE {:.3g}{}<br>{} spp, {:.3g} CPU s", seed, m.floor_free.relative_mse,
+                               std::isfinite(m.flip) ? fmt::format(", FLIP {:.3g}", m.flip) : "", m.spp,
+                               m.cpu_seconds);
     return "";
 }
 
-/// The pictures that are there, of the reference's size.
-std::vector<Picture> pictures_of(const Experiment& experiment, const SceneCurves& scene,
-                                 const RgbImage& reference) {
-    std::vector<Picture> pictures;
-    for (const Curve& curve : scene.curves) {
-        const Result& result = last_of(curve);
-        const std::filesystem::path file = experiment.image_file(result.scene, result.setup);
+} // namespace
+
+std::vector<PagePicture> pictures_of(const Experiment& experiment, const std::vector<NamedResult>& results,
+                                     const RgbImage& reference) {
+    std::vector<PagePicture> pictures;
+    for (const auto& [name, result] : results) {
+        const std::filesystem::path file = experiment.image_file(result->scene, result->setup);
         if (!std::filesystem::exists(file))
             continue;
         const ExrFile exr = read_exr(file, {}, {""});
         const RgbImage& image = require_layer(exr, "", file);
         if (image.width() == reference.width() && image.height() == reference.height())
-            pictures.push_back({escaped(curve_label(experiment.options(), curve)),
-                                figures_of(result, experiment.options().settings.render.seed), image});
+            pictures.push_back({name, figures_of(*result, experiment.options().settings.render.seed), image});
     }
     return pictures;
 }
+
+namespace {
 
 const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurves& scene) {
     for (const MeasuredScene& measured : experiment.scenes())
@@ -179,35 +177,13 @@ std::string overview(const RgbImage& reference, float exposure, const std::vecto
     return html + "</svg></div>\n";
 }
 
-/// All pictures as a whole, one against another (assets/compare.js).
-std::string comparison(const RgbImage& truth, const std::vector<Picture>& pictures, float exposure) {
-    std::string images = inline_image(truth, exposure, R"(alt="reference")"), first, second;
-    const auto option = [](std::size_t index, const std::string& name, bool is_chosen) {
-        return fmt::format("<option value=\"{}\"{}>{}</option>", index, is_chosen ? " selected" : "", name);
-    };
-    second = option(0, "reference", true);
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        images += inline_image(pictures[i].image, exposure, fmt::format("alt=\"{}\"", pictures[i].name));
-        first += option(i + 1, pictures[i].name, i + 1 == pictures.size());
-        second += option(i + 1, pictures[i].name, false);
-    }
-    return fmt::format(
-        "<div class=\"compare\" data-exposure=\"{}\"><div class=\"pictures\" hidden>{}</div>\n"
-        "<p><select>{}{}</select> against <select>{}</select> <button value=\"first\">first</button>"
-        "<button value=\"second\">second</button><button value=\"wipe\" class=\"on\">wipe</button>"
-        "<button value=\"flicker\">flicker</button><button value=\"difference\">difference</button>"
-        " <label>times 2^<input type=\"range\" min=\"0\" max=\"8\" value=\"2\"></label></p>\n"
-        "<canvas></canvas><output>Wheel: enlarge; values are radiances, to the eight bits of the page.</output>"
-        "</div>\n",
-        exposure, images, option(0, "reference", false), first, second);
-}
-
-/// `name` and `figures` as of a Picture.
+/// `name` and `figures` as of a PagePicture.
 std::string captioned(const RgbImage& image, float exposure, const std::string& name, const std::string& figures) {
     constexpr int shown = 200; // pixels of the page
-    return fmt::format(
-        "<figure style=\"width:{0}px\">{1}<figcaption><b>{2}</b><br>{3}</figcaption></figure>\n", shown,
-        inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)), name, figures);
+    return fmt::format("<figure style=\"width:{0}px\">{1}<figcaption><b>{2}</b><br>{3}</figcaption></figure>\n",
+                       shown,
+                       inline_image(image, exposure, fmt::format(R"(style="width:{0}px; height:{0}px")", shown)),
+                       escaped(name), figures);
 }
 
 } // namespace
@@ -217,11 +193,14 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     if (!reference)
         return "";
     const RgbImage& truth = reference->mean;
-    const std::vector<Picture> pictures = pictures_of(experiment, scene, truth);
+    std::vector<NamedResult> results;
+    for (const Curve& curve : scene.curves)
+        results.push_back({curve_label(experiment.options(), curve), &last_of(curve)});
+    const std::vector<PagePicture> pictures = pictures_of(experiment, results, truth);
     if (pictures.empty())
         return "";
     std::vector<const RgbImage*> images;
-    for (const Picture& picture : pictures)
+    for (const PagePicture& picture : pictures)
         images.push_back(&picture.image);
     const int edge = std::clamp(std::min(truth.width(), truth.height()) / 3, 16, 160);
     const std::vector<PixelRect> rects = choose_crops(truth, images, edge, 2);
@@ -239,7 +218,7 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
         const float shown = std::min(exposure, usual_exposure(true_crop)); // bright corners are not to burn out
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
         html += captioned(true_crop, shown, "reference", fmt::format("exposure {:+.1f}", shown));
-        for (const Picture& picture : pictures)
+        for (const PagePicture& picture : pictures)
             html += captioned(crop(picture.image, rect), shown, picture.name, picture.figures);
         html += "</div>\n";
     }

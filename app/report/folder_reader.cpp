@@ -60,19 +60,13 @@ public:
             scenes.push_back({name, {}});
         const std::vector<Result> results =
             results_of(records_, scenes, setups_, plan_.options.sharing.takes_any_machine);
-        std::vector<Chart> charts;
         if (plan_.options.halvings > 0) {
+            std::vector<Chart> charts;
             for (const SceneCurves& scene : curves_by_scene(results))
                 charts.push_back(bench_chart(plan_.options, scene));
             return charts;
         }
-        for (auto begin = results.begin(); begin != results.end();) {
-            const auto end =
-                std::find_if(begin, results.end(), [&](const Result& r) { return r.title() != begin->title(); });
-            charts.push_back(sweep_chart(plan_.options, {begin, end}));
-            begin = end;
-        }
-        return charts;
+        return sweep_charts(plan_.options, results);
     }
 
 private:

@@ -5,6 +5,7 @@
 #include "app/experiment/experiment.h"
 #include "app/experiment/speed_up.h"
 #include "app/experiment/stability.h"
+#include "app/report/page.h"
 #include "recon/image.h"
 #include "ui/charts/chart.h"
 #include "ui/jobs/followed_folder.h"
@@ -19,8 +20,16 @@ namespace tessera {
 
 // Pictures.
 
-/// <img> of the image as PNG, times 2^exposure, in the page itself. `attributes` are as HTML has them.
-std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes);
+/// A result with what a page calls it.
+struct NamedResult {
+    std::string name;
+    const Result* result; ///< must outlive this
+};
+
+/// The pictures that the first seed came to, those that are there and of the reference's size, with that run's
+/// figures.
+std::vector<PagePicture> pictures_of(const Experiment& experiment, const std::vector<NamedResult>& results,
+                                     const RgbImage& reference);
 
 /// A picture with its name, in plain ASCII.
 struct LabelledPicture {
@@ -74,6 +83,8 @@ Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCu
 /// Error, efficiency and speed of one scene's results against the first variation (or the method, if nothing is
 /// varied): a line for every method and value of the second.
 Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results);
+/// One for each title of the results, which must come title by title.
+std::vector<Chart> sweep_charts(const ExperimentOptions& options, const std::vector<Result>& results);
 
 // Files of results, and the page of `tessera bench`.
 
@@ -108,9 +119,9 @@ struct OverviewCell {
 /// the dots of a name.
 std::string anchor(const std::string& scene);
 
-/// A table in Markdown: a line a scene, a column a setup, each in the order in which they come: the ratio of
-/// errors, or what is wrong. Empty where there is no such cell. Scenes link to their anchors.
-std::string overview(const std::vector<OverviewCell>& cells);
+/// A line a scene, a column a setup, each in the order in which they come: the ratio of errors, or what is wrong.
+/// Empty where there is no such cell. Scenes link to their anchors.
+ReportTable overview(const std::vector<OverviewCell>& cells);
 
 /// A scene of the suite and what is rendered of it.
 struct StabilityCase {
@@ -121,8 +132,8 @@ struct StabilityCase {
     const std::string& name() const { return experiment->scenes().front().name(); }
 };
 
-/// Writes stability.md and stability.csv on the scenes that have two runs and more of each setup, to the folder of
-/// the suite's options.
+/// Writes stability.html, which needs no other file, stability.md and stability.csv on the scenes that have two
+/// runs and more of each setup, to the folder of the suite's options.
 void write_stability(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases);
 
 /// Writes SCENE.png: the reference, and the pictures of the first seed with the names of their setups.

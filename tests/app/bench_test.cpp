@@ -75,7 +75,7 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
 
     const std::string page = text("out/bench.html");
     for (const char* part : {"<svg xmlns", "data:image/png;base64,", "PT over G-PR", "gpr l1", "max_depth",
-                             "seed 0", "itself at relMSE", "</html>"})
+                             "<th>FLIP</th>", "seed 0", "itself at relMSE", "</html>"})
         EXPECT_THAT(page, HasSubstr(part));
     for (const char* part : {"<option value=\"0\" selected>reference</option>", "alt=\"gpr l1\"", "<canvas>",
                              "value=\"flicker\"", "querySelectorAll('.compare')"})

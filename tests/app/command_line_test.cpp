@@ -47,6 +47,23 @@ TEST_F(CommandLine, HelpOfScriptsKeepsColumnsApart) {
     EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference until it is loaded"));
 }
 
+TEST_F(CommandLine, HelpOfManyOptionsIsInGroupsTheEssentialOnesFirst) {
+    for (const char* command : {"bench", "stability", "sweep", "render", "view", "reference"}) {
+        const std::string help = run(folder_, std::string(command) + " --help").output;
+        const std::size_t essentials = help.find("\nEssentials:\n"), method = help.find("\nMethod:\n"),
+                          tile = help.find("\n  --tile "), roulette = help.find("\n  --roulette ");
+        EXPECT_LT(essentials, help.find("\n  -m,--method")) << command;
+        EXPECT_LT(help.find("\n  -m,--method"), tile) << command;
+        EXPECT_LT(tile, method) << command;
+        EXPECT_LT(method, roulette) << command;
+        EXPECT_NE(roulette, std::string::npos) << command;
+        EXPECT_LT(help.find("\nReconstruction:\n"), help.find("\n  --alpha ")) << command;
+        EXPECT_LT(help.find("\nOther options:\n"), help.find("\n  --threads ")) << command;
+        EXPECT_NE(help.find("\n  --threads "), std::string::npos) << command;
+    }
+    EXPECT_THAT(run(folder_, "compare --help").output, testing::HasSubstr("\nOptions:\n")) << "a few need none";
+}
+
 TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {
     const Outcome help = run(folder_, "box.xml --help");
     EXPECT_EQ(help.exit_code, 0) << help.output;

@@ -92,6 +92,15 @@ TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
     for (const char* file : {"out/no-light.png", "out/texture.png", "refs/texture-24x18-d8.exr"})
         EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 
+    const std::string html = text("out/stability.html");
+    for (const char* part : {"<a href=\"#texture\">", "<h2 id=\"texture\">", "Known to fail: G-PT and G-PR",
+                             "<td class=\"words ok\">ok", "alt=\"gpr-guided\"", "<canvas>", "value=\"flicker\"",
+                             "querySelectorAll('.compare')", ", FLIP 0.", "<svg xmlns", "</html>"})
+        EXPECT_THAT(html, HasSubstr(part));
+    for (const char* part : {"src=\"http", "<script src", "src=\"out"})
+        EXPECT_THAT(html, Not(HasSubstr(part))) << "it needs no other file";
+    EXPECT_THAT(csv, HasSubstr(",relmse_error,flip,factor,"));
+
     const std::string jobs = all_text("out/scenes/texture/jobs");
     ASSERT_EQ(stability(options).exit_code, 0);
     EXPECT_EQ(all_text("out/scenes/texture/jobs"), jobs) << "nothing is rendered again";

@@ -1,0 +1,82 @@
+#include "app/cli/grouped_help.h"
+
+#include "app/cli/option_values.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace tessera {
+
+namespace {
+
+struct HelpGroup {
+    std::string name;
+    std::vector<std::string> options; ///< in their order in the help
+};
+
+/// An option of several groups is of the first.
+const std::vector<HelpGroup>& help_groups() {
+    static const std::vector<HelpGroup> groups = {
+        {"Essentials",
+         {"-m", "--panes", "--recon", "--spp", "--time", "--quick", "--seeds", "--vary", "--size", "--max-depth",
+          "--tile", "--reference", "-o"}},
+        {"Scene", {"-D", "--camera", "--strict"}},
+        {"Method", render_option_names()},
+        {"Reconstruction", {"--alpha", "--spikes", "--per-channel"}},
+        {"Jobs that processes share",
+         {"--list", "--job", "--report", "--any-build", "--machine", "--any-machine", "--silence"}},
+    };
+    return groups;
+}
+
+constexpr std::size_t many = 12; // options, from which on a list is not read to its end
+
+/// Lists the options of a group in its order.
+class OrderedHelp : public CLI::Formatter {
+public:
+    std::string make_group(std::string name, bool is_positional,
+                           std::vector<const CLI::Option*> options) const override {
+        for (const HelpGroup& group : help_groups()) {
+            const auto place = [&](const CLI::Option* option) {
+                const auto is_named = [&](const std::string& word) { return option->check_name(word); };
+                return std::find_if(group.options.begin(), group.options.end(), is_named) - group.options.begin();
+            };
+            if (group.name == name)
+                std::ranges::stable_sort(options, {}, place);
+        }
+        return Formatter::make_group(name, is_positional, options);
+    }
+};
+
+void group_options(CLI::App& command) {
+    const auto is_optional = [](const CLI::Option* option) { return option->nonpositional(); };
+    if (command.get_options(is_optional).size() < many)
+        return;
+    for (CLI::Option* option : command.get_options(is_optional)) {
+        const auto has = [&](const HelpGroup& group) {
+            return std::ranges::any_of(group.options,
+                                       [&](const std::string& name) { return option->check_name(name); });
+        };
+        const auto group = std::ranges::find_if(help_groups(), has);
+        option->group(group == help_groups().end() ? "Other options" : group->name);
+    }
+    command.get_help_ptr()->group(help_groups().front().name); // groups come in the order of their first options
+}
+
+} // namespace
+
+void group_help(CLI::App& app) {
+    const auto formatter = std::make_shared<OrderedHelp>();
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->formatter(formatter);
+        group_options(*command);
+    }
+}
+
+} // namespace tessera
