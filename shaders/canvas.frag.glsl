@@ -11,8 +11,7 @@ uniform vec2 image_origin;  // top left corner of the image in the pane, pixels 
 uniform vec2 image_extent;  // size of the image in the pane, pixels
 uniform sampler2D subtrahend; // what a difference takes off, stretched over the image
 uniform float gain;         // 2^exposure
-uniform int tone_curve;     // 0: sRGB, or one of those below
-uniform float gamma;        // of the tone curve of that name
+uniform int tone_curve;     // 0: sRGB, or the one below
 uniform vec2 range;         // the values that false colours begin and end with
 uniform bool is_logarithmic; // false colours stand for powers
 uniform vec3 false_colours[9]; // display colours of the range, evenly spaced
@@ -26,8 +25,7 @@ const int false_colour = 2;      // numbers: red alone counts
 const int direction = 3;         // -1 to 1 in each channel
 const int own = 4;               // display colours
 const int averaged = 1; // of all pixels of the image that the pane's covers
-const int gamma_curve = 1;
-const int filmic_curve = 2;
+const int filmic_curve = 1;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
 const vec3 infinity_colour = vec3(0.0, 1.0, 1.0);
 const vec3 negative_colour = vec3(0.15, 0.25, 1.0);
@@ -43,8 +41,6 @@ vec3 filmic(vec3 c) {
     c = max(c, 0.0);
     return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
 }
-
-float encoded(float c) { return tone_curve == gamma_curve ? pow(c, 1.0 / gamma) : srgb(c); }
 
 // By bits: compilers may take isnan() to be false.
 bool is_nan(float v) { return (floatBitsToUint(v) & 0x7fffffffu) > 0x7f800000u; }
@@ -84,7 +80,7 @@ vec3 displayed(vec3 value) {
         return mix(zero_colour, value.r >= 0.0 ? plus_colour : minus_colour, srgb(abs(value.r)));
     if (colour_map == direction || colour_map == own)
         return value;
-    return vec3(encoded(value.r), encoded(value.g), encoded(value.b));
+    return vec3(srgb(value.r), srgb(value.g), srgb(value.b));
 }
 
 bool is_marked_negative(vec3 v) {

@@ -48,7 +48,6 @@ TEST_F(Explained, EveryControlHasATooltip) {
     state().add_message(Message::Kind::note, "a note");
     state().messages.back().samples = {SampleChoice{}};
     state().size.base = SizeChoice::Base::custom;
-    state().tone.curve = Tone::Curve::gamma;
     state().active_pane = 0;
     state().panes[0].settings.comparison.kind = Comparison::Kind::wipe;
     frames(4);

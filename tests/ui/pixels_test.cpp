@@ -144,13 +144,11 @@ TEST_F(Pixels, ToneCurves) {
     EXPECT_EQ(state().tone.curve, Tone::Curve::filmic);
     type(Key::y);
     EXPECT_EQ(state().tone.curve, Tone::Curve::srgb);
-    type(Key::y);
-    EXPECT_EQ(state().tone.curve, Tone::Curve::gamma);
-    frames(2);
     const double before = brightness("pane0.picture");
-    click_at("gamma", 0.99f);
-    EXPECT_NEAR(state().tone.gamma, 4, 0.1f);
-    EXPECT_GT(brightness("pane0.picture"), before + 5);
+    type(Key::y);
+    EXPECT_EQ(state().tone.curve, Tone::Curve::filmic);
+    frames(2);
+    EXPECT_NE(brightness("pane0.picture"), before);
 }
 
 TEST(ValueRange, SharesAndValuesAreInverse) {

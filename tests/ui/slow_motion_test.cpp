@@ -126,6 +126,39 @@ TEST_F(SlowMotionView, DrawsArrowsInTheColoursOfTheOutcomes) {
     EXPECT_GT(looked, 0);
 }
 
+TEST_F(SlowMotionView, OneKeyFindsTheExposureOfTheTile) {
+    open();
+    slow().step(slow().tile->base_count()); // all have arrived
+    frames(2);
+    const auto tile_brightness = [&] { // of the pixels' upper left corners, where no arrow or number is
+        const ScreenPixels pixels = screen();
+        const float unit = middle({1, 0}).x - middle({0, 0}).x;
+        double sum = 0;
+        for (const InspectedSet& set : slow().tile->sets)
+            for (const glm::ivec2 p : set.pixels)
+                sum += static_cast<double>(colour(pixels, middle(p) - 0.3f * unit).g);
+        return sum;
+    };
+    state().tone.exposure = -9;
+    frames(2);
+    const double dark = tile_brightness();
+    type(Key::f6);
+    frames(2);
+    const float found = state().tone.exposure;
+    EXPECT_GT(tile_brightness(), 2 * dark + 100);
+    EXPECT_GT(found, -9);
+    save("slow-motion-exposed.png");
+    state().tone.exposure = 9;
+    frames(2);
+    type(Key::f6);
+    EXPECT_FLOAT_EQ(state().tone.exposure, found);
+    type(Key::j); // of the picture again
+    frames(2);
+    type(Key::f6);
+    frames(2);
+    EXPECT_NE(state().tone.exposure, found);
+}
+
 TEST_F(SlowMotionView, PlaysHoldsAndTakesTheNextTile) {
     open(false);
     slow().speed = 20;

@@ -77,7 +77,6 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view, const Gl
     program.set("image_extent", view.image_extent);
     program.set("gain", std::exp2(view.tone.exposure));
     program.set("tone_curve", static_cast<int>(view.tone.curve));
-    program.set("gamma", view.tone.gamma);
     program.set("range", glm::vec2(view.range.low, view.range.high));
     program.set("is_logarithmic", view.range.logarithmic ? 1 : 0);
     program.set("marks_negative", view.mark_negative ? 1 : 0);

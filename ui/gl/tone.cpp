@@ -52,10 +52,7 @@ Rgb displayed(const Rgb& radiance, const Tone& tone) {
     Rgb result;
     for (int i = 0; i < 3; ++i) {
         const float c = std::clamp(radiance[i] * std::exp2(tone.exposure), 0.0f, 1e4f);
-        const float unit = std::min(c, 1.0f);
-        result[i] = tone.curve == Tone::Curve::filmic  ? linear_to_srgb(filmic(c))
-                    : tone.curve == Tone::Curve::gamma ? std::pow(unit, 1 / tone.gamma)
-                                                       : linear_to_srgb(unit);
+        result[i] = linear_to_srgb(tone.curve == Tone::Curve::filmic ? filmic(c) : std::min(c, 1.0f));
     }
     return result;
 }

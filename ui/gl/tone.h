@@ -46,12 +46,14 @@ inline constexpr std::array<glm::vec3, 9> false_colours = {{
 struct Tone {
     enum class Curve {
         srgb,   ///< the display's own: what is linear looks linear
-        gamma,  ///< value^(1/gamma)
         filmic, ///< highlights are compressed, then sRGB
     };
     Curve curve = Curve::srgb;
-    float exposure = 0; ///< stops: radiance is multiplied by 2^exposure first
-    float gamma = 2.2f; ///< of Curve::gamma
+    float exposure = 0;            ///< stops: radiance is multiplied by 2^exposure first
+    float difference_exposure = 0; ///< stops, which gradients and differences have beyond it
+
+    /// The exposure of gradients and differences, stops.
+    float of_differences() const { return exposure + difference_exposure; }
 
     bool operator==(const Tone&) const = default;
 };

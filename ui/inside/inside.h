@@ -51,6 +51,9 @@ bool has_slow_motion(const ViewerState& state);
 /// Whether the tile of the slow motion is this pane's.
 bool shows_slow_motion(int pane, const ViewerState& state);
 
+/// What each pixel of the slow motion's tile, which must be there, has got once all base paths have arrived.
+std::vector<float> slow_motion_luminances(const SlowMotion& slow);
+
 /// Draws the tile over the picture of its pane: its parts, the sampling set at hand with its border, what every
 /// pixel has got so far, and arrows from the base path that arrives to the pixels that it is shifted to, in the
 /// colours of their outcomes. To be called within the pane's window.

@@ -160,6 +160,15 @@ bool shows_slow_motion(int pane, const ViewerState& state) {
     return has_slow_motion(state) && state.panes[static_cast<std::size_t>(pane)].slot == state.slow_motion.slot;
 }
 
+std::vector<float> slow_motion_luminances(const SlowMotion& slow) {
+    std::vector<float> luminances;
+    for (const InspectedSet& set : slow.tile->sets)
+        for (int m = 0; m < set.size(); ++m)
+            if (!set.is_border[static_cast<std::size_t>(m)]) // those are another set's
+                luminances.push_back(luminance(set.radiance(m, set.size())));
+    return luminances;
+}
+
 void draw_slow_motion(const PictureFrame& frame, const ScreenRect& clip, int pane, const ViewerState& state) {
     if (!shows_slow_motion(pane, state))
         return;

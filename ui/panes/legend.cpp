@@ -150,9 +150,10 @@ bool has_picture(const Showing& showing, const PaneTools& tools) {
 Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
     const BufferInfo& about = info(buffer_of(showing.pane, state));
     if (showing.subtrahend < 0)
-        return signed_legend(about.id, about.unit, about.unit_scale, state.tone.exposure);
+        return signed_legend(about.id, about.unit, about.unit_scale, state.tone.of_differences());
     const bool alike = buffer_of(showing.subtrahend, state) == about.buffer;
-    return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1, state.tone.exposure);
+    return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1,
+                         state.tone.of_differences());
 }
 
 /// First hits of where the camera was are shown until there are others.

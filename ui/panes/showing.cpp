@@ -128,6 +128,8 @@ CanvasView colours_of(const Showing& showing, const ViewerState& state, const Pa
     CanvasView view;
     view.colour_map = colour_map(showing, state);
     view.tone = state.tone;
+    if (view.colour_map == ColourMap::signed_difference)
+        view.tone.exposure = state.tone.of_differences();
     view.range = range_of(buffer_of(showing.pane, state), state, images);
     view.coarse = image_of(showing.pane, images).coarse();
     view.mark_negative = state.mark_negative;
@@ -135,17 +137,22 @@ CanvasView colours_of(const Showing& showing, const ViewerState& state, const Pa
 }
 
 std::optional<float> exposure_of(const Showing& showing, const PaneImages& images) {
-    constexpr float share_below = 0.95f, brightness = 0.8f;
     const RgbImage& image = image_of(showing.pane, images).pixels();
     std::vector<float> values;
     for (int y = 0; y < image.height(); ++y)
         for (int x = 0; x < image.width(); ++x) {
             const glm::vec2 place((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width()),
                                   (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height()));
-            const float value = std::abs(luminance(value_at(showing, images, place).value_or(Rgb(0))));
-            if (std::isfinite(value) && value > 0)
-                values.push_back(value);
+            values.push_back(luminance(value_at(showing, images, place).value_or(Rgb(0))));
         }
+    return exposure_of(std::move(values));
+}
+
+std::optional<float> exposure_of(std::vector<float> values) {
+    constexpr float share_below = 0.95f, brightness = 0.8f;
+    for (float& value : values)
+        value = std::abs(value);
+    std::erase_if(values, [](float value) { return !(std::isfinite(value) && value > 0); });
     if (values.empty())
         return std::nullopt;
     const auto at =

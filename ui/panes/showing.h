@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tessera {
 
@@ -99,6 +100,8 @@ CanvasView colours_of(const Showing& showing, const ViewerState& state, const Pa
 /// The exposure, in stops, that brings all but the brightest of what is shown, or the largest of differences and
 /// gradients, to below white. Empty: there is nothing to see.
 std::optional<float> exposure_of(const Showing& showing, const PaneImages& images);
+/// The same for luminances, or differences of such.
+std::optional<float> exposure_of(std::vector<float> values);
 
 /// What a canvas draws for the part.
 struct ShowingTextures {

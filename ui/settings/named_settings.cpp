@@ -167,8 +167,9 @@ std::vector<Setting> settings_of(Tone& tone) {
          one_of(words::tones, tone.curve)},
         {"exposure", "Exposure", "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.",
          Setting::Real{&tone.exposure, low, high, low, high, "%+.1f stops"}},
-        {"gamma", "Gamma", "The exponent's inverse (no unit).", Setting::Real{&tone.gamma, 1, 4, 1, 4, "%.2f"},
-         tone.curve == Tone::Curve::gamma},
+        {"difference_exposure", "Of differences",
+         "Stops that gradients and differences have beyond the exposure; F6 finds them, too.",
+         Setting::Real{&tone.difference_exposure, 2 * low, 2 * high, low, high, "%+.1f stops"}},
     };
 }
 

@@ -52,7 +52,7 @@ void read_inspection(const JsonFields& fields, ViewerState& state);
 /// How the panes share the cores, and when they rest.
 std::vector<Setting> settings_of(Pace& pace);
 
-/// Tone curve, exposure and gamma, in this order.
+/// Tone curve, exposure and that of differences, in this order.
 std::vector<Setting> settings_of(Tone& tone);
 
 /// How the pane shows another one's picture.

@@ -102,7 +102,7 @@ void step_ui_scale(ViewerState& state, float by) {
 }
 
 void next_tone(ViewerState& state) {
-    state.tone.curve = static_cast<Tone::Curve>((static_cast<int>(state.tone.curve) + 1) % 3);
+    state.tone.curve = static_cast<Tone::Curve>(state.tone.curve == Tone::Curve::srgb ? 1 : 0);
 }
 
 void toggle_charts(ViewerState& state) {

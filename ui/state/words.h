@@ -30,7 +30,6 @@ inline constexpr SettingChoice sizes[] = {
 /// The words of Tone::Curve.
 inline constexpr SettingChoice tones[] = {
     {"srgb", "sRGB", "The display's own curve: linear radiance up to 1, the rest is cut."},
-    {"gamma", "gamma", "Radiance to the power of 1/gamma."},
     {"filmic", "filmic", "Highlights are compressed instead of cut [Narkowicz 2015], then sRGB."},
 };
 /// The words of Comparison::Kind.

@@ -279,15 +279,26 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
 
 /// The exposure and the range of false colours that show what the active pane shows.
 void Viewer::expose() {
+    const auto clamped = [](float stops) {
+        return std::clamp(stops, ranges::exposure.low(), ranges::exposure.high());
+    };
+    if (shows_slow_motion(state_.active_pane, state_)) { // which covers the picture
+        if (const auto exposure = exposure_of(slow_motion_luminances(state_.slow_motion)))
+            state_.tone.exposure = clamped(*exposure);
+        return;
+    }
     const Showing showing = sides_of(state_, state_.active_pane).left;
     const PaneImage& image = images_[static_cast<std::size_t>(showing.pane)];
     if (image.empty())
         return;
     const Buffer buffer = buffer_of(showing.pane, state_);
-    if (colour_map(showing, state_) == ColourMap::false_colour)
+    const ColourMap map = colour_map(showing, state_);
+    if (map == ColourMap::false_colour)
         state_.ranges[buffer] = automatic_range(buffer, image.pixels(), state_.companions);
-    else if (const auto exposure = exposure_of(showing, images_))
-        state_.tone.exposure = std::clamp(*exposure, ranges::exposure.low(), ranges::exposure.high());
+    else if (const auto exposure = exposure_of(showing, images_); exposure && map == ColourMap::signed_difference)
+        state_.tone.difference_exposure = clamped(*exposure) - state_.tone.exposure; // pictures stay as they are
+    else if (exposure)
+        state_.tone.exposure = clamped(*exposure);
 }
 
 /// A drag, a held key or a value that is being typed is one step.
