@@ -31,13 +31,8 @@ constexpr std::string_view shown_setups[] = {"pr", "gpt-weighted", judged_setup}
 
 RgbImage picture_of(const std::string& name) {
     for (const EmbeddedFile& file : gallery_pictures) {
-        if (file.name != name + ".jpg")
-            continue;
-        const ByteImage bytes = parse_jpeg(file.text(), [] { return true; });
-        RgbImage image(bytes.width, bytes.height);
-        for (std::size_t i = 0; i < image.size(); ++i)
-            image.data()[i] = Rgb(bytes.rgb[3 * i], bytes.rgb[3 * i + 1], bytes.rgb[3 * i + 2]) / 255.0f;
-        return image;
+        if (file.name == name + ".jpg")
+            return to_rgb(parse_jpeg(file.text(), [] { return true; }));
     }
     return {};
 }

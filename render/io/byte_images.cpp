@@ -195,4 +195,11 @@ ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& 
     return image;
 }
 
+RgbImage to_rgb(const ByteImage& picture) {
+    RgbImage image(picture.width, picture.height);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.data()[i] = Rgb(picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]) / 255.0f;
+    return image;
+}
+
 } // namespace tessera

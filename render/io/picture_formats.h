@@ -29,6 +29,9 @@ ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted
 /// What begins as a BMP picture does is one, anything else a TGA.
 ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted);
 
+/// The picture with its bytes as they are, in [0, 1].
+RgbImage to_rgb(const ByteImage& picture);
+
 /// Whether the bytes begin as a Radiance picture (.hdr, .pic) does.
 bool is_radiance(std::string_view bytes);
 

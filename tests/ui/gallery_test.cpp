@@ -1,9 +1,15 @@
 // The gallery of scenes: pictures to be clicked, made in the background.
+#include "tests/ui/current_folder.h"
 #include "tests/ui/viewer_harness.h"
+#include "ui/settings/preferences.h"
+#include "ui/settings/thumbnails.h"
 
 #include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -54,6 +60,58 @@ TEST(Gallery, OpensWhatIsClicked) {
     h.type(Key::g, true);
     h.type(Key::escape);
     EXPECT_FALSE(h.state().layout.show_gallery);
+}
+
+TEST(Gallery, RecentScenesHavePicturesOnceTheyWereRendered) {
+    const CurrentFolder folder;
+    std::atomic<bool> may_end = true;
+    std::filesystem::path opened;
+    ViewerOptions options = with_gallery(may_end, opened);
+    options.preferences = std::filesystem::absolute("viewer.json");
+    options.begins_with_gallery = false;
+    ViewerHarness h({1280, 720}, 1, options);
+    const SceneOrigin origin = scene_in("rooms/room.xml");
+    h.viewer.load("room.xml", origin.loader, origin.source);
+    ASSERT_TRUE(h.wait_until([&] { return h.viewer.settled(16) && !h.viewer.saving(); }));
+    const auto pictures = [] {
+        std::size_t count = 0;
+        std::error_code none;
+        for (const auto& entry : std::filesystem::directory_iterator("recent", none))
+            count += entry.path().extension() == ".png";
+        return count;
+    };
+    EXPECT_EQ(pictures(), 1u);
+    h.type(Key::g, true);
+    ASSERT_TRUE(h.wait_until([&] { return h.has("gallery.recent0") && h.has("gallery/glossy"); }));
+    h.frames(3);
+    h.save("gallery-recent.png");
+    EXPECT_TRUE(h.has("gallery.drop"));
+    EXPECT_GT(h.brightness("gallery.recent0"), 40) << "it is black without a picture";
+    h.click("gallery.recent0");
+    ASSERT_TRUE(h.wait_until([&] { return !h.state().layout.show_gallery; }));
+    EXPECT_EQ(opened, std::filesystem::absolute("rooms/room.xml"));
+}
+
+TEST(Gallery, NoMorePicturesAreKeptThanThereAreRecentScenes) {
+    const CurrentFolder folder;
+    const std::filesystem::path preferences = std::filesystem::absolute("viewer.json");
+    const RgbImage picture = thumbnail_of(RgbImage(300, 100, Rgb(0.5f)), 0);
+    EXPECT_EQ(picture.width() * 3, picture.height() * 4);
+    Preferences p;
+    for (int i = 0; i < 12; ++i) {
+        const std::string scene = "/scenes/" + std::to_string(i) + "/scene.xml";
+        p.add_recent(scene);
+        write_preferences(preferences, p);
+        store_thumbnail(preferences, scene, picture);
+    }
+    EXPECT_TRUE(read_thumbnail(preferences, "/scenes/3/scene.xml").empty()) << "it is no recent one any more";
+    const RgbImage kept = read_thumbnail(preferences, "/scenes/11/scene.xml");
+    ASSERT_EQ(kept.width(), picture.width());
+    EXPECT_NEAR(kept(80, 60).r, picture(80, 60).r, 1.0f / 255);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("recent"))
+        files += entry.is_regular_file();
+    EXPECT_EQ(files, Preferences::most_recent);
 }
 
 } // namespace

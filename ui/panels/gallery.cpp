@@ -1,14 +1,15 @@
 #include "ui/gl/gui.h"
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
+#include "ui/settings/thumbnails.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <stop_token>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <imgui.h>
 
@@ -16,6 +17,7 @@ namespace tessera {
 
 namespace {
 
+namespace fs = std::filesystem;
 constexpr float card_width = 10.5f; // heights of a line
 
 /// Empty: the scene within the program.
@@ -26,29 +28,53 @@ void open(const std::filesystem::path& file, ViewerState& state) {
         state.wishes.open_scene = file.string();
 }
 
-void draw_recent(Controls& controls, ViewerState& state) {
-    if (state.recent_scenes.empty())
-        return;
-    heading("Recent");
-    for (std::size_t i = 0; i < state.recent_scenes.size(); ++i) {
-        const std::filesystem::path file = state.recent_scenes[i];
-        const std::string name = (file.parent_path().filename() / file.filename()).string();
-        if (controls.button(("gallery.recent" + std::to_string(i)).c_str(), name.c_str(), file.string().c_str()))
-            open(file, state);
-        if (i % 3 != 2 && i + 1 < state.recent_scenes.size())
-            ImGui::SameLine();
+/// What is known of recent scenes at once; pictures come later.
+std::vector<GalleryEntry> recent_entries(const std::vector<std::string>& scenes, const fs::path& preferences) {
+    std::vector<GalleryEntry> entries;
+    for (const std::string& scene : scenes) {
+        const fs::path file = scene;
+        entries.push_back({(file.parent_path().filename() / file.filename()).string(), scene, "", false, file,
+                           preferences.empty() ? RgbImage() : read_thumbnail(preferences, scene)});
     }
+    return entries;
+}
+
+/// A dashed frame, as where things can be put is drawn everywhere. The whole window takes them.
+void draw_drop_target(Controls& controls) {
+    constexpr const char* text = "Drop a scene, a picture or a settings file here";
+    const float font = ImGui::GetFontSize(), dash = std::floor(font * 0.5f);
+    const ImVec2 min = ImGui::GetCursorScreenPos();
+    const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, font), std::floor(font * 3.2f));
+    const ImVec2 max(min.x + size.x - 1, min.y + size.y - 1);
+    ImGui::Dummy(size);
+    controls.place("gallery.drop",
+                   "A Mitsuba scene (.xml) is opened, a picture (.exr) becomes the reference that errors "
+                   "are measured against, and settings or a camera (.json) are taken on.");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (float x = min.x; x < max.x; x += 2 * dash)
+        for (const float y : {min.y, max.y})
+            list.AddLine({x, y}, {std::min(x + dash, max.x), y}, colours::dim_text, 1.5f);
+    for (float y = min.y; y < max.y; y += 2 * dash)
+        for (const float x : {min.x, max.x})
+            list.AddLine({x, y}, {x, std::min(y + dash, max.y)}, colours::dim_text, 1.5f);
+    const ImVec2 extent = ImGui::CalcTextSize(text);
+    list.AddText({std::floor(min.x + (size.x - extent.x) * 0.5f), std::floor(min.y + (size.y - extent.y) * 0.5f)},
+                 colours::text, text);
 }
 
 } // namespace
 
-void Gallery::draw_card(std::size_t index, Controls& controls, ViewerState& state) {
-    const GalleryEntry& entry = entries_[index];
+void Gallery::Shelf::fill(std::vector<GalleryEntry> with) {
+    entries = std::move(with);
+    textures = std::vector<GlTexture>(entries.size());
+}
+
+void Gallery::draw_card(const std::string& id, const GalleryEntry& entry, GlTexture& texture, Controls& controls,
+                        ViewerState& state) {
     const float font = ImGui::GetFontSize(), width = std::floor(font * card_width);
     const ImVec2 picture(width, std::floor(width * 0.75f));
     const ImVec2 min = ImGui::GetCursorScreenPos();
     const ImVec2 size(width, picture.y + 2.6f * font);
-    const std::string id = "gallery/" + entry.title;
     if (ImGui::InvisibleButton(id.c_str(), size))
         open(entry.file, state);
     const bool hovered = ImGui::IsItemHovered();
@@ -57,7 +83,6 @@ void Gallery::draw_card(std::size_t index, Controls& controls, ViewerState& stat
     const ImVec2 end(min.x + picture.x, min.y + picture.y);
     list.AddRectFilled(min, end, IM_COL32(0, 0, 0, 255));
     if (!entry.picture.empty()) {
-        GlTexture& texture = textures_[index];
         if (texture.name() == 0)
             texture.upload(entry.picture);
         list.AddImage(texture_id(texture.name()), min, end);
@@ -68,29 +93,40 @@ void Gallery::draw_card(std::size_t index, Controls& controls, ViewerState& stat
                  entry.verdict.c_str());
 }
 
-void Gallery::draw_cards(Controls& controls, ViewerState& state) {
+void Gallery::draw_cards(const std::string& prefix, Shelf& shelf, Controls& controls, ViewerState& state) {
     const float width = std::floor(ImGui::GetFontSize() * card_width) + ImGui::GetStyle().ItemSpacing.x;
     const auto columns = static_cast<std::size_t>(std::max(1.0f, ImGui::GetContentRegionAvail().x / width));
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-        draw_card(i, controls, state);
-        if (i % columns != columns - 1 && i + 1 < entries_.size())
+    for (std::size_t i = 0; i < shelf.entries.size(); ++i) {
+        const GalleryEntry& entry = shelf.entries[i];
+        draw_card(prefix + (prefix.ends_with('/') ? entry.title : std::to_string(i)), entry, shelf.textures[i],
+                  controls, state);
+        if (i % columns != columns - 1 && i + 1 < shelf.entries.size())
             ImGui::SameLine();
     }
 }
 
-void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& state, const GalleryMaker& maker,
-                   const std::function<void()>& wake) {
-    if (maker)
+void Gallery::take_entries(ViewerState& state, const Sources& sources) {
+    if (sources.maker)
         job_.ask(
-            0, [maker](const std::stop_token&) { return maker(); }, wake);
+            0, [maker = sources.maker](const std::stop_token&) { return maker(); }, sources.wake);
     if (auto outcome = job_.take()) {
-        if (outcome->result)
-            entries_ = std::move(outcome->result->entries);
         const std::string& problem = outcome->result ? outcome->result->problem : outcome->error;
         if (!problem.empty())
             state.add_message(Message::Kind::error, "The gallery: " + problem);
-        textures_.resize(entries_.size());
+        scenes_.fill(outcome->result ? std::move(outcome->result->entries) : std::vector<GalleryEntry>());
     }
+    recent_job_.ask(
+        {state.recent_scenes, sources.thumbnails_stored},
+        [scenes = state.recent_scenes, preferences = sources.preferences](const std::stop_token&) {
+            return recent_entries(scenes, preferences);
+        },
+        sources.wake);
+    if (auto outcome = recent_job_.take(); outcome && outcome->result)
+        recent_.fill(std::move(*outcome->result));
+}
+
+void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& state, const Sources& sources) {
+    take_entries(state, sources);
     const float font = ImGui::GetFontSize(), margin = std::floor(font);
     ImGui::SetNextWindowPos({where.min.x + margin, where.min.y + margin});
     ImGui::SetNextWindowSize(
@@ -104,12 +140,14 @@ void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& sta
         ImGui::SameLine();
         if (controls.button("gallery.close", "Close", "Shows the pictures (Esc); Ctrl+G shows this again."))
             state.layout.show_gallery = false;
-        ImGui::SameLine();
-        ImGui::TextDisabled("or drop one on the window");
+        draw_drop_target(controls);
         ImGui::BeginChild("scenes");
-        draw_recent(controls, state);
+        if (!recent_.entries.empty()) {
+            heading("Recent");
+            draw_cards("gallery.recent", recent_, controls, state);
+        }
         heading("The built-in box, and scenes on which methods are known to fail");
-        draw_cards(controls, state);
+        draw_cards("gallery/", scenes_, controls, state);
         ImGui::EndChild();
     }
     ImGui::End();

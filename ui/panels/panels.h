@@ -13,6 +13,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -81,20 +83,38 @@ private:
     bool only_claimed_ = false;
 };
 
-/// Scenes with pictures, to be clicked; over the pictures.
+/// Scenes with pictures, to be clicked, and where files can be dropped; over the pictures.
 class Gallery {
 public:
-    /// Draws it while state.layout.show_gallery. `wake` is called from another thread once the entries are there.
-    void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const GalleryMaker& maker,
-              const std::function<void()>& wake);
+    struct Sources {
+        const GalleryMaker& maker;                ///< may be empty: there are recent scenes alone
+        const std::filesystem::path& preferences; ///< beside which thumbnails lie; empty: there are none
+        int thumbnails_stored;                    ///< so far: each time they are read anew
+        const std::function<void()>& wake;        ///< called from another thread once pictures are there
+    };
+    /// Draws it while state.layout.show_gallery.
+    void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const Sources& sources);
 
 private:
-    void draw_card(std::size_t index, Controls& controls, ViewerState& state);
-    void draw_cards(Controls& controls, ViewerState& state);
+    /// Scenes with their pictures here and on the graphics side.
+    struct Shelf {
+        std::vector<GalleryEntry> entries;
+        std::vector<GlTexture> textures; // of the entries
+        void fill(std::vector<GalleryEntry> with);
+    };
+    struct RecentRequest {
+        std::vector<std::string> scenes;
+        int thumbnails_stored;
+        bool operator==(const RecentRequest&) const = default;
+    };
+    void take_entries(ViewerState& state, const Sources& sources);
+    static void draw_card(const std::string& id, const GalleryEntry& entry, GlTexture& texture, Controls& controls,
+                          ViewerState& state);
+    static void draw_cards(const std::string& prefix, Shelf& shelf, Controls& controls, ViewerState& state);
 
     BackgroundJob<int, GalleryContents> job_;
-    std::vector<GalleryEntry> entries_;
-    std::vector<GlTexture> textures_; // of the entries
+    BackgroundJob<RecentRequest, std::vector<GalleryEntry>> recent_job_;
+    Shelf scenes_, recent_;
 };
 
 /// The list of all commands, to be found by words; over everything.

@@ -168,6 +168,7 @@ void Viewer::draw_frame() {
     if (std::exchange(state_.wishes.auto_exposure, false))
         expose();
     fulfil_wishes();
+    keep_thumbnail();
     note_history();
     link_.send(state_);
     companion_jobs_.update(state_, options_.wake);
@@ -271,7 +272,8 @@ void Viewer::draw_overlays(const ScreenRect& pictures) {
     else if (!state_.scene && !state_.scene_problem.text.empty())
         draw_no_scene(pictures, controls_, state_);
     if (state_.layout.show_gallery)
-        gallery_.draw(pictures, controls_, state_, options_.gallery, options_.wake);
+        gallery_.draw(pictures, controls_, state_,
+                      {options_.gallery, options_.preferences, thumbnails_stored_, options_.wake});
     palette_.draw(screen, controls_, state_);
     draw_toast(pictures, controls_, state_);
     file_dialog_.draw(screen, controls_, state_); // last: it is modal, and windows may not appear after such

@@ -174,6 +174,7 @@ private:
     Preferences current_preferences() const;
     void take(const KeptPreferences& kept);
     void remember_later();
+    void keep_thumbnail();
     void read_keyboard();
     void draw_side(const ScreenRect& where);
     void draw_panes(const ScreenRect& where);
@@ -211,6 +212,8 @@ private:
     std::string told_of_preferences_;        // the last note
     int asked_panes_ = 0;                    // so many were asked for this once; 0: as remembered
     std::vector<std::string> opened_scenes_; // by this viewer, the last one last
+    int pictured_ = 0;                       // state_.scenes_shown of the scene whose thumbnail was kept
+    int thumbnails_stored_ = 0;
     SceneLoad load_;
     SceneOrigin shown_; // where the scene on show is from
     SceneOrigin asked_; // the last that was to be loaded

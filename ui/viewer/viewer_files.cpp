@@ -5,6 +5,8 @@
 #include "ui/charts/charts.h"
 #include "ui/panes/showing.h"
 #include "ui/settings/settings_file.h"
+#include "ui/settings/thumbnails.h"
+#include "ui/state/buffer.h"
 #include "ui/state/camera_control.h"
 #include "ui/state/file_names.h"
 #include "ui/viewer/viewer.h"
@@ -255,6 +257,37 @@ void Viewer::remember_later() {
     state_.recent_scenes = now.recent_scenes;
     save([this, file = options_.preferences, now, opened = opened_scenes_] {
         return Saved("", [this, kept = store_preferences(file, now, opened)] { take(kept); });
+    });
+}
+
+/// Keeps a picture of the scene for the gallery, once, when it is worth looking at.
+void Viewer::keep_thumbnail() {
+    constexpr int enough_spp = 16;
+    constexpr double enough_seconds = 5; // of a scene that renders slowly
+    if (options_.preferences.empty() || opened_scenes_.empty() || shown_.source.file.empty() ||
+        pictured_ == state_.scenes_shown)
+        return;
+    const auto shows_much = [](const PaneState& pane) {
+        return pane.snapshot && !pane.snapshot->coarse() &&
+               (pane.snapshot->spp >= enough_spp || pane.snapshot->seconds >= enough_seconds);
+    };
+    const auto pane = std::find_if(state_.panes.rbegin(), state_.panes.rend(), shows_much);
+    if (pane == state_.panes.rend() || pane->snapshot->scene.lock() != state_.scene)
+        return;
+    RgbImage scratch;
+    const RgbImage& image = picture(*pane->snapshot, Buffer::reconstruction, scratch);
+    if (image.empty())
+        return;
+    pictured_ = state_.scenes_shown;
+    save([this, file = options_.preferences, scene = opened_scenes_.back(), image] {
+        std::vector<float> luminances;
+        for (const Rgb& pixel : image)
+            luminances.push_back(luminance(pixel));
+        try { // a full disk is nothing to tell of here
+            store_thumbnail(file, scene, thumbnail_of(image, exposure_of(std::move(luminances)).value_or(0)));
+        } catch (const std::exception&) {
+        }
+        return Saved("", [this] { ++thumbnails_stored_; });
     });
 }
 

@@ -1,0 +1,96 @@
+#include "ui/settings/thumbnails.h"
+
+#include "render/io/files.h"
+#include "render/io/memory.h"
+#include "render/io/picture_formats.h"
+#include "render/io/plain_images.h"
+#include "ui/gl/tone.h"
+#include "ui/settings/preferences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <set>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/ext/vector_int2.hpp>
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr glm::ivec2 thumbnail_size(160, 120);
+
+fs::path folder_of(const fs::path& preferences) {
+    return preferences.parent_path() / "recent";
+}
+
+/// Named after the scene for who looks, and after a checksum of its whole path, as many are called scene.xml.
+fs::path file_of(const fs::path& preferences, const std::string& scene) {
+    const std::string whole = fs::path(scene).lexically_normal().string();
+    return folder_of(preferences) / fmt::format("{}-{:08x}.png", fs::path(whole).stem().string(),
+                                                checksum(std::as_bytes(std::span(whole))));
+}
+
+/// Removes what is of no recent scene.
+void tidy(const fs::path& preferences) {
+    std::string ignored;
+    std::set<fs::path> kept;
+    for (const std::string& scene : read_preferences(preferences, ignored).recent_scenes)
+        kept.insert(file_of(preferences, scene));
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(preferences), failed))
+        if (entry.path().extension() == ".png" && !kept.contains(entry.path()))
+            fs::remove(entry.path(), failed);
+}
+
+} // namespace
+
+RgbImage thumbnail_of(const RgbImage& image, float exposure) {
+    const glm::vec2 size(image.width(), image.height());
+    const glm::vec2 part = glm::min(size, glm::vec2(size.y * 4 / 3, size.x * 3 / 4));
+    const glm::vec2 first = (size - part) * 0.5f, step = part / glm::vec2(thumbnail_size);
+    const Tone tone{Tone::Curve::srgb, exposure};
+    RgbImage small(thumbnail_size.x, thumbnail_size.y);
+    for (int y = 0; y < small.height(); ++y)
+        for (int x = 0; x < small.width(); ++x) {
+            const glm::vec2 from = first + step * glm::vec2(x, y);
+            const glm::ivec2 begin = glm::min(glm::ivec2(from), glm::ivec2(size) - 1);
+            const glm::ivec2 end = glm::clamp(glm::ivec2(from + step), begin + 1, glm::ivec2(size));
+            Rgb sum(0);
+            for (int v = begin.y; v < end.y; ++v)
+                for (int u = begin.x; u < end.x; ++u)
+                    if (is_finite(image(u, v)))
+                        sum += displayed(image(u, v), tone);
+            small(x, y) = sum / static_cast<float>((end.x - begin.x) * (end.y - begin.y));
+        }
+    return small;
+}
+
+void store_thumbnail(const fs::path& preferences, const std::string& scene, const RgbImage& thumbnail) {
+    std::vector<std::uint8_t> bytes;
+    for (const Rgb& pixel : thumbnail)
+        for (int c = 0; c < 3; ++c)
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(pixel[c], 0.0f, 1.0f))));
+    fs::create_directories(folder_of(preferences));
+    write_png(file_of(preferences, scene), {thumbnail.width(), thumbnail.height()}, bytes); // aside, then renamed
+    tidy(preferences);
+}
+
+RgbImage read_thumbnail(const fs::path& preferences, const std::string& scene) {
+    try {
+        return to_rgb(parse_png(read_bytes(file_of(preferences, scene)), [] { return true; }));
+    } catch (const std::exception&) { // the scene was never rendered for long, or the file is broken
+        return {};
+    }
+}
+
+} // namespace tessera
