@@ -1,9 +1,13 @@
 #include "ui/state/actions.h"
+#include "ui/state/found_actions.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <glm/vec2.hpp>
@@ -47,7 +51,9 @@ TEST(Actions, EveryOneHasNameHelpAndItsOwnShortcut) {
     for (const Action& a : actions()) {
         EXPECT_TRUE(names.insert(a.name).second) << a.name;
         EXPECT_GT(std::string(a.help).size(), 5u) << a.name;
-        EXPECT_TRUE(shortcuts.insert(to_string(a.shortcut)).second) << a.name;
+        if (a.shortcut != Shortcut{}) {
+            EXPECT_TRUE(shortcuts.insert(to_string(a.shortcut)).second) << a.name;
+        }
         if (a.second_shortcut != Shortcut{}) {
             EXPECT_TRUE(shortcuts.insert(to_string(a.second_shortcut)).second) << a.name;
         }
@@ -68,6 +74,18 @@ TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
     EXPECT_FALSE(state.wishes.cancel_scene);
     type(state, key(Key::escape));
     EXPECT_TRUE(state.wishes.cancel_scene);
+}
+
+TEST(Actions, WhatIsSeldomWantedIsInTheListOfCommandsAlone) {
+    std::size_t in_menus = 0;
+    for (const Action& a : actions()) {
+        in_menus += is_in_menu(a) && std::string_view(a.menu) == "Buffer";
+        const auto found = actions_with(a.name);
+        EXPECT_NE(std::ranges::find(found, &a), found.end()) << a.name;
+    }
+    EXPECT_EQ(in_menus, 8u);
+    for (const char* name : {"Error: squared", "Error: absolute", "Error: relative", "Depth", "Next base path"})
+        EXPECT_FALSE(is_in_menu(action(name))) << name;
 }
 
 TEST(Actions, MenusLieTogether) {
@@ -168,7 +186,7 @@ TEST(Actions, BuffersInAllPanes) {
         for (const PaneState& pane : state.panes)
             EXPECT_EQ(pane.settings.buffer, buffer);
     }
-    type(state, {Key::digit9, false, true, 0});
+    action("Roulette survival").run(state);
     EXPECT_TRUE(action("Roulette survival").checked(state));
     type(state, key(Key::digit1));
     EXPECT_TRUE(action("Reconstruction").checked(state));

@@ -60,12 +60,12 @@ TEST_F(CompanionsTest, ErrorsToADroppedReference) {
     const ValueRange range = state().ranges.at(Buffer::error_relative_squared);
     EXPECT_TRUE(range.logarithmic);
     EXPECT_GT(range.high, 1);
-    type(Key::digit9);
+    command("Error: absolute");
     EXPECT_EQ(pane(1).settings.buffer, Buffer::error_absolute);
 }
 
 TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
-    type(Key::digit8);
+    command("Error: squared");
     drop_reference({40, 20}, 0.5f);
     EXPECT_TRUE(viewer.pane_image(0).empty());
     ASSERT_TRUE(has("reference_size"));
@@ -78,7 +78,7 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
 }
 
 TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
-    type(Key::digit0, false, true);
+    type(Key::digit8);
     EXPECT_EQ(pane(0).settings.buffer, Buffer::reference);
     EXPECT_TRUE(viewer.pane_image(0).empty());
     drop_reference({20, 10}, 0.25f); // of any size
@@ -212,7 +212,7 @@ TEST_F(CompanionsTest, FootprintsComeWhenOneIsToBeSeen) {
 
 TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     EXPECT_EQ(state().companions.first_hits, nullptr); // only if one is to be seen
-    type(Key::digit4, false, true);
+    command("Depth");
     EXPECT_EQ(pane(0).settings.buffer, Buffer::depth);
     std::vector<int> widths; // a quarter comes first
     wait_until([&] {
@@ -231,10 +231,10 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     state().camera.dolly(0.5f);
     wait_until([&] { return is_other_than(before); });
     EXPECT_LT(state().companions.first_hits->depth(24, 4), before->depth(24, 4));
-    type(Key::digit3, false, true);
+    command("Normal");
     frames(2);
     save("normal.png");
-    type(Key::digit2, false, true);
+    command("Albedo");
     frames(2);
     save("albedo.png");
     const auto near = state().companions.first_hits;
@@ -252,7 +252,7 @@ TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
         const ControlRect rect = place("pane0.legend");
         return rect.max.x - rect.min.x;
     };
-    type(Key::digit4, false, true); // depth
+    command("Depth"); // depth
     wait_until([&] { return is_other_than(nullptr); });
     EXPECT_EQ(viewer.next_frame_in(), 0); // in which they are to be seen
     frames(3);
@@ -270,7 +270,7 @@ TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
     EXPECT_EQ(legend_width(), unmarked);
 
     // Albedo has no legend but for this.
-    type(Key::digit2, false, true);
+    command("Albedo");
     frames(2);
     EXPECT_FALSE(has("pane0.legend"));
     state().companions.first_hits_are_earlier = true; // until the next look at them
@@ -282,7 +282,7 @@ TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
 }
 
 TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {
-    type(Key::digit4, false, true);
+    command("Depth");
     wait_until([&] { return is_other_than(nullptr); });
     const std::weak_ptr<const Scene> before = state().scene;
     const auto old = state().companions.first_hits;
@@ -292,7 +292,7 @@ TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {
     frames(2);
     EXPECT_EQ(state().companions.first_hits, nullptr);
     EXPECT_TRUE(wait_until([&] { return before.expired(); }));
-    type(Key::digit4, false, true);
+    command("Depth");
     EXPECT_TRUE(wait_until([&] { return is_other_than(old); }));
 }
 

@@ -124,7 +124,7 @@ TEST_F(Compare, TheRightSideOfAWipeSaysWhatItLacks) {
 // The same for all panes, and as long as a request lasts: what is equal looks equal.
 TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
     choose("pane0.method", "pr");
-    type(Key::digit5, false, true); // variances
+    command("Variance of primal"); // variances
     wait_for_settled();
     const auto shared = [&] { return range_of(Buffer::primal_variance, state(), viewer.pane_images()); };
     const ValueRange range = shared(), own[] = {viewer.pane_image(0).range(), viewer.pane_image(1).range()};

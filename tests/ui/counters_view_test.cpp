@@ -49,7 +49,7 @@ TEST_F(CountersView, MapsAreShownAfterTheirKeys) {
     expect_map(reused, top_value(Buffer::reused, picture(*pane(1).snapshot, Buffer::reused, scratch)));
     EXPECT_TRUE(has("pane1.legend"));
     save("reused.png");
-    type(Key::digit9, false, true);
+    command("Roulette survival");
     expect_map(maps->survival(), 1);
     EXPECT_TRUE(has("pane1.legend"));
     save("survival.png");

@@ -199,7 +199,11 @@ TEST_P(EveryAction, DoesTheSameByMenuAndByKeysAndIsSeen) {
         if (action.menu != GetParam())
             continue;
         const std::string menu = "menu " + GetParam();
+        start_from(
+            action.name); // so that no way is the first, which waits for what is found out in the background
         const std::string by_menu = done_by(action, "menu", [&] {
+            if (!is_in_menu(action))
+                return command(action.name);
             click(menu);
             click(menu + "/" + action.name);
         });
@@ -212,8 +216,11 @@ TEST_P(EveryAction, DoesTheSameByMenuAndByKeysAndIsSeen) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Menus, EveryAction, testing::ValuesIn(menus()),
-                         [](const auto& menu) { return menu.param; });
+INSTANTIATE_TEST_SUITE_P(Menus, EveryAction, testing::ValuesIn(menus()), [](const auto& menu) {
+    std::string name = menu.param;
+    std::erase(name, ' '); // which a test's name may not have
+    return name;
+});
 
 } // namespace
 } // namespace tessera::test

@@ -116,6 +116,10 @@ TEST_F(Explained, ATypedNumberIsTakenWhenItsControlIsLeft) {
     select_all_and_type("seconds_limit", "2.5");
     click("pane0.picture");
     EXPECT_EQ(state().pace.seconds_limit, 2.5);
+    state().pace.seconds_limit = 0;
+    state().pace.equal = Pace::Equal::spp;
+    frames(2);
+    EXPECT_FALSE(has("seconds_limit")) << "one limit is enough";
     click_at("spp_limit", 0.97f); // the button
     EXPECT_EQ(state().pace.spp_limit, 65);
     choose("size", "custom");

@@ -160,6 +160,15 @@ void ViewerHarness::type(Key key, bool ctrl, bool shift) {
     frames(2);
 }
 
+void ViewerHarness::command(std::string_view name) {
+    type(Key::p, true, true);
+    frames(2);
+    for (const char c : name)
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
+    frames(2);
+    type(Key::enter);
+}
+
 void ViewerHarness::resize(glm::ivec2 size) {
     context.resize(size);
     frames(3);

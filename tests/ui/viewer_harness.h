@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace tessera::test {
 
@@ -51,6 +52,8 @@ public:
     void wheel(float notches);
     void modifiers(bool ctrl, bool shift);
     void type(Key key, bool ctrl = false, bool shift = false);
+    /// Finds the action by its name in the list of commands, and does it.
+    void command(std::string_view name);
 
     void resize(glm::ivec2 size);
 

@@ -145,7 +145,7 @@ float draw_menu_bar(Controls& controls, ViewerState& state) {
         return 0;
     const char* previous = "";
     for (const Action& action : actions()) {
-        if (std::strcmp(action.menu, previous) != 0)
+        if (is_in_menu(action) && std::strcmp(action.menu, previous) != 0)
             draw_menu(controls, action.menu, state);
         previous = action.menu;
     }

@@ -283,7 +283,8 @@ void draw_contents(Controls& controls, ViewerState& state) {
     if (begin_section(controls, state, Section::limits, "section.limits", "Limits",
                       "When panes rest, and how they share the cores."))
         for (const Setting& setting : settings_of(state.pace))
-            draw_setting(controls, setting);
+            if (setting.matters) // one limit: of what panes have alike
+                draw_setting(controls, setting);
     if (begin_section(controls, state, Section::expert, "more", "Expert", "All other settings of the method."))
         draw_expert_section(controls, state);
 }

@@ -107,7 +107,7 @@ void draw_pane_header(int index, Controls& controls, ViewerState& state) {
     int buffer = static_cast<int>(pane.settings.buffer);
     if (controls.bare_choice((id + ".buffer").c_str(),
                              buffer_items()[static_cast<std::size_t>(buffer)].label.c_str(), buffer_items(),
-                             buffer, buffer_width, "What this pane shows (1 to 9, Shift+0 to 9: all panes)."))
+                             buffer, buffer_width, "What this pane shows (1 to 8: all panes)."))
         pane.settings.buffer = all_buffers[buffer];
     if (has_extras)
         draw_extras(id, controls, state, pane);

@@ -55,8 +55,8 @@ std::string notice_of(const Showing& showing, const PaneTools& tools) {
         return "";
     if (state.scene->triangle_count() == 0)
         return "The scene is empty: nothing in it has a surface.";
-    return "The camera sees no light.\n\nHome: back to the camera of the file; Shift+2: what it sees, without "
-           "light";
+    return "The camera sees no light.\n\nHome: back to the camera of the file. The buffer Albedo shows what it sees, "
+           "without light.";
 }
 
 std::string pane_id(int index) {

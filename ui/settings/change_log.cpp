@@ -49,6 +49,7 @@ Values describe(const ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     values["size"] = std::to_string(size.x) + "x" + std::to_string(size.y);
     values["exposure"] = text(static_cast<double>(state.tone.exposure));
+    values["difference exposure"] = text(static_cast<double>(state.tone.difference_exposure));
     values["tone"] = word(words::tones, state.tone.curve);
     values["panes"] = std::to_string(state.panes.size());
     values["active"] = std::to_string(state.active_pane);

@@ -153,10 +153,11 @@ std::vector<Setting> settings_of(Pace& pace) {
     return {
         {"equal", "Panes have", "How the panes share the cores.", one_of(words::shares, pace.equal)},
         {"spp_limit", "Stop at spp", "Samples a pixel after which the panes rest. 0: they never do.",
-         Setting::Whole{&pace.spp_limit, 0, most_spp}},
+         Setting::Whole{&pace.spp_limit, 0, most_spp}, pace.equal == Pace::Equal::spp || pace.spp_limit > 0},
         {"seconds_limit", "Stop at seconds",
          "Seconds (wall time) of a pane's own passes after which it rests. 0: it never does.",
-         Setting::Seconds{&pace.seconds_limit, 0, most_seconds}},
+         Setting::Seconds{&pace.seconds_limit, 0, most_seconds},
+         pace.equal == Pace::Equal::time || pace.seconds_limit > 0},
     };
 }
 

@@ -74,20 +74,23 @@ private:
     bool awaits_character_ = false; // the last of these may have made one
 };
 
-/// One thing that the viewer can be told. The menu, the shortcuts and the help page are made of the table of
-/// these.
+/// One thing that the viewer can be told. The menus, the shortcuts, the list of commands and the help page are
+/// made of the table of these.
 struct Action {
-    const char* menu;
+    const char* menu; ///< or the group's name, where no menu has it
     const char* name;
     const char* help;
-    Shortcut shortcut;
-    Shortcut second_shortcut; ///< Key::none and no character: none
+    Shortcut shortcut; ///< Key::none and no character: none, as of the next
+    Shortcut second_shortcut;
     void (*run)(ViewerState&);
     bool (*checked)(const ViewerState&); ///< null where there is nothing to be on or off
 };
 
 /// All actions, in the order of the menus.
 std::span<const Action> actions();
+/// Whether it is in a menu of the menu bar: what is seldom wanted, or has buttons where it belongs, is found in
+/// the list of commands and the help page alone.
+bool is_in_menu(const Action& action);
 /// The one of that name. Throws std::invalid_argument where there is none.
 const Action& action_named(std::string_view name);
 

@@ -102,7 +102,7 @@ constexpr BufferInfo table[] = {
      Family::basis, ColourMap::signed_difference, "", 1},
     {Buffer::projection, "projection", "Projection",
      "How much a pixel's surface scatters of one part of the light, times which the parts are the coefficient; no "
-     "unit: orange above zero, blue below. Of a basis with parts; Ctrl+3 goes to the next part.",
+     "unit: orange above zero, blue below. Of a basis with parts; the command Next part goes on.",
      Family::basis, ColourMap::signed_difference, "", 1},
     {Buffer::held, "held", "Held back",
      "What of its brightest sample is held back from a pixel, and given to those around, where spikes are held "
