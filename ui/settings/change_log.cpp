@@ -33,6 +33,9 @@ void describe(const std::string& prefix, const PaneState& pane, Values& values) 
         values[prefix + std::string(setting.id)] = setting.text();
     values[prefix + "comparison"] = word(words::comparisons, pane.settings.comparison.kind);
     values[prefix + "generation"] = std::to_string(pane.generation);
+    values[prefix + "shows"] =
+        pane.snapshot ? std::to_string(pane.snapshot->generation) + (pane.snapshot->coarse() ? " coarsely" : "")
+                      : "nothing";
     values[prefix + "spp"] = std::to_string(pane.snapshot ? pane.snapshot->spp : 0);
 }
 
