@@ -42,7 +42,7 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
     if (!seen)
         return false;
     drawn.to_light = x.to_local(seen->direction);
-    const BsdfValue b = x.bsdf.evaluate(x.to_previous, drawn.to_light);
+    const BsdfValue b = x.evaluate(drawn.to_light);
     if (is_black(b.f_cos))
         return false;
     // The balance heuristic against BSDF sampling [Veach 1997, 9.2.2].
@@ -90,10 +90,15 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 /// Roulette on path length at x_index: the probability that a path goes on. It follows what this scattering alone
 /// does to light [as in Georgiev 2012's SmallVCM], not all before it: what becomes of a suffix must not depend on
 /// the pixel, or those who share it would not agree on which light paths it has. Where light is bent, radiance is
-/// squeezed into another solid angle, and spread again where it comes back: that is no loss.
+/// squeezed into another solid angle, and spread again where it comes back: that is no loss. Nor is it one where a
+/// guide has drawn more directions than light is scattered to: there, the albedo tells.
 float path_survival(const PathSettings& settings, int index, const Vertex& x, const BsdfSample& s) {
     if (settings.roulette_depth == 0 || index < settings.roulette_depth)
         return 1;
+    if (x.guide) {
+        const Rgb albedo = x.bsdf.albedo(x.to_previous);
+        return std::clamp(std::max({albedo.r, albedo.g, albedo.b}), 0.1f, 0.95f);
+    }
     const float relative = s.scatter == Scatter::transmit ? x.bsdf.relative_index(x.to_previous) : 1;
     return std::clamp(std::max({s.f_cos.r, s.f_cos.g, s.f_cos.b}) * relative * relative / s.pdf_w, 0.1f, 0.95f);
 }
@@ -104,8 +109,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     BaseVertex& next = path.spare();
     BaseVertex& v = path[path.size() - 1];
     const Vertex& x = v.vertex;
-    const auto s = x.bsdf.sample(x.to_previous, path.random.draw(index, Draw::lobe),
-                                 path.random.draw_2d(index, Draw::direction));
+    const auto s = x.sample(path.random.draw(index, Draw::lobe), path.random.draw_2d(index, Draw::direction));
     if (!s)
         return false;
     v.survival = path_survival(tracer.settings, index, x, *s);

@@ -73,7 +73,7 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
                            half_vector_jacobian(offset.to_previous, *to_next, copied, offset_index);
     if (goes_across)
         to_next = across(*to_next);
-    const BsdfValue v = offset.bsdf.evaluate(offset.to_previous, *to_next);
+    const BsdfValue v = offset.evaluate(*to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
     if (!(jacobian > 0) || !std::isfinite(jacobian))
@@ -82,7 +82,7 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
 }
 
 std::optional<CopiedScatter> copy_delta(Scatter scatter, const Vertex& offset) {
-    const DeltaValue v = offset.bsdf.evaluate_delta(offset.to_previous, scatter);
+    const DeltaValue v = offset.evaluate_delta(scatter);
     if (!(v.probability > 0) || is_black(v.value))
         return {};
     return CopiedScatter{v.to_next, v.value, v.probability, 1};

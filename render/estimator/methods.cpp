@@ -41,16 +41,25 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, from, worker.path, worker.number);
+            if (worker.number == 0)
+                note_light(pass, worker.path, worker.found);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
+}
+
+/// Traces the base paths of the pixels of a block, and of others whose light they get.
+void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, Worker& worker) {
+    worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0}, worker.number);
+    if (worker.number == 0)
+        for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
 }
 
 /// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
 /// generalized path reusing [Bauszat 2017, 3.1].
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer, area, {area.x0, area.y0}, worker.number);
+    trace_base_paths(pass, area, area, worker);
     for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
         share_light(pass, roulette_of(pass.settings), worker);
         for (int i = 0; i < worker.set.size(); ++i) {
@@ -74,7 +83,7 @@ void add_share(float share, Worker& worker, PixelSample& sample) {
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0}, worker.number);
+    trace_base_paths(pass, area, area.with_halo(pass.size), worker);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
@@ -166,7 +175,7 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
 /// (c_n / a_n - c_m / a_m) / R, as what a pixel got from all paths is divided by one albedo.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    worker.base.trace(pass, worker.tracer, area.with_halo(pass.size), {area.x0, area.y0}, worker.number);
+    trace_base_paths(pass, area, area.with_halo(pass.size), worker);
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect, int paths_alone) {
         if (paths_alone > 0)
             take_means(pass, inner, paths_alone, worker);
@@ -199,6 +208,7 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
     const PixelRect area = block.clipped(pass.size);
     worker.samples = pass.grid.samples(block);
     worker.means.begin(area, worker.samples);
+    worker.found.clear();
     for (worker.number = 0; worker.number < worker.samples; ++worker.number)
         take_sample(pass, block, worker, film);
     if (worker.samples == 1)

@@ -21,6 +21,7 @@ void OffsetVertices::reset(int count) {
     for (int m = 0; m < padded(count); ++m)
         exists[m] = 0;
     others_.clear();
+    guided_.clear();
 }
 
 void OffsetVertices::set(int lane, const Vertex& v) {
@@ -35,6 +36,8 @@ void OffsetVertices::set(int lane, const Vertex& v) {
         reflectance_.set(lane, diffuse->reflectance);
     else
         others_.push_back(lane);
+    if (v.guide)
+        guided_.push_back(lane);
 }
 
 void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, BsdfLanes& values) const {
@@ -54,7 +57,12 @@ void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, B
         values.pdf_w[m] = v.pdf_w;
         values.f_cos.set(m, v.f_cos);
     }
+    for (int m : guided_)
+        if (asked[m])
+            values.pdf_w[m] = vertices_[static_cast<std::size_t>(m)]->guided_pdf_w(values.pdf_w[m], to_next[m]);
 }
+
+namespace {
 
 void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
               BsdfLanes& values) {
@@ -76,6 +84,18 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
         values.pdf_w[m] = v.pdf_w;
         values.f_cos.set(m, v.f_cos);
     }
+}
+
+} // namespace
+
+void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+              BsdfLanes& values) {
+    evaluate(x.bsdf, to_previous, to_next, asked, count, values);
+    if (!x.guide)
+        return;
+    const float guided = x.guided_pdf_w(0, x.to_world(to_next)); // from wherever it is seen
+    for (int m = 0; m < padded(count); ++m)
+        values.pdf_w[m] = (1 - PathGuiding::share) * values.pdf_w[m] + guided;
 }
 
 FirstScatter& OffsetPaths::add_first_scatter(int first_slot, int end_slot) {

@@ -33,7 +33,8 @@ public:
     Vec3Lanes geometric_normal;
     FloatLanes roughness;
 
-    /// The BSDFs for light that arrives along unit directions (world); lanes that are not asked for hold anything.
+    /// Vertex::evaluate() for light that arrives along unit directions (world); lanes that are not asked for hold
+    /// anything.
     void evaluate(const Vec3Lanes& to_next, const LaneMask& asked, BsdfLanes& values) const;
 
 private:
@@ -43,11 +44,12 @@ private:
     FloatLanes to_previous_z_;
     Vec3Lanes reflectance_;   // of diffuse ones
     std::vector<int> others_; // lanes that are not diffuse
+    std::vector<int> guided_; // lanes whose vertices have a guide
 };
 
 /// The BSDF of one vertex, in many lanes: light that arrives along `to_next` leaves along unit directions
-/// `to_previous`, all in its frame.
-void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+/// `to_previous`, all in its frame. Each pdf is Vertex::evaluate()'s.
+void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
               BsdfLanes& values);
 
 /// What became of one light path x of a base path of pixel k in each offset pixel m, a lane a pixel (METHODS.md,

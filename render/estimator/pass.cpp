@@ -1,5 +1,7 @@
 #include "render/estimator/pass.h"
 
+#include "render/estimator/guiding_learner.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -225,6 +227,21 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const Cam
         return;
     tracer.counters.refuse({pass.index, y, x});
     path.reset(path.random, path.light_samples());
+}
+
+void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found) {
+    const float share = GuidingLearner::share_of_paths(pass.size.x * pass.size.y, pass.index);
+    if (!pass.settings.path_guiding || path.random.draw(0, Draw::path_survival) >= share)
+        return;
+    for (int i = 0; i < path.size(); ++i) {
+        const BaseVertex& v = path[i];
+        if ((i + 1 == path.size() && !v.escapes) || v.is_delta ||
+            v.vertex.bsdf.roughness() < PathGuiding::least_roughness)
+            continue;
+        const float irradiance = luminance(v.hit_brings + v.arriving) * std::abs(v.to_next.z) / v.pdf_w;
+        if (irradiance > 0 && std::isfinite(irradiance))
+            found.push_back({v.vertex.position, v.vertex.frame.normal, v.vertex.to_world(v.to_next), irradiance});
+    }
 }
 
 int very_direct_looks(const Pass& pass) {

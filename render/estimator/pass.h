@@ -185,8 +185,14 @@ private:
 
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
-    Worker(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings)
-        : tracer{scene, counters, settings, {settings.filter_textures, is_demodulated(settings), camera, size}},
+    /// Keeps references to all but the camera.
+    Worker(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
+           const PathGuiding* guiding)
+        : tracer{scene,
+                 counters,
+                 settings,
+                 {settings.filter_textures, is_demodulated(settings), camera, size},
+                 guiding},
           reuse(tracer, settings, settings.weight_threshold) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -195,6 +201,7 @@ struct Worker {
     static std::uint64_t bytes(const RenderSettings& settings);
 
     Counters counters;
+    std::vector<FoundLight> found; ///< by the first base path of each pixel of the block at hand
     double cpu_seconds = 0;
     Tracer tracer;
     PathReuse reuse;
@@ -228,6 +235,9 @@ Image<float> sharers_of(const Pass& pass);
 /// @param number  of the path, as in Pass::camera_sample()
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number = 0);
+
+/// Notes what light the base path of a pixel has found, if later passes are to be guided by it.
+void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
 
 /// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
 /// it blurs is seen through some of its points only.

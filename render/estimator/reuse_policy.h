@@ -1,11 +1,14 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/estimator/path_guiding.h"
 #include "render/io/memory.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tessera {
@@ -100,7 +103,11 @@ public:
     /// paths a path tracer's error takes; 0: it is not known.
     float gain(int cell) const { return gain_.data()[cell]; }
 
-    /// All that it has learnt.
+    /// Where base paths are guided to; null: nowhere.
+    const PathGuiding* guiding() const { return guiding_.get(); }
+    void set_guiding(std::shared_ptr<const PathGuiding> guiding) { guiding_ = std::move(guiding); }
+
+    /// All that it has learnt, but for where paths are guided to.
     Memory memory() { return {memory_of(cells_), memory_of(gain_), memory_of(samples_), memory_of(paths_alone_)}; }
 
 private:
@@ -118,7 +125,8 @@ private:
     Image<PlanEvidence> cells_;
     Image<float> samples_; ///< a pass, by cells
     Image<float> gain_;    ///< of sharing, by cells
-    int paths_alone_ = 4;  ///< where pixels share nothing; as many as make halos and pilot cheap, if none does
+    std::shared_ptr<const PathGuiding> guiding_;
+    int paths_alone_ = 4; ///< where pixels share nothing; as many as make halos and pilot cheap, if none does
 };
 
 template <class Visit>

@@ -189,8 +189,7 @@ std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
 std::optional<CopiedScatter> Shift::replay_scatter(int i, int m) {
     const BaseVertex& x = base(i);
     const Vertex& y = (*y_)[m];
-    const auto s = y.bsdf.sample(y.to_previous, base_->random.draw(i + 1, Draw::lobe),
-                                 base_->random.draw_2d(i + 1, Draw::direction));
+    const auto s = y.sample(base_->random.draw(i + 1, Draw::lobe), base_->random.draw_2d(i + 1, Draw::direction));
     if (!s) {
         fail(m, ShiftOutcome::no_light);
         return {};

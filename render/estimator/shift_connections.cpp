@@ -178,7 +178,7 @@ void Shift::shift_lights_beyond(const VertexConnection& c) {
         const std::optional<LightRay> seen = l.light.seen_from(x.position);
         if (!seen)
             continue;
-        evaluate(x.bsdf, c.to_previous, l.to_light, c.reached, count, beyond_);
+        evaluate(x, c.to_previous, l.to_light, c.reached, count, beyond_);
         const float bsdf_counts = l.light.can_be_hit() ? 1 : 0, scale = 1 / l.pdf_sum;
         OffsetRow& row = paths_->row(slot);
         for (int m = 0; m < padded(count); ++m)
@@ -195,7 +195,7 @@ void Shift::shift_lights_beyond(const VertexConnection& c) {
 void Shift::shift_tail(const VertexConnection& c) {
     const BaseVertex& x = base(c.vertex + 1);
     const int count = y_->count(), hit_slot = light_->hit_slot(c.vertex + 1), tail_slot = light_->tail_slot();
-    evaluate(x.vertex.bsdf, c.to_previous, x.to_next, c.reached, count, beyond_);
+    evaluate(x.vertex, c.to_previous, x.to_next, c.reached, count, beyond_);
     OffsetRow &hit = paths_->row(hit_slot), &tail = paths_->row(tail_slot);
     const float scale = 1 / (x.pdf_w * x.survival), hit_scale = 1 / (x.pdf_w + x.hit_pdf_w);
     for (int m = 0; m < padded(count); ++m) {

@@ -100,6 +100,25 @@ LightPoint Vertex::light_toward(glm::vec3 direction) const {
     return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
 }
 
+std::optional<BsdfSample> Vertex::sample_guided(float lobe, glm::vec2 u) const {
+    constexpr float share = PathGuiding::share;
+    if (lobe >= share) {
+        auto s = bsdf.sample(to_previous, (lobe - share) / (1 - share), u);
+        if (s)
+            s->pdf_w = s->is_delta ? (1 - share) * s->pdf_w : guided_pdf_w(s->pdf_w, to_world(s->to_next));
+        return s;
+    }
+    const DirectionMap::Sample drawn = guide->sample(lobe / share, u);
+    const glm::vec3 to_next = to_local(drawn.direction);
+    const BsdfValue v = bsdf.evaluate(to_previous, to_next);
+    if (is_black(v.f_cos))
+        return {};
+    const float pdf_w = (1 - share) * v.pdf_w + share * drawn.pdf_w;
+    const bool transmits = to_next.z * to_previous.z < 0;
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, pdf_w, false,
+                                          transmits ? Scatter::transmit : Scatter::reflect);
+}
+
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, const TextureView* view,
                  float width) {
     const ShapeRecord& shape = scene.record(hit.shape);
@@ -112,6 +131,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         if (hit.placement)
             v.position = hit.placement->point(v.position);
     }
+    v.guide = nullptr;
     v.geometric_normal = hit.geometric_normal;
     glm::vec3 normal = v.geometric_normal;
     if (shape.normals) {
@@ -178,10 +198,9 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
         if (i == 1)
             look.albedo = x.bsdf.albedo(x.to_previous);
         const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
-        const auto s =
-            is_mirror_or_glass && i < most_bounces
-                ? x.bsdf.sample(x.to_previous, random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
-                : std::nullopt;
+        const auto s = is_mirror_or_glass && i < most_bounces
+                           ? x.sample(random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
+                           : std::nullopt;
         if (!s) {
             guide.albedo *= x.bsdf.albedo(x.to_previous);
             guide.normal = x.to_world({0, 0, 1});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/estimator/path_guiding.h"
 #include "render/film/counters.h"
 #include "render/film/pixel_looks.h"
 #include "render/sampling/sampling.h"
@@ -23,15 +24,41 @@ struct Vertex {
     glm::vec3 geometric_normal; ///< unit, of the triangle, on its front side
     Frame frame;                ///< of shading; on a two-sided material on the side of to_previous
     Bsdf bsdf;
-    glm::vec3 to_previous;   ///< unit, in `frame`
-    Rgb emitted{0};          ///< radiance given off on the front side; black: no light
-    float emitter_pdf_a = 0; ///< density of emitter sampling here, per area; 0: no light
+    glm::vec3 to_previous;               ///< unit, in `frame`
+    Rgb emitted{0};                      ///< radiance given off on the front side; black: no light
+    float emitter_pdf_a = 0;             ///< density of emitter sampling here, per area; 0: no light
+    const DirectionMap* guide = nullptr; ///< where to draw a share of the directions from; null: the BSDF has all
 
     glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
     glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
 
+    // The BSDF as paths sample it from here: with the guide, if there is one. Every pdf is that of both together.
+
+    /// @param to_next  unit, in `frame`
+    BsdfValue evaluate(glm::vec3 to_next) const {
+        BsdfValue v = bsdf.evaluate(to_previous, to_next);
+        if (guide)
+            v.pdf_w = guided_pdf_w(v.pdf_w, to_world(to_next));
+        return v;
+    }
+    DeltaValue evaluate_delta(Scatter scatter) const {
+        DeltaValue v = bsdf.evaluate_delta(to_previous, scatter);
+        v.probability *= guide ? 1 - PathGuiding::share : 1;
+        return v;
+    }
+    std::optional<BsdfSample> sample(float lobe, glm::vec2 u) const {
+        return guide ? sample_guided(lobe, u) : bsdf.sample(to_previous, lobe, u);
+    }
+    /// Of a direction (unit, world), where there is a guide, by what the BSDF alone has.
+    float guided_pdf_w(float bsdf_pdf_w, glm::vec3 direction) const {
+        return (1 - PathGuiding::share) * bsdf_pdf_w + PathGuiding::share * guide->pdf_w(direction);
+    }
+
     /// The light of this vertex toward a unit direction (world, away from the surface); black from behind.
     LightPoint light_toward(glm::vec3 direction) const;
+
+private:
+    std::optional<BsdfSample> sample_guided(float lobe, glm::vec2 u) const;
 };
 
 /// Whoever sees a vertex that many share, and has no width of its own (TextureView).
@@ -49,6 +76,7 @@ struct Tracer {
     Counters& counters;
     PathSettings settings;
     TextureView view{};
+    const PathGuiding* guiding = nullptr; ///< null: paths are not guided
 
     /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
     /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
@@ -98,6 +126,8 @@ struct Tracer {
         if (!scene.intersector().closest(ray, hit))
             return false;
         make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
+        if (guiding && vertex.bsdf.roughness() >= PathGuiding::least_roughness)
+            vertex.guide = guiding->at(vertex.position, vertex.frame.normal);
         return true;
     }
 

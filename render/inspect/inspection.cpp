@@ -1,11 +1,13 @@
 #include "render/inspect/inspection.h"
 
+#include "render/estimator/guiding_learner.h"
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 #include "render/estimator/pilot.h"
 #include "render/inspect/onlooker.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -131,7 +133,7 @@ int TileInspection::base_count() const {
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                    const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, camera, size, settings);
+    Worker worker(scene, camera, size, settings, plan.guiding());
     const CameraSample from = pass.camera_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
@@ -165,7 +167,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
                             const RenderSettings& settings, const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, camera, size, settings);
+    Worker worker(scene, camera, size, settings, plan.guiding());
     const PixelRect tile = reuses_paths(settings.method) ? pass.grid.tile_at(pixel)
                                                          : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
     TileInspection result{tile, index, settings, {}};
@@ -185,15 +187,30 @@ void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan
         }
 }
 
+/// What the first base paths of a pass tell guides, by blocks.
+std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& worker,
+                                                    const std::stop_token& stop) {
+    std::vector<std::vector<FoundLight>> found;
+    for (const PixelRect& block : blocks_of(pass)) {
+        found.emplace_back();
+        if (stop.stop_requested())
+            continue;
+        for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
+            trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.camera_sample({p.x0, p.y0}), worker.path);
+            note_light(pass, worker.path, found.back());
+        });
+    }
+    return found;
+}
+
 } // namespace
 
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
                       int pass, glm::ivec2 pixel, std::stop_token stop) {
     ReusePlan plan(size, settings);
-    if (!settings.adapt_tile || !has_tiles_to_cut(settings) || settings.tile == 1)
-        return plan;
-    Worker worker(scene, camera, size, settings);
+    const bool cuts = settings.adapt_tile && has_tiles_to_cut(settings) && settings.tile > 1;
     if (plan.wants_pilot()) {
+        Worker worker(scene, camera, size, settings, nullptr);
         const Pilot pilot(scene, camera, size, settings, plan);
         std::vector<PlanEvidence> found;
         for (int i = 0; i < plan.cell_count() && !stop.stop_requested(); ++i)
@@ -204,10 +221,19 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
     std::set<int> cells; // that it reaches into
     for (const int x : {tile.x0, tile.x1 - 1})
         for (const int y : {tile.y0, tile.y1 - 1})
-            cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
-    for (int i = 0; i < pass && !stop.stop_requested(); ++i)
+            if (cuts)
+                cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
+    GuidingLearner guiding;
+    for (int i = 0; i < pass && !stop.stop_requested() && (cuts || settings.path_guiding); ++i) {
+        Worker worker(scene, camera, size, settings, plan.guiding());
+        const Pass replayed(scene, camera, size, settings, plan, i);
+        if (settings.path_guiding)
+            guiding.learn(light_found_in(replayed, worker, stop));
         for (const int cell : cells)
-            learn_luminance(Pass(scene, camera, size, settings, plan, i), plan.cell(cell), worker, plan);
+            learn_luminance(replayed, plan.cell(cell), worker, plan);
+        if (std::has_single_bit(static_cast<unsigned>(i + 1)))
+            plan.set_guiding(guiding.guiding());
+    }
     return plan;
 }
 

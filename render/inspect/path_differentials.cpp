@@ -128,7 +128,8 @@ private:
     std::optional<Scattered> sample(const MovableVertex& vertex, int i, glm::vec3 position, glm::vec3 direction,
                                     glm::vec2 u) {
         vertex.move(position, direction, moved_);
-        const auto s = moved_.bsdf.sample(moved_.to_previous, path_.random.draw(i + 1, Draw::lobe), u);
+        moved_.guide = path_[i].vertex.guide;
+        const auto s = moved_.sample(path_.random.draw(i + 1, Draw::lobe), u);
         if (!s || s->is_delta != path_[i].is_delta || s->scatter != path_[i].scatter)
             return {};
         return Scattered{moved_.to_world(s->to_next), std::log(luminance(s->f_cos))};

@@ -119,6 +119,9 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
       pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
       identity_(share_identity(subject_, recipe)),
       wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
+    if (recipe.settings.path_guiding)
+        throw std::invalid_argument("path_guiding is on: references are made without it, as what they would have "
+                                    "learnt is not in their checkpoints");
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();
 }

@@ -52,6 +52,7 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
       newest_plan_(std::make_shared<const ReusePlan>(plan_)), first_pass_(first_pass) {
     check(settings);
     done_blocks_.resize(most_blocks(size, settings));
+    found_.resize(done_blocks_.size());
 }
 
 std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int threads) {
@@ -101,8 +102,8 @@ class Render::Workers {
 public:
     Workers(const Render& render, ThreadPool& pool, std::stop_token stop) : pool_(pool), stop_(std::move(stop)) {
         for (int i = 0; i < pool.size(); ++i)
-            all_.push_back(
-                std::make_unique<Worker>(*render.scene_, render.camera_, render.size_, render.settings_));
+            all_.push_back(std::make_unique<Worker>(*render.scene_, render.camera_, render.size_, render.settings_,
+                                                    render.plan_.guiding()));
     }
 
     /// Has `work(i, worker)` done for all i below count. False: stopped on the way.
@@ -191,6 +192,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
         if (is_done)
             return; // before the pass was stopped
         render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
+        found_[static_cast<std::size_t>(i)] = worker.found;
         is_done = 1;
         told.add(1);
     });
@@ -214,10 +216,14 @@ void Render::learn_from_pass() {
     const double before = thread_cpu_seconds();
     std::ranges::fill(done_blocks_, std::uint8_t{0});
     newest_plan_ = std::make_shared<const ReusePlan>(plan_);
+    guiding_.learn(found_);
+    for (std::vector<FoundLight>& found : found_)
+        found = {};
     plan_.learn(film_.path_luminance());
     film_.finish(first_pass_ + spp_);
     ++spp_;
     if (std::has_single_bit(unsigned(spp_))) {
+        plan_.set_guiding(guiding_.guiding());
         film_.ask_for_looks(first_pass_ + 2 * spp_);
         if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first)
             plan_.learn_noise(film_.noise(spp_));

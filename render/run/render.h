@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/estimator/guiding_learner.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/film/film.h"
 #include "render/run/thread_pool.h"
@@ -57,8 +58,8 @@ public:
     /// Adds the passes of another render of the same scene, view, size and settings, which are none of this one's:
     /// its pictures are then those of all of them. The bits depend on the order. No pass may follow.
     void add(const Render& other);
-    /// All that the passes have changed. A render of the same scene, view, size and settings whose memory is
-    /// filled with this goes on with the same bits.
+    /// All that the passes have changed, but for what guides their paths. A render of the same scene, view, size
+    /// and settings, without path guiding, whose memory is filled with this goes on with the same bits.
     Memory memory();
 
 private:
@@ -75,7 +76,9 @@ private:
     glm::ivec2 size_;
     RenderSettings settings_;
     Film film_;
-    std::vector<std::uint8_t> done_blocks_; // of the pass under way: 1 for each that it has done
+    std::vector<std::uint8_t> done_blocks_;      // of the pass under way: 1 for each that it has done
+    std::vector<std::vector<FoundLight>> found_; // by each of these
+    GuidingLearner guiding_;
     ReusePlan plan_;
     std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
     Counters counters_;

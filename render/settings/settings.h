@@ -25,6 +25,7 @@ struct PathSettings {
     int light_samples = 1;  ///< points on lights drawn at every vertex
     int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
     TextureFilter filter_textures = TextureFilter::off;
+    bool path_guiding = false; ///< directions are also drawn from where earlier passes found light
 
     bool operator==(const PathSettings&) const = default;
 };

@@ -67,7 +67,7 @@ TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
             otherwise += sample(ReusePlan(size, settings)) != own;
         }
     }
-    EXPECT_EQ(otherwise > 0, settings.adapt_tile && has_tiles_to_cut(settings));
+    EXPECT_EQ(otherwise > 0, (settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding);
 }
 
 RenderSettings settings_of(Method method, int tile = 6) {
@@ -89,6 +89,12 @@ RenderSettings rooks() {
 RenderSettings reconnection() {
     RenderSettings settings = settings_of(Method::pr, 16);
     settings.shift = ShiftKind::reconnection;
+    return settings;
+}
+
+RenderSettings guided(Method method) {
+    RenderSettings settings = settings_of(method);
+    settings.path_guiding = true;
     return settings;
 }
 
@@ -124,7 +130,7 @@ TEST(PlanReplayOfNothing, IsThereAtOnce) {
 INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,
                          testing::Values(settings_of(Method::pt), settings_of(Method::pr),
                                          settings_of(Method::gpt), settings_of(Method::gpr), rooks(),
-                                         reconnection()));
+                                         reconnection(), guided(Method::pt), guided(Method::gpr)));
 
 } // namespace
 
