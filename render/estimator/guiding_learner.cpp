@@ -10,6 +10,7 @@ namespace tessera {
 namespace {
 
 constexpr int cells_along = 12;     // of the grid's longest side
+constexpr int most_paths = 1 << 20; // of a pass, that are learnt from
 constexpr int halvings = 2;         // of which coarser grids are made, which tell of cells where little was found
 constexpr double least_samples = 8; // of which a map is made
 constexpr float prior_samples = 4;  // that the coarser cell's map, or evenness, counts as
@@ -76,9 +77,16 @@ double GuidingLearner::Sums::samples() const {
 }
 
 float GuidingLearner::share_of_paths(int pixels, int index) {
-    constexpr float most = 1 << 20;
+    constexpr float most = most_paths;
     const auto passes = static_cast<float>(std::bit_floor(static_cast<unsigned>(std::max(index, 1))));
     return std::min(most / (static_cast<float>(pixels) * passes), 1.0f);
+}
+
+std::uint64_t GuidingLearner::bytes(int pixels) {
+    constexpr std::uint64_t vertices = 4; // of a path that finds light, as they mostly are
+    constexpr std::uint64_t cells = std::uint64_t{cells_along} * cells_along * cells_along * GuidingGrid::sides;
+    const auto paths = static_cast<std::uint64_t>(std::min(pixels, most_paths));
+    return paths * vertices * sizeof(FoundLight) + 2 * cells * (sizeof(Sums) + sizeof(DirectionMap));
 }
 
 /// Around nearly all places: a few may be far away, seen through a window. None: there is no grid yet.

@@ -23,6 +23,9 @@ public:
     /// takes longer than rendering.
     static float share_of_paths(int pixels, int index);
 
+    /// About the memory that guiding takes: what a pass finds, what is learnt from it, and the maps made of that.
+    static std::uint64_t bytes(int pixels);
+
 private:
     /// Of one cell, by bins: sums of irradiance, and of its squares, which tell how many samples these stand on.
     struct Sums {

@@ -44,7 +44,7 @@ const Scene* scene_named(const std::string& name) {
 /// The first pass of a render, and of its blocks some that lie all over the image.
 struct Stage {
     Stage(const Scene& scene_, const RenderSettings& settings_, int block_count)
-        : scene(scene_), settings(settings_), worker(scene, scene.camera(), image_size, settings) {
+        : scene(scene_), settings(settings_), worker(scene, scene.camera(), image_size, settings, nullptr) {
         const std::vector<PixelRect> all = blocks_of(pass);
         for (int i = 0; i < block_count; ++i) {
             const auto middle = (static_cast<std::size_t>(i) * 2 + 1) * all.size() / 2;
