@@ -230,8 +230,10 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const Cam
 }
 
 void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found) {
+    if (!pass.settings.path_guiding)
+        return;
     const float share = GuidingLearner::share_of_paths(pass.size.x * pass.size.y, pass.index);
-    if (!pass.settings.path_guiding || path.random.draw(0, Draw::path_survival) >= share)
+    if (path.random.draw(0, Draw::path_survival) >= share)
         return;
     for (int i = 0; i < path.size(); ++i) {
         const BaseVertex& v = path[i];
