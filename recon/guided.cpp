@@ -22,6 +22,7 @@ namespace {
 // frames.
 constexpr int levels = 6;
 constexpr float albedo_width = 0.5f, normal_width = 0.3f, nearness_width = 0.3f; // of what counts as alike
+constexpr float roughness_width = 0.2f;                                          // in its root
 constexpr float noise_width = 8;      // of brightness, in variances of its noise
 constexpr int noise_radius = 6;       // of the squares that tell noise,
 constexpr int trust_radius = 6;       // and how far a difference is more than that; wider by the level's step
@@ -78,7 +79,7 @@ Planes light_of(const NoisyPicture& picture, const GuideImages& guides, const Pa
 }
 
 /// Guides over the widths of what counts as alike: what is nearer by a third is something else.
-constexpr int guide_count = 7;
+constexpr int guide_count = 8;
 using GuidePlanes = std::array<Plane, guide_count>;
 
 GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for) {
@@ -96,6 +97,7 @@ GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for
                 planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
             }
             planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
+            planes[7].data()[i] = std::sqrt(std::max(guides.roughness.data()[i], 0.0f)) / roughness_width;
         }
     });
     return planes;

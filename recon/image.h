@@ -144,11 +144,13 @@ struct Guide {
     Rgb albedo{0};       ///< of what is seen, times what mirrors and glass on the way leave; 1: nothing is met
     glm::vec3 normal{0}; ///< of shading, unit, in the world; 0: nothing is met
     float nearness = 0;  ///< inverse length of the way, in units of the scene; 0: nothing is met
+    float roughness = 0; ///< of what is seen (Bsdf::roughness): 0 as a mirror, 1 diffuse; 0: nothing is met
 
     void operator+=(const Guide& other) {
         albedo += other.albedo;
         normal += other.normal;
         nearness += other.nearness;
+        roughness += other.roughness;
     }
 };
 
@@ -156,9 +158,9 @@ struct Guide {
 struct GuideImages {
     RgbImage albedo;
     Image<glm::vec3> normal;
-    Image<float> nearness;
+    Image<float> nearness, roughness;
 
-    static constexpr std::size_t bytes_a_pixel = 2 * sizeof(Rgb) + sizeof(float);
+    static constexpr std::size_t bytes_a_pixel = 2 * sizeof(Rgb) + 2 * sizeof(float);
     bool empty() const { return albedo.empty(); }
 };
 

@@ -34,6 +34,7 @@ void check_sizes(const GradientImages& images) {
     const HalfDifferences& h = images.halves;
     const GuideImages& g = images.guides;
     if (g.albedo.empty() != g.normal.empty() || g.albedo.empty() != g.nearness.empty() ||
+        g.albedo.empty() != g.roughness.empty() ||
         (images.has_gradients() && !h.empty() && (h.dx.empty() || h.dy.empty())))
         throw std::invalid_argument("the guides, or the halves' differences, are not complete");
     for (const RgbImage* image :
@@ -42,7 +43,7 @@ void check_sizes(const GradientImages& images) {
         check(*image);
     for (const Image<float>* variance :
          {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
-          &d.unexplained_variance, &b.half, &g.nearness})
+          &d.unexplained_variance, &b.half, &g.nearness, &g.roughness})
         check(*variance);
     for (const CoefficientPart& part : images.parts) {
         for (const RgbImage* image : {&part.primal, &part.dx, &part.dy})

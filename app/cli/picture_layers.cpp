@@ -47,6 +47,7 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_layer(file, "guide_albedo", std::move(images.guides.albedo));
     add_layer(file, "guide_normal", std::move(images.guides.normal));
     add_layer(file, "guide_nearness", grey(images.guides.nearness));
+    add_layer(file, "guide_roughness", grey(images.guides.roughness));
     BrightestSamples& b = images.brightest;
     if (!b.empty()) {
         add_layer(file, "brightest_primal", std::move(b.primal));

@@ -208,9 +208,12 @@ void read_guides(const LayerReader& reader, GradientImages& images) {
     if (find_layer(reader.file, "half_primal"))
         images.halves = {reader.image("half_primal"), reader.image("half_dx", 1, 0),
                          reader.image("half_dy", 0, 1)};
-    if (find_layer(reader.file, "guide_albedo"))
-        images.guides = {reader.image("guide_albedo"), reader.image("guide_normal"),
-                         reader.numbers("guide_nearness")};
+    if (!find_layer(reader.file, "guide_albedo"))
+        return;
+    images.guides = {reader.image("guide_albedo"), reader.image("guide_normal"), reader.numbers("guide_nearness"),
+                     reader.numbers("guide_roughness")};
+    if (images.guides.roughness.empty()) // older files: alike everywhere
+        images.guides.roughness = Image<float>(images.guides.albedo.width(), images.guides.albedo.height());
 }
 
 /// The parts of the coefficient that the file has. Their projections may be below 0.

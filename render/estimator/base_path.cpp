@@ -151,6 +151,19 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     return true;
 }
 
+/// What is seen in mirrors alone is very direct light: of a base path's light paths it is none.
+void take_mirrored_light(BasePath& path) {
+    Rgb throughput(1);
+    for (int i = 0; i < path.size() && path[i].vertex.bsdf.is_mirror(); ++i) {
+        BaseVertex& v = path[i];
+        if (i + 1 == path.size() && !v.escapes)
+            break;
+        throughput *= v.throughput();
+        path.very_direct += throughput * v.hit_brings;
+        v.hit_brings = Rgb(0);
+    }
+}
+
 /// Sums the light from the far end to the camera, so that each vertex knows what arrives from beyond it.
 void gather(BasePath& path) {
     Rgb toward_camera(0);
@@ -184,6 +197,7 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
         if (!extend(tracer, i, purpose.bounce, path))
             break;
     }
+    take_mirrored_light(path);
     gather(path);
 }
 

@@ -49,7 +49,7 @@ struct BaseVertex {
 /// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex some
 /// that end by emitter sampling and one that ends by hitting an emitter.
 struct BasePath {
-    Rgb very_direct{0}; ///< emission seen by the camera itself
+    Rgb very_direct{0}; ///< emission seen by the camera itself, straight or in mirrors
     Rgb direct{0};      ///< sum over its light paths of two edges
     Rgb indirect{0};    ///< sum over all longer ones
     Rgb albedo{1};      ///< of x_1, about (Bsdf::albedo); 1 where it sees nothing

@@ -92,11 +92,6 @@ glm::dvec2 block_of(const Pass& pass, glm::ivec2 pixel) {
     return (pixel - block_origin(pass)) / block_edge(pass.settings);
 }
 
-Rgb light_along(const Ray& ray, const Tracer& tracer) {
-    Vertex scratch;
-    return tracer.light_along(ray, scratch, RayKind::camera).radiance;
-}
-
 } // namespace
 
 std::uint64_t Worker::bytes(const RenderSettings& settings) {
@@ -153,7 +148,7 @@ Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
         // cell sees all of the lens over the passes.
         const glm::vec2 subpixel = (glm::vec2(i % n, i / n) + in_cell) / cells;
         const glm::vec2 lens = sample_disk(glm::fract(on_lens + glm::vec2(i / n, i % n) / cells));
-        sum += light_along(camera_ray(x, y, {subpixel, lens}), tracer);
+        sum += tracer.very_direct_along(camera_ray(x, y, {subpixel, lens}));
     }
     return sum / static_cast<float>(n * n);
 }
@@ -258,7 +253,7 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
         for (int x = area.x0; x < area.x1; ++x) {
             const glm::vec2 cell((x + look) % n, (y + look / n) % n);
             const glm::vec2 lens = sample_disk((cell + 0.5f) / static_cast<float>(n));
-            picture(x, y) = light_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}), tracer);
+            picture(x, y) = tracer.very_direct_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}));
         }
 }
 

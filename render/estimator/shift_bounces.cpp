@@ -5,6 +5,14 @@
 
 namespace tessera {
 
+namespace {
+
+bool are_both_mirrors_or_neither(const Vertex& x, const Vertex& y) {
+    return x.bsdf.is_mirror() == y.bsdf.is_mirror();
+}
+
+} // namespace
+
 /// What is done again now, lane by lane, is how the light paths of some slots leave y_1.
 void Shift::ask_for_scatter(int i, int first_slot, int end_slot) {
     bounced_ = i == 0 && paths_->keeps_scatters() ? &paths_->add_first_scatter(first_slot, end_slot) : nullptr;
@@ -142,7 +150,7 @@ void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 orig
 
 /// Whether the way back would be this one, after a scatter by a lobe: both edges are joined for the light that
 /// lies at their ends, or neither is; and both are not for light from beyond though there might be some, or
-/// neither. (That both are not would not do: from a mirror beside smooth plastic one comes to edges that are
+/// neither. (That both are not would not do: from glass beside smooth plastic one comes to edges that are
 /// joined and to edges that are not, between which there is no way, and the weights of the three would not add up
 /// to 1.)
 bool Shift::is_joined_alike(int i, int m, float distance, const Vertex& next) const {
@@ -160,15 +168,17 @@ bool Shift::may_be_alike(int i, int m) const {
     return light_->step_is_connectable(i) ? !rule_.covers_none(roughness) : !rule_.covers_all(roughness);
 }
 
-/// The scatter at x_i done again at y: both must be of one kind, or y at least must have such a delta part (from a
-/// mirror to smooth plastic, and back).
+/// The scatter at x_i done again at y: both must be of one kind, or y at least must have such a delta part (from
+/// glass to smooth plastic, and back; a mirror stays a mirror, or what is very direct light to one pixel would
+/// come to another by a light path).
 std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
     if (replays())
         return replay_scatter(i, m);
     const BaseVertex& x = base(i);
     const Vertex& y = (*y_)[m];
     if (x.is_delta) {
-        const std::optional<CopiedScatter> s = copy_delta(x.scatter, y);
+        const std::optional<CopiedScatter> s =
+            are_both_mirrors_or_neither(x.vertex, y) ? copy_delta(x.scatter, y) : std::nullopt;
         if (!s)
             fail(m, x.scatter == Scatter::transmit && y.bsdf.roughness() <= 0 ? ShiftOutcome::total_reflection
                                                                               : ShiftOutcome::kind_mismatch);
@@ -194,7 +204,8 @@ std::optional<CopiedScatter> Shift::replay_scatter(int i, int m) {
         fail(m, ShiftOutcome::no_light);
         return {};
     }
-    if (s->is_delta != x.is_delta || (!x.is_delta && !may_be_alike(i, m))) {
+    if (s->is_delta != x.is_delta ||
+        !(x.is_delta ? are_both_mirrors_or_neither(x.vertex, y) : may_be_alike(i, m))) {
         fail(m, ShiftOutcome::kind_mismatch);
         return {};
     }

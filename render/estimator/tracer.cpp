@@ -119,6 +119,32 @@ std::optional<BsdfSample> Vertex::sample_guided(float lobe, glm::vec2 u) const {
                                           transmits ? Scatter::transmit : Scatter::reflect);
 }
 
+Rgb Tracer::very_direct_along(Ray ray) const {
+    Rgb sum(0), throughput(1);
+    Vertex x;
+    RayKind kind = RayKind::camera;
+    float width = view.first_width();
+    for (int edges = 1; edges <= settings.max_depth; ++edges) {
+        const bool may_go_on = edges < settings.max_depth && scene.has_mirrors();
+        const Met met = closest_light(ray, x, kind, width_beyond(width, 0, true), may_go_on);
+        if (met == Met::darkness)
+            break;
+        if (met == Met::infinity)
+            return sum + throughput * environment_toward(ray.direction).radiance;
+        sum += throughput * x.light_toward(-ray.direction).radiance;
+        const DeltaValue mirrored = may_go_on && x.bsdf.is_mirror()
+                                        ? x.bsdf.evaluate_delta(x.to_previous, Scatter::reflect)
+                                        : DeltaValue{};
+        if (is_black(mirrored.value))
+            break;
+        throughput *= mirrored.value;
+        width = width_beyond(width, glm::distance(ray.origin, x.position), true);
+        kind = RayKind::bounce;
+        ray = leave(x, x.to_world(mirrored.to_next));
+    }
+    return sum;
+}
+
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, const TextureView* view,
                  float width) {
     const ShapeRecord& shape = scene.record(hit.shape);
@@ -205,6 +231,7 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
             guide.albedo *= x.bsdf.albedo(x.to_previous);
             guide.normal = x.to_world({0, 0, 1});
             guide.nearness = length > 0 ? 1 / length : 0;
+            guide.roughness = x.bsdf.roughness();
             break;
         }
         guide.albedo *= s->f_cos / s->pdf_w;

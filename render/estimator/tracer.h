@@ -133,15 +133,18 @@ struct Tracer {
 
     enum class Met : std::uint8_t { light, darkness, infinity };
 
-    /// Traces a ray on which only a light is of interest: `vertex` is made where it meets one.
-    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width) const {
-        if (!scene.lights().may_be_hit(ray))
+    /// Traces a ray on which only a light is of interest, or what may be a mirror if so asked: `vertex` is made
+    /// where it meets one.
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width,
+                      bool or_mirror = false) const {
+        if (!or_mirror && !scene.lights().may_be_hit(ray))
             return Met::darkness;
         ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return Met::infinity;
-        if (scene.record(hit.shape).emitter_pdf_a <= 0)
+        const ShapeRecord& shape = scene.record(hit.shape);
+        if (shape.emitter_pdf_a <= 0 && !(or_mirror && shape.material->may_be_mirror()))
             return Met::darkness;
         make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
         return Met::light;
@@ -159,6 +162,10 @@ struct Tracer {
         }
         return {};
     }
+
+    /// Very direct light: what lights give off along a camera ray, at what it meets, and at what is seen there in
+    /// mirrors.
+    Rgb very_direct_along(Ray ray) const;
 
     /// The ray that leaves a vertex in a unit direction (world).
     Ray leave(const Vertex& from, glm::vec3 direction) const {

@@ -156,7 +156,7 @@ void Film::add(const Film& other) {
 
 void Film::add_look(int x, int y, int pass, const Look& look, Counters& counters) {
     const bool is_good = is_finite(look.albedo) && is_finite(look.guide.albedo) && is_finite(look.guide.normal) &&
-                         std::isfinite(look.guide.nearness);
+                         std::isfinite(look.guide.nearness) && std::isfinite(look.guide.roughness);
     if (!is_good)
         counters.refuse({pass, y, x});
     looks_.add(x, y, is_good ? look : Look{});

@@ -84,13 +84,15 @@ float PixelLooks::albedo_variance(std::size_t i) const {
 
 GuideImages PixelLooks::guides() const {
     const int width = points_.width(), height = points_.height();
-    GuideImages result{RgbImage(width, height), RgbImage(width, height), Image<float>(width, height)};
+    GuideImages result{RgbImage(width, height), RgbImage(width, height), Image<float>(width, height),
+                       Image<float>(width, height)};
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const Guide& sum = points_.data()[i].guide;
         const auto n = static_cast<float>(std::max(points_.data()[i].count, 1));
         result.albedo.data()[i] = sum.albedo / n;
         result.normal.data()[i] = sum.normal / n;
         result.nearness.data()[i] = sum.nearness / n;
+        result.roughness.data()[i] = sum.roughness / n;
     }
     return result;
 }

@@ -94,6 +94,8 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
         lights_ = LightTable(description_, radius_, factors);
     for_each_shape(description_,
                    [&](const Shape& shape) { records_.push_back(make_record(shape, description_, lights_)); });
+    has_mirrors_ =
+        std::ranges::any_of(records_, [](const ShapeRecord& record) { return record.material->may_be_mirror(); });
 }
 
 /// Finds the sphere around all triangles, for those of instances around the boxes of their groups.

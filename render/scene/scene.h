@@ -71,6 +71,9 @@ public:
     /// Of a shape as hits count them.
     const ShapeRecord& record(std::uint32_t shape) const { return records_[shape]; }
 
+    /// Whether anything may be a mirror (Material::may_be_mirror).
+    bool has_mirrors() const { return has_mirrors_; }
+
     /// A sphere around all triangles.
     glm::vec3 center() const { return center_; }
     float radius() const { return radius_; }
@@ -84,6 +87,7 @@ private:
     LightTable lights_;
     Intersector intersector_;
     std::vector<ShapeRecord> records_;
+    bool has_mirrors_ = false;
     glm::vec3 center_{0};
     float radius_ = 1;
     double bvh_seconds_ = 0;

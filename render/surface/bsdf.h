@@ -61,6 +61,9 @@ struct Bsdf {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
 
+    /// Whether it sends all light that arrives one way: what is seen in it is as sharp as what is seen directly.
+    bool is_mirror() const { return std::holds_alternative<SmoothConductor>(kind); }
+
     /// About the directional albedo. Never below a hundredth in any channel, so that light can be divided by it.
     Rgb albedo(glm::vec3 to_previous) const {
         return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));

@@ -169,6 +169,9 @@ struct Material {
     /// Whether it matters how the frame of shading lies about the normal: its tangent then must be along u.
     bool is_anisotropic() const;
 
+    /// Whether its BSDF may be a mirror (Bsdf::is_mirror).
+    bool may_be_mirror() const { return std::holds_alternative<ConductorMaterial>(kind); }
+
     /// Whether light gets through (holes by its opacity do not count).
     bool is_transparent() const;
 };

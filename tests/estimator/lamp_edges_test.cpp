@@ -4,6 +4,7 @@
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <glm/geometric.hpp>
@@ -73,6 +74,34 @@ TEST(LampEdges, AreBothSidesOfSteps) {
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 5; ++x)
             EXPECT_EQ(film.has_lamp_edge(x, y), x >= 3 && y <= 1) << x << ',' << y;
+}
+
+/// In a mirror, a lamp is as sharp and as free of noise as beside it.
+TEST(LampEdges, AreSeenInMirrors) {
+    SceneBuilder b;
+    b.quad({-0.5f, -0.4f, 5}, {-0.1f, 0.9f, 0}, {1, 0.1f, 0}, b.diffuse(Rgb(0.5f)),
+           b.light(Texture(Rgb(3, 2, 1))));
+    b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.mirror());
+    b.camera({0, 0, 3}, {0, 0, 0}, 40);
+    const auto scene = b.build();
+    RenderSettings settings;
+    settings.max_depth = 2;
+    for (const Method method : {Method::pt, Method::gpr}) {
+        settings.method = method;
+        Render render(scene, scene->camera(), {24, 24}, settings);
+        ThreadPool pool(1);
+        render.pass(pool);
+        const GradientImages images = render.images();
+        const auto is_lit = [](Rgb c) { return c != Rgb(0); };
+        EXPECT_GT(std::ranges::count_if(images.very_direct, is_lit), 10);
+        EXPECT_TRUE(std::ranges::none_of(images.radiance(), is_lit)) << "nothing is left to share";
+        settings.very_direct_grid = 1;
+        Render plain(scene, scene->camera(), {24, 24}, settings);
+        plain.pass(pool);
+        settings.very_direct_grid = 4;
+        EXPECT_GT(render.counters().rays[static_cast<std::size_t>(RayKind::bounce)],
+                  plain.counters().rays[static_cast<std::size_t>(RayKind::bounce)]);
+    }
 }
 
 /// All of a lamp's middle, and the same colour everywhere: nothing is looked for twice.

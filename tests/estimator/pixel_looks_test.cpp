@@ -38,6 +38,7 @@ TEST(PixelLooks, AMirrorShowsWhatIsSeenInIt) {
             << short_name(method);
         EXPECT_NEAR(guides.normal(16, 16).z, -1, 1e-4f);
         EXPECT_NEAR(guides.nearness(16, 16), 1 / 8.0f, 1e-3f); // three there and five back
+        EXPECT_NEAR(guides.roughness(16, 16), 1, 1e-4f);       // the wall's
         EXPECT_LT(glm::distance(guides.albedo(0, 0), Rgb(1)), 1e-6f) << "beside the mirror there is nothing";
         EXPECT_EQ(guides.normal(0, 0), Rgb(0));
         EXPECT_EQ(guides.nearness(0, 0), 0);

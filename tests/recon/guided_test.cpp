@@ -19,7 +19,7 @@ constexpr int width = 96, height = 80;
 
 GuideImages even_guides() {
     return {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height, Rgb(0, 0, 1)),
-            Image<float>(width, height, 1)};
+            Image<float>(width, height, 1), Image<float>(width, height, 0.1f)};
 }
 
 double rms(const RgbImage& image, Rgb truth, int margin = 0) {
@@ -121,7 +121,7 @@ TEST(Guided, AFewNoisyPixelsLeaveTheOthersAlone) {
 
 /// Light does not cross to what looks different: nor does it get into the black.
 TEST(Guided, GuidesHoldLight) {
-    for (const int guide : {0, 1, 2}) {
+    for (const int guide : {0, 1, 2, 3}) {
         GuideImages guides = even_guides();
         RgbImage picture = plus(RgbImage(width, height, Rgb(1)), noise(1, 0.3f)), half = noise(2, 0.3f);
         for (int y = 0; y < height; ++y)
@@ -131,6 +131,8 @@ TEST(Guided, GuidesHoldLight) {
                     guides.normal(x, y) = Rgb(1, 0, 0);
                 else if (guide == 1)
                     guides.nearness(x, y) = 0.2f;
+                else if (guide == 2)
+                    guides.roughness(x, y) = 1;
                 else
                     guides.normal(x, y) = Rgb(0), guides.nearness(x, y) = 0, guides.albedo(x, y) = Rgb(1);
             }
@@ -248,7 +250,8 @@ TEST(Guided, WhatIsSurelyDarkStaysDark) {
 TEST(Guided, TakesAnyPicture) {
     const auto smooth = [](Rgb value, int w, int h) {
         const RgbImage image(w, h, value);
-        return smooth_by_guides({image, image}, {RgbImage(w, h, Rgb(0.5f)), RgbImage(w, h), Image<float>(w, h)},
+        const Image<float> zero(w, h);
+        return smooth_by_guides({image, image}, {RgbImage(w, h, Rgb(0.5f)), RgbImage(w, h), zero, zero},
                                 serial_for);
     };
     for (const float value : {0.0f, 3e-39f, 1e-10f, 1.0f, 1e30f, 1e38f, 3e38f})

@@ -109,7 +109,8 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     // Halves that differ as means of such noise do; and guides that see the steps.
     const RgbImage half = random_image(width, height, seed + 1000, 0, scale);
     images.halves = {half, half, half};
-    images.guides = {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height), Image<float>(width, height, 1)};
+    images.guides = {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height), Image<float>(width, height, 1),
+                     Image<float>(width, height, 1)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             images.halves.primal(x, y) *= 0.1f;

@@ -34,26 +34,28 @@ public:
         }
     }
 
-    /// Very direct light first, then all other, then that over the albedo of what is seen first.
+    /// Very direct light first, straight and in mirrors, then all other, then that over the albedo of what is seen
+    /// first.
     std::array<Rgb, 3> radiance(Ray ray, int max_depth) {
         std::array<Rgb, 3> sums{Rgb(0), Rgb(0), Rgb(0)};
         Rgb throughput(1);
         albedo = Rgb(1);
         by_direction.clear();
         ByDirection onward;
-        bool goes_on = false;
+        bool goes_on = false, is_very_direct = true;
         for (int edges = 1; edges <= max_depth; ++edges) {
             Hit hit;
             if (!scene_.intersector().closest(ray, hit)) {
                 if (const Environment* around = scene_.lights().environment())
-                    sums[edges == 1 ? 0 : 1] += throughput * around->radiance(ray.direction);
+                    sums[is_very_direct ? 0 : 1] += throughput * around->radiance(ray.direction);
                 break;
             }
             Vertex v;
             make_vertex(scene_, hit, ray, v);
             if (edges == 1)
                 albedo = v.bsdf.albedo(v.to_previous);
-            sums[edges == 1 ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
+            sums[is_very_direct ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
+            is_very_direct = is_very_direct && v.bsdf.is_mirror();
             if (edges < max_depth)
                 sums[1] += throughput * from_lights_without_extent(v, edges == 1);
             const float lobe = uniform();

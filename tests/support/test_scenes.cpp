@@ -202,15 +202,26 @@ std::shared_ptr<const Scene> coated() {
     return r.build();
 }
 
-/// A floor of mirrors and of smooth plastic, which is connectable, in turns: along edges short and long, one comes
-/// to either.
-std::shared_ptr<const Scene> mirrors_in_plastic() {
+/// A floor of glass, which mirrors, and of smooth plastic, which is connectable, in turns: along edges short and
+/// long, one comes to either.
+std::shared_ptr<const Scene> glass_in_plastic() {
     Room r;
-    const int mirror = r.mirror(), plastic = r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0);
+    const int glass = r.glass(3, true), plastic = r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0);
     for (int i = 0; i < 12; ++i)
         for (int j = 0; j < 12; ++j)
             r.quad({-0.96f + 0.16f * static_cast<float>(i), -0.97f, 0.96f - 0.16f * static_cast<float>(j)},
-                   {0.16f, 0, 0}, {0, 0, -0.16f}, (i + j) % 2 ? mirror : plastic);
+                   {0.16f, 0, 0}, {0, 0, -0.16f}, (i + j) % 2 ? glass : plastic);
+    return r.build();
+}
+
+/// A lamp behind the camera, seen in a wall of mirrors, smooth plastic, and glass, in turns: very direct light in
+/// some pixels, and light paths like any others in those beside.
+std::shared_ptr<const Scene> lamp_in_mirrors() {
+    Room r;
+    const int kinds[] = {r.mirror(), r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0), r.mirror(), r.glass(1.5f, true)};
+    for (int i = 0; i < 4; ++i)
+        r.quad({-0.96f + 0.48f * static_cast<float>(i), -0.9f, -0.9f}, {0.48f, 0, 0}, {0, 1.8f, 0}, kinds[i]);
+    r.quad({2, -1, 3}, {-4, 0, 0}, {0, 1.9f, 0}, r.w, r.light(Texture(Rgb(2, 1, 3))));
     return r.build();
 }
 
@@ -302,7 +313,8 @@ std::vector<TestScene> all_test_scenes() {
         {"phong_half_vectors", phong(), 5, 0.5f},
         {"shining_wall", shining_wall(), 4},
         {"short_edges", blinds(), 4, 0.001f, 1, 20},
-        {"mirrors_in_plastic", mirrors_in_plastic(), 6, 0.001f, 3, 12},
+        {"glass_in_plastic", glass_in_plastic(), 6, 0.001f, 3, 12},
+        {"lamp_in_mirrors", lamp_in_mirrors(), 5},
         {"squares_in_mirrors", squares_in_mirrors(), 5, 0.001f, 4},
         {"thin_lens", thin_lens(), 4, 0.001f, 2},
         {"orthographic", orthographic(), 4},
