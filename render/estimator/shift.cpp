@@ -79,7 +79,6 @@ void Shift::shift_lights(int i) {
         if (!light_->is_alive(first + sample))
             continue;
         ask_for_lobes(asked);
-        // A copied half vector cannot meet a light without extent: that is always joined to.
         const bool can_be_hit = base_light(i, sample).light.can_be_hit(), is_joined = joins_light(i, sample);
         if (is_joined || (!replays() && !can_be_hit)) {
             connect_light(i, sample, is_joined);

@@ -27,7 +27,9 @@ void Shift::connect_light(int i, int sample, bool is_joined) {
     const int slot = light_->emitter_slot(i, sample);
     LightConnection& c = light_connection_;
     connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
-    keep_alike(is_joined, c.asked, c.sight);
+    // A copied half vector cannot meet a light without extent: that is joined to from either side.
+    if (replays() || x.light.can_be_hit())
+        keep_alike(is_joined, c.asked, c.sight);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
     keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
