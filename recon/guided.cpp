@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,9 +38,19 @@ using Plane = Image<float>;
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = std::array<Plane, 6>;
 
+/// Two pixels, so many steps apart, which are as like one as the other: of all pixels within two steps of one, in
+/// the 5x5 without its corners, half. (With the corners: hardly better, in twice the time.)
+struct Pair {
+    int i, j;
+    float share() const { return kernel[i + 2] * kernel[j + 2]; }
+};
+constexpr Pair pairs[] = {{1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {-1, 1}};
+using PairWeights = std::array<Plane, std::size(pairs)>; ///< at the first pixel of the two
+
 /// Planes that are used at every level: memory that is new each time costs a quarter of the smoothing.
 struct Scratch {
     Planes coarser;
+    PairWeights weights;
     Plane brightness, noise, sizes, rows;
 };
 
@@ -51,6 +63,7 @@ void make_planes(std::array<Plane, count>& planes, int width, int height) {
 Scratch scratch_of(int width, int height) {
     Scratch scratch;
     make_planes(scratch.coarser, width, height);
+    make_planes(scratch.weights, width, height);
     for (Plane* plane : {&scratch.brightness, &scratch.noise, &scratch.sizes, &scratch.rows})
         *plane = Plane(width, height);
     return scratch;
@@ -117,17 +130,14 @@ void write_brightness(const Planes& planes, float least, const ParallelFor& para
     });
 }
 
-/// What a row of a level is smoothed with.
+/// What a level is smoothed by.
 struct Level {
-    const Planes& from;
     const GuidePlanes& guides;
     const Plane &brightness, &noise; ///< logarithm, and the variance of its noise
     int step;
 
     /// How much `count` pixels from (to_x, to_y) on are like those from (x, y) on.
     void weigh(int x, int y, int count, int to_x, int to_y, float* weights) const;
-    /// Adds what the pixels (i, j) steps away give those of row y.
-    void add(int y, int i, int j, std::array<std::vector<float>, 7>& sums) const;
 };
 
 void Level::weigh(int x, int y, int count, int to_x, int to_y, float* weights) const {
@@ -150,43 +160,73 @@ void Level::weigh(int x, int y, int count, int to_x, int to_y, float* weights) c
     }
 }
 
-void Level::add(int y, int i, int j, std::array<std::vector<float>, 7>& sums) const {
-    constexpr int chunk = 128; // so that the weights stay at hand
-    const int width = brightness.width(), shift = i * step, row = y + j * step;
-    const int begin = std::max(0, -shift), end = std::min(width, width - shift);
-    const float factor = kernel[i + 2] * kernel[j + 2];
-    float weights[chunk];
-    for (int x = begin; x < end; x += chunk) {
-        const int count = std::min(chunk, end - x);
-        weigh(x, y, count, x + shift, row, weights);
-        float* all = sums[6].data() + x;
-        for (int k = 0; k < count; ++k)
-            all[k] += weights[k] *= factor;
-        for (std::size_t c = 0; c < 6; ++c) {
-            const float* value = from[c].row(row) + x + shift;
-            float* sum = sums[c].data() + x;
-            for (int k = 0; k < count; ++k)
-                sum[k] += weights[k] * value[k];
-        }
-    }
-}
+/// Columns that are worked on at a time, so that all about them stays at hand.
+constexpr int chunk = 128;
 
-void smooth(const Level& level, const ParallelFor& parallel_for, Planes& result) {
-    // Without the corners of the 5x5 pixels: as good, in half the time.
-    constexpr int farthest = 2;
+/// How much the two pixels of each pair count for each other.
+void write_weights(const Level& level, const ParallelFor& parallel_for, PairWeights& weights) {
     const int width = level.noise.width(), height = level.noise.height();
     parallel_for(height, [&](int y) {
-        std::array<std::vector<float>, 7> sums;
-        for (auto& sum : sums)
-            sum.assign(static_cast<std::size_t>(width), 0.0f);
-        for (int j = -farthest; j <= farthest; ++j) {
-            const int row = y + j * level.step, reach = farthest - std::abs(j);
-            for (int i = -reach; i <= reach && row >= 0 && row < height; ++i)
-                level.add(y, i, j, sums);
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            const int shift = pairs[k].i * level.step, row = y + pairs[k].j * level.step;
+            const int end = std::min(width, width - shift);
+            for (int x = std::max(0, -shift); row < height && x < end; x += chunk) {
+                const int count = std::min(chunk, end - x);
+                float* w = weights[k].row(y) + x;
+                level.weigh(x, y, count, x + shift, row, w);
+                for (int i = 0; i < count; ++i)
+                    w[i] *= pairs[k].share();
+            }
         }
-        for (std::size_t c = 0; c < 6; ++c)
-            for (int x = 0; x < width; ++x)
-                result[c](x, y) = sums[c][static_cast<std::size_t>(x)] / sums[6][static_cast<std::size_t>(x)];
+    });
+}
+
+/// Values times weights, and weights, of some columns of a row from `begin` on.
+struct RowSums {
+    int begin, end;
+    float values[6][chunk] = {}, weights[chunk] = {};
+
+    /// Adds what the pixels `shift` columns on in another row give. The weights are those of the pixels here, or
+    /// there.
+    void add(const Planes& from, int row, int shift, const float* row_weights, bool are_here);
+};
+
+void RowSums::add(const Planes& from, int row, int shift, const float* row_weights, bool are_here) {
+    const int width = from[0].width(), first = std::max(begin, -shift),
+              count = std::min(end, width - shift) - first;
+    if (count <= 0)
+        return;
+    const float* w = row_weights + first + (are_here ? 0 : shift);
+    for (std::size_t c = 0; c < from.size(); ++c) {
+        const float* value = from[c].row(row) + first + shift;
+        float* sum = values[c] + first - begin;
+        for (int k = 0; k < count; ++k)
+            sum[k] += w[k] * value[k];
+    }
+    float* sum = weights + first - begin;
+    for (int k = 0; k < count; ++k)
+        sum[k] += w[k];
+}
+
+void smooth(const Planes& from, const PairWeights& weights, int step, const ParallelFor& parallel_for,
+            Planes& result) {
+    const int width = from[0].width(), height = from[0].height();
+    const std::vector<float> own(static_cast<std::size_t>(width), Pair{0, 0}.share());
+    parallel_for(height, [&](int y) {
+        for (int x = 0; x < width; x += chunk) {
+            RowSums sums{x, std::min(width, x + chunk)};
+            sums.add(from, y, 0, own.data(), true);
+            for (std::size_t k = 0; k < weights.size(); ++k) {
+                const int shift = pairs[k].i * step, above = y - pairs[k].j * step, below = y + pairs[k].j * step;
+                if (below < height)
+                    sums.add(from, below, shift, weights[k].row(y), true);
+                if (above >= 0)
+                    sums.add(from, above, -shift, weights[k].row(above), false);
+            }
+            for (std::size_t c = 0; c < from.size(); ++c)
+                for (int i = x; i < sums.end; ++i)
+                    result[c](i, y) = sums.values[c][i - x] / sums.weights[i - x];
+        }
     });
 }
 
@@ -209,7 +249,8 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
         for (int x = 0; x < width; ++x)
             noise(x, y) *= of_gaussian * noise(x, y);
     });
-    smooth({from, guides, brightness, noise, step}, parallel_for, scratch.coarser);
+    write_weights({guides, brightness, noise, step}, parallel_for, scratch.weights);
+    smooth(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
 /// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
@@ -306,7 +347,8 @@ RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const
 }
 
 std::uint64_t bytes_to_smooth(int width, int height) {
-    constexpr std::uint64_t planes = 2 * 6 + 4 + guide_count + 3; // levels, scratch, guides, and the sum
+    constexpr std::uint64_t planes =
+        2 * std::tuple_size_v<Planes> + std::size(pairs) + 4 + guide_count + 3; // levels, scratch, guides, the sum
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
