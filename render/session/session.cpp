@@ -1,4 +1,3 @@
-#include "recon/oidn.h"
 #include "render/io/available_memory.h"
 #include "render/run/thread_pool.h"
 #include "render/session/session_pane.h"
@@ -109,16 +108,10 @@ void Session::withdraw(int pane_index) {
     render_wake_.notify_one();
 }
 
-void Session::set_reconstruction(int pane_index, const ReconstructionSettings& wanted) {
-    const bool lacks_library = wanted.norm == Norm::oidn && !oidn_problem().empty();
-    ReconstructionSettings settings = wanted;
-    if (lacks_library)
-        settings.norm = Norm::weighted;
+void Session::set_reconstruction(int pane_index, const ReconstructionSettings& settings) {
     {
         const std::lock_guard lock(mutex_);
         Pane& pane = *panes_[static_cast<std::size_t>(pane_index)];
-        if (lacks_library && !(pane.reconstruction == settings))
-            messages_.push_back(oidn_problem() + "; the picture is that of weighted");
         if (!(pane.reconstruction == settings)) {
             pane.end_solve();
             pane.given_up.reset();

@@ -68,7 +68,8 @@ public:
     void withdraw(int pane);
 
     /// Settings of the pane's reconstruction; a change ends the one under way and reconstructs the newest snapshot
-    /// again, renders nothing.
+    /// again, renders nothing. Of Norm::oidn without its library there is a message, and the picture is that of
+    /// Norm::weighted.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
     /// The reconstruction under way in the pane; empty: there is none.
@@ -116,6 +117,7 @@ private:
     static std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor);
     void publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot);
     void publish_passes(Pane& pane);
+    ReconstructionSettings possible_reconstruction(Pane& pane);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
                               std::stop_token stop);
 

@@ -1,5 +1,6 @@
 #include "render/session/session_pane.h"
 
+#include "recon/oidn.h"
 #include "render/io/available_memory.h"
 #include "render/run/fitting_reconstruction.h"
 #include "render/run/thread_pool.h"
@@ -33,10 +34,7 @@ void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t ge
     if (!coarse.pass(pool_, stop, &pane.pass_share))
         return;
     const auto snapshot = snapshot_of(coarse, generation, divisor);
-    {
-        const std::lock_guard lock(mutex_);
-        snapshot->reconstructed_with = pane.reconstruction;
-    }
+    snapshot->reconstructed_with = possible_reconstruction(pane);
     auto made = std::make_shared<Reconstruction>(
         reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.loops(), stop));
     if (made->image.empty())
@@ -133,6 +131,27 @@ void Session::publish_passes(Pane& pane) {
     pane.published_at = std::chrono::steady_clock::now();
 }
 
+/// The pane's settings, in which another norm takes the place of one that cannot be had here, with a message. To
+/// be called by workers, without the lock: the first look for a library takes its time.
+ReconstructionSettings Session::possible_reconstruction(Pane& pane) {
+    ReconstructionSettings settings;
+    {
+        const std::lock_guard lock(mutex_);
+        settings = pane.reconstruction;
+    }
+    if (settings.norm != Norm::oidn || oidn_problem().empty())
+        return settings;
+    {
+        const std::lock_guard lock(mutex_);
+        if (pane.reconstruction == settings) { // not chosen anew meanwhile
+            pane.reconstruction.norm = Norm::weighted;
+            messages_.push_back(oidn_problem() + "; the picture is that of weighted");
+        }
+    }
+    settings.norm = Norm::weighted;
+    return settings;
+}
+
 // The session's second thread makes pictures from primal and gradients, the newest snapshot first.
 
 void Session::reconstruct_loop(std::stop_token stop) {
@@ -140,9 +159,6 @@ void Session::reconstruct_loop(std::stop_token stop) {
     std::size_t turn = 0; // panes in turn, so that none starves
     while (!stop.stop_requested()) {
         Pane* pane = nullptr;
-        std::shared_ptr<const Snapshot> snapshot;
-        ReconstructionSettings settings;
-        std::stop_token solve_stop;
         {
             std::unique_lock lock(mutex_);
             const auto find = [&] {
@@ -156,8 +172,15 @@ void Session::reconstruct_loop(std::stop_token stop) {
             if (!reconstruct_wake_.wait(lock, stop, find))
                 return;
             ++turn;
+        }
+        const ReconstructionSettings settings = possible_reconstruction(*pane);
+        std::shared_ptr<const Snapshot> snapshot;
+        std::stop_token solve_stop;
+        {
+            const std::lock_guard lock(mutex_);
+            if (!pane->needs_reconstruction() || !(pane->reconstruction == settings))
+                continue; // it has changed meanwhile
             snapshot = pane->latest;
-            settings = pane->reconstruction;
             solve_stop = pane->solve_stop.get_token();
             pane->solving_spp = snapshot->spp;
             pane->solving_since = std::chrono::steady_clock::now();

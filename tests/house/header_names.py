@@ -56,7 +56,7 @@ fstream: filebuf fstream ifstream ofstream
 functional: bind bind_front bit_or cref divides equal_to function greater greater_equal identity invoke less
     less_equal logical_not mem_fn minus modulus multiplies negate not_fn plus ref reference_wrapper
 functional|string|string_view|optional|memory|variant|filesystem: hash
-future: async future packaged_task promise shared_future
+future: async future future_status launch packaged_task promise shared_future
 iomanip: get_time put_time quoted setfill setprecision setw
 ios|fstream|iomanip|iostream|istream|ostream|sstream: boolalpha dec defaultfloat fixed hex ios ios_base left noshowpoint
     oct right scientific showpoint skipws streamoff streampos streamsize

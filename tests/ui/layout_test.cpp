@@ -98,6 +98,29 @@ TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
     EXPECT_FALSE(waits_for_another_size());
 }
 
+// A first pass may take a minute, and be nearly done.
+TEST_F(Layout, NoPanelRestartsEvenAFirstPass) {
+    state().paused = true; // before its first pass
+    type(Key::r);
+    frames(2);
+    for (int spp : {0, 2}) {
+        if (spp > 0) {
+            state().pace.spp_limit = spp;
+            state().paused = false;
+            ASSERT_TRUE(wait_until([&] { return viewer.settled(spp); }));
+        }
+        const std::uint64_t first = pane(0).generation, second = pane(1).generation;
+        const glm::ivec2 size = state().request_size();
+        for (Key key : {Key::i, Key::h, Key::t, Key::o, Key::o, Key::p, Key::t, Key::h, Key::i, Key::p}) {
+            type(key);
+            frames(2);
+            EXPECT_EQ(pane(0).generation, first) << spp;
+            EXPECT_EQ(pane(1).generation, second) << spp;
+            EXPECT_EQ(state().request_size(), size) << spp;
+        }
+    }
+}
+
 TEST_F(Layout, AnAddedPaneHasTheSizeOfTheOthers) {
     const std::uint64_t before = pane(0).generation;
     type(Key::digit4, true);

@@ -114,9 +114,10 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
         state.size.scale = percent / 100.0f;
     const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
     ImGui::TextDisabled("%d x %d pixels a pane", size.x, size.y);
-    controls.place("pixels",
-                   "What is rendered now. A panel or a window of another size throws no samples away: the "
-                   "pictures are scaled, until the panes start anew.");
+    controls.place(
+        "pixels",
+        "What is rendered now. No panel throws samples away, nor does a window of another size, once there "
+        "are some: the pictures are scaled, until the panes start anew.");
     if (size != fitting) {
         ImGui::TextDisabled("%d x %d when they start anew", fitting.x, fitting.y);
         controls.place("fitting_pixels",

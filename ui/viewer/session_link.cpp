@@ -89,19 +89,24 @@ bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) c
            !(sent.render == pane.settings.render);
 }
 
-/// A size starts every render anew, so one that only fits better (a panel was shown, the window resized) waits
-/// until no pane has anything to lose by it; the pictures are scaled meanwhile. One that the user has chosen does
-/// not wait.
+/// A size starts every render anew, so one that only fits better waits until no pane has anything to lose by it;
+/// the pictures are scaled meanwhile. For panels, which come and go, everything that is rendered counts, a first
+/// pass under way as well; for another window or another number of panes, no more than a few samples do not. A
+/// size that the user has chosen does not wait.
 void SessionLink::latch_size(ViewerState& state) {
+    const Arrangement arrangement{state.layout.window_size, state.panes.size()};
+    const bool is_by_panels = arrangement == latched_arrangement_;
     const auto has_much_to_lose = [&](const PaneState& pane) {
+        if (starts_anew(state, pane))
+            return false;
         const Snapshot* s = pane.snapshot.get();
-        return !starts_anew(state, pane) && s && s->generation == sent_of(pane).generation &&
-               s->spp >= few_samples;
+        return is_by_panels || (s && s->generation == sent_of(pane).generation && s->spp >= few_samples);
     };
     if (state.size == latched_choice_ && std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
         return;
     state.latched_size = state.fitting_size();
     latched_choice_ = state.size;
+    latched_arrangement_ = arrangement;
 }
 
 /// The pane that renders for this one: panes with the same settings have the same samples, and so one render, of

@@ -13,6 +13,7 @@
 #include "ui/state/viewer_state.h"
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -47,6 +48,12 @@ private:
         std::uint64_t generation = 0;
         int followed = -1; // the slot whose passes it shows; -1: it renders them
     };
+    /// What the user has given the pictures' size by, but for panels.
+    struct Arrangement {
+        glm::ivec2 window{0};
+        std::size_t panes = 0;
+        bool operator==(const Arrangement&) const = default;
+    };
     Sent& sent_of(const PaneState& pane) { return sent_[static_cast<std::size_t>(pane.slot)]; }
     const Sent& sent_of(const PaneState& pane) const { return sent_[static_cast<std::size_t>(pane.slot)]; }
     bool starts_anew(const ViewerState& state, const PaneState& pane) const;
@@ -63,7 +70,8 @@ private:
     Session& session_;
     std::array<Sent, most_panes> sent_;                    // by slot, as the next
     std::array<std::uint64_t, most_panes> refused_told_{}; // the generation whose refused samples have a message
-    SizeChoice latched_choice_;
+    SizeChoice latched_choice_; // what the size that is rendered was found by, as the next
+    Arrangement latched_arrangement_;
     bool sent_paused_ = false;
     Pace sent_pace_;
 };
