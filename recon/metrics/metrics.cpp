@@ -165,4 +165,24 @@ double log_log_slope(std::span<const glm::dvec2> points) {
                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
+double log_log_slope_error(std::span<const glm::dvec2> points, std::span<const double> relative_errors) {
+    const auto has_place = [](const glm::dvec2& p) {
+        return std::isfinite(std::log(p.x)) && std::isfinite(std::log(p.y));
+    };
+    double n = 0, mean = 0, squares = 0, error = 0;
+    for (const glm::dvec2& p : points)
+        if (has_place(p)) {
+            n += 1;
+            mean += std::log(p.x);
+        }
+    mean /= n;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (has_place(points[i])) {
+            const double x = std::log(points[i].x) - mean;
+            squares += x * x;
+            error += std::abs(x) * relative_errors[i];
+        }
+    return squares > 0 ? error / squares : std::numeric_limits<double>::quiet_NaN();
+}
+
 } // namespace tessera

@@ -78,4 +78,10 @@ FloorFreeError mean_of_pieces(const Image<double>& errors);
 /// two places along x.
 double log_log_slope(std::span<const glm::dvec2> points);
 
+/// The most that the slope's standard error can be where each y has that one relative to itself: points of one
+/// render stand on the same samples, so that their errors may go together in any way. Not a number where
+/// log_log_slope is not, or one of these.
+/// @param relative_errors  as many as points
+double log_log_slope_error(std::span<const glm::dvec2> points, std::span<const double> relative_errors);
+
 } // namespace tessera

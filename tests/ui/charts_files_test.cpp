@@ -77,7 +77,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     EXPECT_NE(state().messages.back().text.find(".csv, .svg and .png"), std::string::npos);
     const auto files = files_here();
     ASSERT_EQ(files.size(), 3u);
-    for (const char* header : {"efficiency,not_finite\n", "seconds,ok,occluded", "luminance,pixels\n"})
+    for (const char* header : {"efficiency,not_finite,estimated\n", "seconds,ok,occluded", "luminance,pixels\n"})
         EXPECT_NE(files.at(".csv").find(header), std::string::npos) << header;
     pugi::xml_document svg;
     ASSERT_TRUE(svg.load_string(files.at(".svg").c_str()));

@@ -17,10 +17,12 @@ struct Charts : testing::Test, ViewerHarness {
         state().companions.reference = make_reference("a reference", RgbImage(48, 36, value), {});
     }
 
-    /// The newest line of a pane; empty: it has none.
+    /// The newest line of a pane, of errors to the reference or of estimates; empty: it has none.
     std::vector<ErrorPoint> errors(int i) {
-        const auto& curves = state().chart_of(pane(i)).curves;
-        return curves.empty() ? std::vector<ErrorPoint>() : curves.back().points();
+        const PaneChart& chart = state().chart_of(pane(i));
+        const auto& curves = chart.curves;
+        return curves.empty() || chart.reference != state().companions.reference ? std::vector<ErrorPoint>()
+                                                                                 : curves.back().points();
     }
 
     void wait_for_errors(int i, int spp) {

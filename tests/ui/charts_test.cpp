@@ -30,10 +30,68 @@ TEST(PassHistory, KeepsTheNewestAndThinsOutTheOld) {
 
 TEST(ViewerCharts, SlopeIsThatOfTheLastDecade) {
     ChartSeries series;
-    EXPECT_TRUE(std::isnan(slope_of_last_decade(series)));
+    EXPECT_FALSE(slope_of_last_decade(series));
     for (int n = 1; n <= 1000; n *= 2)
-        series.points.push_back({static_cast<double>(n), n < 50 ? 5 : 3.0 / n, 0});
-    EXPECT_NEAR(slope_of_last_decade(series), -1, 1e-9);
+        series.points.push_back({static_cast<double>(n), n < 50 ? 5 : 3.0 / n, n < 50 ? 5 : 0.3 / n});
+    ASSERT_TRUE(slope_of_last_decade(series));
+    EXPECT_NEAR(slope_of_last_decade(series)->value, -1, 1e-9);
+    EXPECT_GT(slope_of_last_decade(series)->error, 0.1); // all below may be too low by a tenth, all above too high
+    EXPECT_LT(slope_of_last_decade(series)->error, 0.25);
+}
+
+TEST(ViewerCharts, ASlopeIsShownOnlyWhenItsIntervalIsKnown) {
+    ChartSeries series;
+    for (int n = 1; n <= 64; n *= 2)
+        series.points.push_back({static_cast<double>(n), 3.0 / n, NAN});
+    EXPECT_FALSE(slope_of_last_decade(series)); // to a reference without halves
+    for (ChartPoint& p : series.points)
+        p.error = 0.01 * p.y;
+    EXPECT_TRUE(slope_of_last_decade(series));
+    series.points.resize(2); // from one sample to two
+    EXPECT_FALSE(slope_of_last_decade(series));
+}
+
+// The first minute: curves without a reference.
+TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
+    for (int spp : {4, 8, 16}) {
+        state().pace.spp_limit = spp;
+        wait_for_errors(0, spp);
+        wait_for_errors(1, spp);
+    }
+    const std::vector<ErrorPoint> before = errors(1);
+    ASSERT_GE(before.size(), 3u); // from the first passes on, with the panel closed
+    EXPECT_LE(before.front().spp, 4);
+    EXPECT_LT(before.back().error, 0.5 * before.front().error);
+    EXPECT_GT(before.back().standard_error, 0);
+    EXPECT_LT(before.back().error, errors(0).back().error); // sharing pays
+    char error[48];
+    std::snprintf(error, sizeof error, "   samples' relMSE ~%.3g", before.back().error);
+    EXPECT_NE(status_text(state(), 1).find(error), std::string::npos) << status_text(state(), 1);
+    type(Key::h);
+    frames(2);
+    save("charts-estimated.png");
+    EXPECT_TRUE(has("charts.figures1"));
+    EXPECT_NE(chart_caveat(state()).find("own variance"), std::string::npos);
+    const Chart chart = viewer_chart(state());
+    ASSERT_EQ(chart.plots.at(0).series.size(), 2u);
+    EXPECT_EQ(chart.plots[0].y_label, "relMSE, estimated");
+    EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, samples");
+    EXPECT_EQ(chart.plots[0].series[1].points.size(), before.size());
+    EXPECT_NE(chart_csv(state()).find("2,gpr,none,,,16,"), std::string::npos) << chart_csv(state());
+
+    // Other reconstructions have the same samples.
+    state().panes[1].settings.reconstruction.norm = Norm::l1;
+    wait_until([&] { return viewer.settled(16); });
+    frames(5);
+    EXPECT_EQ(state().charts[1].curves.size(), 1u);
+
+    // True errors take the place of estimates.
+    set_reference(Rgb(0.3f));
+    EXPECT_TRUE(viewer_chart(state()).plots.at(0).series[1].points.empty());
+    wait_until([&] { return state().charts[1].reference != nullptr; });
+    EXPECT_EQ(viewer_chart(state()).plots.at(0).y_label, "relMSE");
+    EXPECT_EQ(chart_caveat(state()).find("own variance"), std::string::npos);
+    EXPECT_NE(status_text(state(), 1).find("   relMSE "), std::string::npos) << status_text(state(), 1);
 }
 
 TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {

@@ -180,15 +180,16 @@ std::string reconstruction_columns(const ReconstructionSettings& s) {
 }
 
 std::string error_lines(const ViewerState& state) {
-    std::string text =
-        "pane,method,norm,alpha,joint_colour,spp,seconds,relMSE,standard_error,efficiency,not_finite\n";
+    std::string text = "pane,method,norm,alpha,joint_colour,spp,seconds,relMSE,standard_error,efficiency,"
+                       "not_finite,estimated\n";
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         for (const ErrorCurve& curve : state.chart_of(state.panes[i]).curves)
             for (const ErrorPoint& p : curve.points())
-                text += fmt::format("{},{},{},{},{:.6g},{:.7g},{},{:.7g},{}\n", i + 1, short_name(curve.method),
+                text += fmt::format("{},{},{},{},{:.6g},{:.7g},{},{:.7g},{},{}\n", i + 1, short_name(curve.method),
                                     reconstruction_columns(curve.reconstruction), p.spp, p.seconds, p.error,
                                     std::isfinite(p.standard_error) ? fmt::format("{:.3g}", p.standard_error) : "",
-                                    efficiency_of(p), p.not_finite);
+                                    efficiency_of(p), p.not_finite,
+                                    static_cast<int>(!state.chart_of(state.panes[i]).reference));
     return text;
 }
 
@@ -228,9 +229,9 @@ std::string chart_svg(const ViewerState& state) {
     Chart chart = viewer_chart(state);
     for (ChartPlot& plot : chart.plots) {
         for (ChartSeries& series : plot.series) {
-            const double slope = slope_of_last_decade(series);
-            if (state.layout.chart_kind == ChartKind::error && std::isfinite(slope))
-                series.label += fmt::format(" (slope {:.2f})", slope);
+            const std::optional<Slope> slope = slope_of_last_decade(series);
+            if (state.layout.chart_kind == ChartKind::error && slope)
+                series.label += fmt::format(" (slope {:.2f} ± {:.2f})", slope->value, slope->error);
         }
     }
     if (ChartPlot histogram = histogram_plot(state); !histogram.series.empty())

@@ -6,6 +6,7 @@
 #include "ui/gl/image_view.h"
 #include "ui/state/viewer_state.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,22 +26,22 @@ ScreenPixels chart_picture(const ViewerState& state);
 
 /// All that charts show, in blocks with a header each and an empty line between them: the panes' errors (pane from
 /// 1; method, norm, alpha and joint colour that the picture was made with; spp, seconds, relMSE and its standard
-/// error, empty where the reference has no halves; efficiency; pixels left out as they are not finite), the shares
-/// of their shifts by outcome, and the bins of the active pane's histogram. Blocks without lines are left out, but
-/// for the first.
+/// error, empty where the reference has no halves; efficiency; pixels left out as they are not finite; 1 where it
+/// is an estimate of the samples' error, without a reference), the shares of their shifts by outcome, and the bins
+/// of the active pane's histogram. Blocks without lines are left out, but for the first.
 std::string chart_csv(const ViewerState& state);
 
 /// The chart that is chosen and the active pane's histogram, as a picture of SVG.
 std::string chart_svg(const ViewerState& state);
 
 /// The chart that is chosen. Of errors and efficiencies: one plot with the panes' lines in their order, one for
-/// each way in which a pane's pictures were reconstructed, and an empty one where there is none yet; no plot
-/// without a reference. Of shifts: a plot for each of the shifting_panes, and in each a line for every outcome
-/// that any of them has had.
+/// each way in which a pane's pictures were reconstructed, and an empty one where there is none yet; without a
+/// reference, of the samples' estimated errors. Of shifts: a plot for each of the shifting_panes, and in each a
+/// line for every outcome that any of them has had.
 Chart viewer_chart(const ViewerState& state);
 
-/// What is to be told beside a chart of errors: that the reference's own are in them, how many pixels are left
-/// out; empty: nothing.
+/// What is to be told beside a chart of errors: that they are estimates, that the reference's own are in them, how
+/// many pixels are left out; empty: nothing.
 std::string chart_caveat(const ViewerState& state);
 
 /// The panes, by place, whose pictures have shifted paths.
@@ -58,8 +59,14 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state);
 /// How many pixels of the active pane's picture have which luminance; without lines where it is not known yet.
 ChartPlot histogram_plot(const ViewerState& state);
 
-/// The slope over the last decade of x; not a number while there are too few points (recon/metrics/metrics.h).
-double slope_of_last_decade(const ChartSeries& series);
+/// A slope in a log-log chart, and at most its standard error.
+struct Slope {
+    double value, error;
+};
+
+/// Over the last decade of x (recon/metrics/metrics.h). Empty: there are too few points for it, or their own
+/// errors are not known.
+std::optional<Slope> slope_of_last_decade(const ChartSeries& series);
 
 /// 1 / (relMSE x seconds), 1/s.
 double efficiency_of(const ErrorPoint& point);

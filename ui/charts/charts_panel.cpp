@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 
 namespace tessera {
@@ -26,7 +29,8 @@ constexpr const char* help_of(ChartKind kind) {
     case ChartKind::error:
         return "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + 0.001) [Bauszat "
                "2017, 4], against what it has taken; to a reference with halves (I - r1) (I - r2), in which the "
-               "reference's own noise cancels. Both axes are logarithmic.";
+               "reference's own noise cancels. Without a reference, an estimate for each pane's samples, by what "
+               "two halves of them disagree on. Both axes are logarithmic.";
     case ChartKind::efficiency:
         return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of a method without bias becomes "
                "level; the higher one needs less time for the same error. Both axes are logarithmic.";
@@ -50,42 +54,48 @@ void coloured(ImU32 colour, const char* text) {
     ImGui::PopStyleColor();
 }
 
-/// "-1.02", or a dash while it is not known.
-std::string slope_text(double slope) {
-    char text[16] = "-";
-    if (std::isfinite(slope))
-        std::snprintf(text, sizeof text, "%.2f", slope);
-    return text;
+/// "   slope -1.02 ± 0.03", or nothing while it is not known.
+std::string slope_text(const std::optional<Slope>& slope) {
+    return slope ? fmt::format("   slope {:.2f} ± {:.2f}", slope->value, slope->error) : "";
 }
 
-/// "0.0123 ± 0.0004   slope -1.02": the newest point of a line.
+/// "0.0123 ± 0.0004   slope -1.02 ± 0.03": the newest point of a line. An estimate has a ~.
 std::string figures_text(const ViewerState& state, const ChartSeries& series) {
     if (series.points.empty())
-        return "no error yet";
+        return state.companions.reference ? "no error yet" : "no estimate yet";
     const ChartPoint& newest = series.points.back();
-    char text[128], error[32] = "";
-    if (std::isfinite(newest.error) && newest.error > 0)
-        std::snprintf(error, sizeof error, " ± %.1g", newest.error);
-    std::snprintf(text, sizeof text, "%.3g%s%s   slope %s", newest.y, error,
-                  state.layout.chart_kind == ChartKind::efficiency ? " /s" : "",
-                  slope_text(slope_of_last_decade(series)).c_str());
-    return text;
+    const bool has_error = std::isfinite(newest.error) && newest.error > 0;
+    return fmt::format("{}{:.3g}{}{}{}", state.companions.reference ? "" : "~", newest.y,
+                       has_error ? fmt::format(" ± {:.1g}", newest.error) : "",
+                       state.layout.chart_kind == ChartKind::efficiency ? " /s" : "",
+                       slope_text(slope_of_last_decade(series)));
 }
 
 /// Draws for each line of the plot the newest error or efficiency and the slope, and what all of them lack.
 void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
                   const std::vector<ImU32>& colours) {
-    float widest = 0;
-    for (const ChartSeries& series : plot.series)
+    float widest = 0, widest_figures = 0;
+    std::vector<std::string> figures;
+    for (const ChartSeries& series : plot.series) {
+        figures.push_back(figures_text(state, series));
         widest = std::max(widest, ImGui::CalcTextSize(series.label.c_str()).x);
+        widest_figures = std::max(widest_figures, ImGui::CalcTextSize(figures.back().c_str()).x);
+    }
+    const float font = ImGui::GetFontSize(), beside = ImGui::GetStyle().WindowPadding.x + widest + font;
+    const bool fits = widest + font + widest_figures <= ImGui::GetContentRegionAvail().x;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         coloured(colours[i], plot.series[i].label.c_str());
-        ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + widest + ImGui::GetFontSize());
-        ImGui::TextUnformatted(figures_text(state, plot.series[i]).c_str());
+        if (fits)
+            ImGui::SameLine(beside);
+        else
+            ImGui::SetCursorPosX(ImGui::GetCursorPosX() + font);
+        ImGui::TextUnformatted(figures[i].c_str());
         controls.place(
             ("charts.figures" + std::to_string(i)).c_str(),
-            "The newest value with its standard error where that is known, and the slope of the line over "
-            "its last decade: -1 for an error that falls as noise does, 0 for its efficiency.");
+            "The newest value with its standard error where that is known, and then the slope of the line over "
+            "its last decade, with at most its own: -1 for an error that falls as noise does, 0 for its "
+            "efficiency. "
+            "~: estimated without a reference.");
     }
     const std::string caveat = chart_caveat(state);
     if (caveat.empty())
@@ -93,8 +103,15 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
     ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
     ImGui::TextWrapped("%s", caveat.c_str());
     ImGui::PopStyleColor();
-    controls.place("charts.caveat", "References made here, or by tessera reference, have two halves that are "
-                                    "independent of each other: errors against both are free of their noise.");
+    controls.place(
+        "charts.caveat",
+        state.companions.reference
+            ? "References made here, or by tessera reference, have two halves that are independent of each "
+              "other: errors against both are free of their noise."
+            : "Without a reference: what two halves of the samples disagree on says how far these are from "
+              "the truth, spikes in full. Reconstructions err less, and in other ways, which only a "
+              "reference shows. Edges of lamps that the camera sees are not in it. There is no estimate "
+              "until it is about known how bright the picture is.");
 }
 
 /// Draws a line for each outcome, with the newest share in every pane that has a plot.
@@ -125,9 +142,7 @@ void draw_chart(Controls& controls, const ViewerState& state, float height) {
     const Chart chart = viewer_chart(state);
     const std::vector<ImU32> colours = line_colours(state);
     if (chart.plots.empty()) {
-        ImGui::TextDisabled(state.layout.chart_kind == ChartKind::shifts
-                                ? "No pane has shifted a path"
-                                : "No reference to measure errors against");
+        ImGui::TextDisabled("No pane has shifted a path");
         return;
     }
     const float each = height / static_cast<float>(chart.plots.size());
@@ -228,10 +243,10 @@ void draw_chart_buttons(Controls& controls, ViewerState& state) {
 void draw_contents(Controls& controls, ViewerState& state) {
     heading("Charts");
     draw_choices(controls, state);
-    if (!state.layout.large_charts)
-        draw_chart(controls, state, chart_height(state));
     if (state.layout.chart_kind != ChartKind::shifts && !state.companions.reference)
         draw_reference_buttons(controls, state);
+    if (!state.layout.large_charts)
+        draw_chart(controls, state, chart_height(state));
     draw_chart_buttons(controls, state);
     if (state.layout.large_charts)
         return;
@@ -256,7 +271,7 @@ void draw_large_charts(const ScreenRect& where, Controls& controls, const Viewer
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Large charts", nullptr, overlay_flags)) {
         const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
-        const auto lines = static_cast<float>(line_colours(state).size() + 1); // one above, or the caveat below
+        const auto lines = static_cast<float>(line_colours(state).size() + 2); // one above, and the caveat below
         ImGui::TextDisabled("%s", viewer_chart(state).title.c_str());
         const float rest = (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
         draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - rest, font * plot_height));

@@ -7,6 +7,8 @@
 #include "ui/state/words.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -43,6 +45,13 @@ ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scal
             {}};
 }
 
+/// The lines of a pane's errors to the reference there is, or their estimates, without those that are of another.
+const std::vector<ErrorCurve>& curves_of(const ViewerState& state, std::size_t pane) {
+    static const std::vector<ErrorCurve> none;
+    const PaneChart& chart = state.chart_of(state.panes[pane]);
+    return chart.reference == state.companions.reference ? chart.curves : none;
+}
+
 /// A line of the chart of errors.
 struct PaneLine {
     std::size_t pane;
@@ -58,13 +67,15 @@ PaneSettings settings_of(const ViewerState& state, const PaneLine& line) {
         settings.render.method = line.curve->method;
         settings.reconstruction = line.curve->reconstruction;
     }
+    if (!state.companions.reference)
+        settings.reconstruction = {}; // of the samples alone
     return settings;
 }
 
 std::vector<PaneLine> error_lines(const ViewerState& state) {
     std::vector<PaneLine> lines;
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        const std::vector<ErrorCurve>& curves = curves_of(state, i);
         for (std::size_t c = 0; c < curves.size(); ++c)
             lines.push_back({i, &curves[c], "", curves.size() - 1 - c});
         if (curves.empty())
@@ -74,7 +85,8 @@ std::vector<PaneLine> error_lines(const ViewerState& state) {
     for (const PaneLine& line : lines)
         all.push_back(settings_of(state, line));
     for (std::size_t i = 0; i < lines.size(); ++i)
-        lines[i].name = fmt::format("{}  {}", lines[i].pane + 1, picture_label(all[i], all));
+        lines[i].name = fmt::format("{}  {}{}", lines[i].pane + 1, picture_label(all[i], all),
+                                    state.companions.reference ? "" : ", samples");
     return lines;
 }
 
@@ -87,15 +99,21 @@ LineLook look_of(const ViewerState& state, const PaneLine& line) {
     return {settings.render.method, settings.reconstruction.norm, alike};
 }
 
+/// Of the error, or of the efficiency; not a number: not known.
+double standard_error(const ErrorPoint& p, bool is_error) {
+    return is_error ? p.standard_error : efficiency_of(p) * p.standard_error / p.error;
+}
+
 ChartPlot error_plot(const ViewerState& state) {
     const bool is_error = state.layout.chart_kind == ChartKind::error;
-    ChartPlot plot = empty_plot(state, is_error ? "relMSE" : "1 / (relMSE x seconds)", Scale::log);
+    const std::string of_what = state.companions.reference ? "" : ", estimated";
+    ChartPlot plot = empty_plot(state, (is_error ? "relMSE" : "1 / (relMSE x seconds)") + of_what, Scale::log);
     for (const PaneLine& line : error_lines(state)) {
         ChartSeries series{line.name, {}, false, true, look_of(state, line)};
         if (line.curve)
             for (const ErrorPoint& p : line.curve->points())
                 series.points.push_back(
-                    {x_of(state, p), is_error ? p.error : efficiency_of(p), is_error ? p.standard_error : 0});
+                    {x_of(state, p), is_error ? p.error : efficiency_of(p), standard_error(p, is_error)});
         plot.series.push_back(std::move(series));
     }
     return plot;
@@ -147,10 +165,10 @@ std::string pane_name(const ViewerState& state, std::size_t pane) {
 
 std::string chart_caveat(const ViewerState& state) {
     if (!state.companions.reference)
-        return {};
+        return "~ by the samples' own variance, before their reconstruction: no bias is seen.";
     std::string text = caveat_of(*state.companions.reference);
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        const std::vector<ErrorCurve>& curves = state.chart_of(state.panes[i]).curves;
+        const std::vector<ErrorCurve>& curves = curves_of(state, i);
         const std::size_t all = curves.empty() ? 0 : curves.back().points().back().not_finite;
         if (all > state.companions.reference->not_finite)
             text += fmt::format("{}Pane {}: {} pixels are not finite, and left out.", text.empty() ? "" : " ",
@@ -190,7 +208,7 @@ Chart viewer_chart(const ViewerState& state) {
     if (state.layout.chart_kind == ChartKind::shifts) {
         for (std::size_t pane : shifting_panes(state))
             chart.plots.push_back(shift_plot(state, pane));
-    } else if (state.companions.reference) {
+    } else {
         chart.plots.push_back(error_plot(state));
     }
     return chart;
@@ -221,12 +239,19 @@ ChartPlot histogram_plot(const ViewerState& state) {
     return plot;
 }
 
-double slope_of_last_decade(const ChartSeries& series) {
+std::optional<Slope> slope_of_last_decade(const ChartSeries& series) {
+    constexpr double least_reach = 3; // of x: what is between nearer points is a matter of single samples
     std::vector<glm::dvec2> points;
+    std::vector<double> errors;
     for (const ChartPoint& p : series.points)
-        if (p.x >= 0.1 * series.points.back().x)
+        if (p.x >= 0.1 * series.points.back().x && p.y > 0) {
             points.emplace_back(p.x, p.y);
-    return log_log_slope(points);
+            errors.push_back(p.error / p.y);
+        }
+    if (points.empty() || points.back().x < least_reach * points.front().x)
+        return std::nullopt;
+    const Slope slope{log_log_slope(points), log_log_slope_error(points, errors)};
+    return std::isfinite(slope.value) && std::isfinite(slope.error) ? std::optional(slope) : std::nullopt;
 }
 
 } // namespace tessera

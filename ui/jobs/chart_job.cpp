@@ -1,3 +1,4 @@
+#include "recon/metrics/sample_error.h"
 #include "render/run/thread_pool.h"
 #include "render/settings/settings_table.h"
 #include "ui/jobs/jobs.h"
@@ -8,6 +9,14 @@
 namespace tessera {
 
 namespace {
+
+/// What errors of a pane are measured of without a reference: the samples as they are.
+ReconstructionSettings samples_alone() {
+    ReconstructionSettings settings;
+    settings.norm = Norm::none;
+    settings.spikes = Spikes::off;
+    return settings;
+}
 
 /// The picture on show at the end, if it is one: not the primal that stands in for a reconstruction under way.
 std::shared_ptr<const void> final_source(const PaneState& pane) {
@@ -44,12 +53,12 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
 void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const Reference>& reference,
                    bool wants_histogram, const std::function<void()>& wake) {
     const std::shared_ptr<const void> source = final_source(pane);
-    if (!source || !(reference || wants_histogram))
+    if (!source)
         return;
     const Snapshot& s = *pane.snapshot;
-    Request request{
-        source,       reference,         wants_histogram,
-        s.generation, s.settings.method, applied(s.reconstructed_with, has_gradients(s.settings.method))};
+    Request request{source, reference, wants_histogram, s.generation, s.settings.method, samples_alone()};
+    if (reference)
+        request.reconstruction = applied(s.reconstructed_with, has_gradients(s.settings.method));
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {
@@ -82,7 +91,12 @@ ChartJob::Measured ChartJob::measure(const Snapshot& s, const Request& request) 
     const RgbImage& image = picture(s, Buffer::reconstruction, scratch);
     if (request.wants_histogram)
         measured.histogram = std::make_shared<const Histogram>(histogram_of(image));
-    const auto error = request.reference ? error_to(*request.reference, image) : std::nullopt;
+    if (!request.reference) {
+        if (const auto error = estimate_sample_error(*s.images, s.spp, image))
+            measured.point = ErrorPoint{s.spp, s.seconds, error->relative_mse, error->standard_error, 0};
+        return measured;
+    }
+    const auto error = error_to(*request.reference, image);
     const bool reconstructed = request.source == s.reconstruction;
     if (error)
         measured.point = ErrorPoint{reconstructed ? s.reconstruction_spp : s.spp,

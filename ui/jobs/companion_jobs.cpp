@@ -4,6 +4,7 @@
 #include "render/scene/scene.h"
 #include "ui/jobs/jobs.h"
 #include "ui/state/companions.h"
+#include "ui/state/file_names.h"
 
 #include <algorithm>
 #include <array>
@@ -93,7 +94,7 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
         return;
     }
     state.companions.reference = *outcome->result;
-    state.add_message(Message::Kind::note, "The reference is now " + state.companions.reference->name);
+    state.add_message(Message::Kind::note, "The reference is now " + short_path(state.companions.reference->name));
 }
 
 /// Checks once for each reference and scene, as either may come first; the camera is the one that it is seen with
@@ -106,7 +107,7 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
         state.add_message(Message::Kind::error,
                           fmt::format("The reference shows something else than the panes, in its {}: errors to it "
                                       "mean little. It is {}",
-                                      *outcome->result, reference->name),
+                                      *outcome->result, short_path(reference->name)),
                           Message::Origin::scene);
     if (!reference || !reference->scene || !state.scene)
         return;

@@ -15,8 +15,9 @@
 
 namespace tessera {
 
-/// Gathers what charts show: measures the panes' pictures in the background, errors against the reference, once
-/// there is one, and histograms while charts are on show; and notes how shifts end.
+/// Gathers what charts show: measures the panes' pictures in the background, errors against the reference or,
+/// until there is one, those of the samples by their own variance, and histograms while charts are on show; and
+/// notes how shifts end.
 class ChartJob {
 public:
     /// To be called every frame. `wake` is called from another thread when there is something new.
@@ -26,11 +27,11 @@ private:
     /// A picture to measure.
     struct Request {
         std::shared_ptr<const void> source;         // picture_source()
-        std::shared_ptr<const Reference> reference; // null: it has no error
+        std::shared_ptr<const Reference> reference; // null: the samples' error is estimated
         bool wants_histogram = false;
         std::uint64_t generation = 0; // of the pane's request
         Method method = Method::gpr;
-        ReconstructionSettings reconstruction; // as applied()
+        ReconstructionSettings reconstruction; // as applied(); of samples none
         bool operator==(const Request&) const = default;
     };
     struct Measured {

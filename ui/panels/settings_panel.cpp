@@ -4,6 +4,7 @@
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
 #include "ui/settings/settings_file.h"
+#include "ui/state/file_names.h"
 #include "ui/state/presets.h"
 #include "ui/state/words.h"
 
@@ -183,7 +184,7 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
 
 void draw_reference_settings(Controls& controls, ViewerState& state) {
     const Reference* reference = state.companions.reference.get();
-    std::string file = reference ? reference->name : "";
+    std::string file = reference ? short_path(reference->name) : "";
     if (controls.text(
             "reference", "File", file, "an EXR file",
             "EXR file with the image to measure errors against (7, 8, 9): type its name, or drop it on the "

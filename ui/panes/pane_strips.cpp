@@ -153,14 +153,15 @@ std::string reconstruction_text(const Snapshot& snapshot) {
     return text;
 }
 
-/// "   relMSE 0.0123": of the newest picture that was measured; empty: none was, or there is no reference.
+/// "   relMSE 0.0123": of the newest picture that was measured; without a reference "   samples' relMSE ~0.0123",
+/// as it is estimated; empty: there is none yet.
 std::string error_text(const ViewerState& state, const PaneState& pane) {
     const PaneChart& chart = state.chart_of(pane);
-    if (!state.companions.reference || chart.curves.empty() || chart.generation != pane.generation)
+    if (chart.curves.empty() || chart.generation != pane.generation ||
+        chart.reference != state.companions.reference)
         return "";
-    char text[32];
-    std::snprintf(text, sizeof text, "   relMSE %.3g", chart.curves.back().points().back().error);
-    return text;
+    return fmt::format("   {}{:.3g}", chart.reference ? "relMSE " : "samples' relMSE ~",
+                       chart.curves.back().points().back().error);
 }
 
 /// "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a share before the first step.

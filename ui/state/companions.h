@@ -90,7 +90,7 @@ std::string caveat_of(const Reference& reference);
 std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves,
                                                 std::optional<SceneChecksums> scene = {});
 
-/// How far a picture was from the reference after so much work.
+/// How far a picture was from the reference, or by an estimate samples from the truth, after so much work.
 struct ErrorPoint {
     int spp = 0;                                                      ///< samples a pixel
     double seconds = 0;                                               ///< wall time of the pane's passes

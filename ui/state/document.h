@@ -71,8 +71,10 @@ bool is_in_long_first_pass(const PaneState& pane);
 struct PaneChart {
     /// Those that have points, in the order of their newest ones.
     std::vector<ErrorCurve> curves;
-    std::uint64_t generation = 0;               ///< of the request whose errors the curves are
-    std::shared_ptr<const Reference> reference; ///< that these errors are measured against
+    std::uint64_t generation = 0; ///< of the request whose errors the curves are
+    /// That these errors are measured against; null: they are estimates of the samples'
+    /// (recon/metrics/sample_error.h).
+    std::shared_ptr<const Reference> reference;
     std::uint64_t shift_generation = 0;         ///< of the request whose shifts these are
     PassHistory<ShiftPoint> shifts;             ///< without points where the method makes none
     std::uint64_t histogram_generation = 0;     ///< of the request whose histogram it is

@@ -112,4 +112,10 @@ std::string common_beginning(const std::vector<FileEntry>& entries) {
     return entries.size() == 1 && entries.front().is_folder ? common + "/" : common;
 }
 
+std::string short_path(const std::string& file) {
+    std::error_code gone; // the current folder
+    const fs::path path = fs::path(file).lexically_relative(fs::current_path(gone));
+    return gone || path.empty() || *path.begin() == ".." ? file : path.string();
+}
+
 } // namespace tessera

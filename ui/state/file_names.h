@@ -43,6 +43,9 @@ TypedPath typed_path(const std::string& text);
 /// The path that was typed: a name in a folder.
 std::filesystem::path typed_file(const std::string& text);
 
+/// A file as it is called from the current folder, if it lies in that or below; else as it is given.
+std::string short_path(const std::string& file);
+
 /// The entries whose names begin so, in either case; hidden ones only where the beginning has their dot.
 std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning);
 

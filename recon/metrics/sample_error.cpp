@@ -1,0 +1,72 @@
+#include "recon/metrics/sample_error.h"
+
+#include "recon/demodulation.h"
+#include "recon/parallel.h"
+#include "recon/square_means.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace tessera {
+
+namespace {
+
+constexpr int radius = 2;
+
+/// Half differences as radiance; 0 where one of both is not finite.
+RgbImage noise_of(const GradientImages& images, const RgbImage& picture) {
+    RgbImage noise = images.halves.primal;
+    for (int y = 0; y < noise.height(); ++y)
+        for (int x = 0; x < noise.width(); ++x) {
+            if (!images.demodulation.empty())
+                noise(x, y) *= known_albedo(images.demodulation, x, y);
+            if (!is_finite(noise(x, y)) || !is_finite(picture(x, y)))
+                noise(x, y) = Rgb(0);
+        }
+    return noise;
+}
+
+/// The means over the squares about all pixels of what a channel has above zero, times `sign`.
+Image<float> means_of(const RgbImage& image, int channel, float sign, Image<float>& rows) {
+    Image<float> means(image.width(), image.height());
+    std::transform(image.begin(), image.end(), means.begin(), [=](const Rgb& c) {
+        return std::isfinite(c[channel]) ? std::max(sign * c[channel], 0.0f) : 0.0f;
+    });
+    take_wide_means(means, radius, rows, serial_for);
+    return means;
+}
+
+} // namespace
+
+std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images, int samples,
+                                                    const RgbImage& picture) {
+    constexpr double most_unknown = 0.2;
+    const int width = picture.width(), height = picture.height();
+    if (images.halves.empty() || picture.empty() || images.halves.primal.width() != width ||
+        images.halves.primal.height() != height)
+        return std::nullopt;
+    const RgbImage noise = noise_of(images, picture);
+    // The weights of the halves sum to zero, which with an odd number of samples leaves a little of the noise out.
+    const double n = samples, scale = samples % 2 == 1 ? n * n / (n * n - 1) : 1;
+    Image<double> errors(width, height);
+    Image<float> rows(width, height);
+    double unknown = 0;
+    for (int c = 0; c < 3; ++c) {
+        const Image<float> brightness = means_of(picture, c, 1, rows);
+        const Image<float> above = means_of(noise, c, 1, rows), below = means_of(noise, c, -1, rows);
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const auto mean = static_cast<double>(brightness.data()[i]);
+            const auto h = static_cast<double>(noise.data()[i][c]);
+            const auto of_mean = static_cast<double>(above.data()[i] - below.data()[i]);
+            const double square = mean * mean + relative_mse_epsilon;
+            errors.data()[i] += scale * h * h / square / 3;
+            unknown += std::min(of_mean * of_mean / square, 1.0) / 3;
+        }
+    }
+    if (unknown > most_unknown * static_cast<double>(errors.size()))
+        return std::nullopt;
+    return mean_of_pieces(errors);
+}
+
+} // namespace tessera

@@ -1,0 +1,82 @@
+// sample_error_bench SCENE.xml [SAMPLES]: what the samples' own variance says of their relMSE (sample_error.h),
+// over what it is against a reference of two halves with so many samples each, by G-PR; 320x180 pixels, depth 8.
+
+#include "recon/metrics/metrics.h"
+#include "recon/metrics/sample_error.h"
+#include "recon/reconstruct.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/run/render.h"
+#include "render/scene/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iterator>
+#include <memory>
+
+namespace {
+
+using namespace tessera;
+
+Render render_of(const std::shared_ptr<const Scene>& scene, Method method, unsigned seed) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.max_depth = 8;
+    settings.seed = seed;
+    return {scene, scene->camera(), {320, 180}, settings};
+}
+
+/// Without emission that the camera sees.
+RgbImage picture(GradientImages images, Norm norm, Spikes spikes, ThreadPool& pool) {
+    images.very_direct = {};
+    ReconstructionSettings settings;
+    settings.norm = norm;
+    settings.spikes = spikes;
+    return reconstruct(images, settings, pool.loops()).image;
+}
+
+void measure(const std::shared_ptr<const Scene>& scene, int samples) {
+    ThreadPool pool(0);
+    std::array<RgbImage, 2> truth;
+    for (unsigned half = 0; half < 2; ++half) {
+        Render render = render_of(scene, Method::gpr, 100 + half);
+        for (int i = 0; i < samples; ++i)
+            render.pass(pool);
+        truth[half] = picture(render.images(), Norm::l2, Spikes::off, pool);
+    }
+    for (const Method method : {Method::pt, Method::pr, Method::gpt, Method::gpr}) {
+        Render render = render_of(scene, method, 1);
+        for (int spp = 1; spp <= 32; ++spp) {
+            render.pass(pool);
+            constexpr int told[] = {2, 4, 12, 32};
+            if (std::find(std::begin(told), std::end(told), spp) == std::end(told))
+                continue;
+            const GradientImages images = render.images();
+            const RgbImage primal = picture(images, Norm::none, Spikes::off, pool);
+            const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
+            const auto estimate =
+                estimate_sample_error(images, spp, picture(images, Norm::guided, Spikes::consistent, pool));
+            std::printf("%-3s %2d spp  relMSE %.4g", short_name(method).data(), spp, error);
+            if (estimate)
+                std::printf("  estimate %.4g +- %.2g  ratio %.2f\n", estimate->relative_mse,
+                            estimate->standard_error, estimate->relative_mse / error);
+            else
+                std::printf("  no estimate\n");
+        }
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2)
+        return std::fputs("sample_error_bench SCENE.xml [SAMPLES]\n", stderr), EXIT_FAILURE;
+    try {
+        measure(std::make_shared<const Scene>(load_mitsuba_xml(argv[1]).description),
+                argc > 2 ? std::atoi(argv[2]) : 64);
+    } catch (const std::exception& error) {
+        return std::fprintf(stderr, "sample_error_bench: %s\n", error.what()), EXIT_FAILURE;
+    }
+}

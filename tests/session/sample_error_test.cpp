@@ -1,0 +1,90 @@
+// What the samples' own variance says of their error, held against the truth.
+
+#include "recon/metrics/metrics.h"
+#include "recon/metrics/sample_error.h"
+#include "recon/reconstruct.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/run/render.h"
+#include "render/scene/scene.h"
+
+#include <memory>
+
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+namespace {
+
+constexpr glm::ivec2 size(64, 48);
+
+Render render_of(const std::shared_ptr<const Scene>& scene, Method method, unsigned seed) {
+    RenderSettings settings;
+    settings.method = method;
+    settings.max_depth = 6;
+    settings.seed = seed;
+    return {scene, scene->camera(), size, settings};
+}
+
+/// Without emission that the camera sees, whose edges are not in the estimate.
+RgbImage picture(GradientImages images, Norm norm, Spikes spikes) {
+    images.very_direct = {};
+    ReconstructionSettings settings;
+    settings.norm = norm;
+    settings.spikes = spikes;
+    return reconstruct(images, settings).image;
+}
+
+TEST(SampleError, IsTheTrueErrorOfThePrimal) {
+    const auto scene =
+        std::make_shared<const Scene>(load_mitsuba_xml(TESSERA_SOURCE_DIR "/assets/cornell-box.xml").description);
+    ThreadPool pool(2);
+    RgbImage truth[2];
+    for (unsigned half = 0; half < 2; ++half) {
+        Render render = render_of(scene, Method::gpr, 100 + half);
+        for (int i = 0; i < 200; ++i)
+            render.pass(pool);
+        truth[half] = picture(render.images(), Norm::l2, Spikes::off);
+    }
+    for (const Method method : {Method::pt, Method::gpr}) {
+        Render render = render_of(scene, method, 1);
+        EXPECT_FALSE(estimate_sample_error(render.images(), 0, RgbImage(size.x, size.y)));
+        for (int spp = 1; spp <= 64; ++spp) {
+            render.pass(pool);
+            const GradientImages images = render.images();
+            const auto estimate =
+                estimate_sample_error(images, spp, picture(images, Norm::guided, Spikes::consistent));
+            EXPECT_TRUE(estimate || spp == 1);      // which makes no two halves
+            if (spp != 5 && spp != 16 && spp != 64) // five: one more of one half than of the other
+                continue;
+            const RgbImage primal = picture(images, Norm::none, Spikes::off);
+            const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
+            ASSERT_TRUE(estimate) << spp;
+            // Where pixels share, whole tiles err alike: there are fewer errors to take the mean of.
+            EXPECT_NEAR(estimate->relative_mse / error, 1, method == Method::pt ? 0.2 : 0.35)
+                << spp << " " << short_name(method);
+        }
+    }
+}
+
+// One sample in a hundred pixels has found light: where it is dark, nobody knows how dark.
+TEST(SampleError, IsNotKnownWhereBrightnessIsNot) {
+    GradientImages images;
+    images.primal = images.halves.primal = RgbImage(40, 40, Rgb(0));
+    for (int y = 0; y < 40; y += 20)
+        for (int x = 0; x < 40; x += 20)
+            images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
+    EXPECT_TRUE(estimate_sample_error(images, 2, images.primal)); // most is black: known by all that is seen
+    for (int y = 0; y < 40; y += 3)
+        for (int x = 0; x < 40; x += 3)
+            images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
+    EXPECT_FALSE(estimate_sample_error(images, 2, images.primal));
+    images.halves.primal = RgbImage(40, 40, Rgb(0.5f));
+    images.primal = RgbImage(40, 40, Rgb(2));
+    ASSERT_TRUE(estimate_sample_error(images, 2, images.primal));
+    EXPECT_NEAR(estimate_sample_error(images, 2, images.primal)->relative_mse, 0.0625, 1e-3);
+    EXPECT_NEAR(estimate_sample_error(images, 3, images.primal)->relative_mse, 0.0625 * 9 / 8, 1e-3);
+    EXPECT_FALSE(estimate_sample_error(images, 2, RgbImage(20, 20))); // of another view
+}
+
+} // namespace
+} // namespace tessera::test
