@@ -1,6 +1,7 @@
 // Files that promise more than there is memory for: they are refused with the figures, before any is taken.
 
 #include "render/io/available_memory.h"
+#include "render/load/plugins.h"
 #include "render/mesh/meshes.h"
 #include "tests/load/serialized_bytes.h"
 #include "tests/load/temporary_folder.h"
@@ -74,6 +75,18 @@ TEST_F(HugeFile, Obj) {
         text += "v 0 0 0\n";
     const std::filesystem::path file = folder.write("huge.obj", text + "f 1 2 3\n");
     EXPECT_EQ(refusal([&] { read_obj(file); }).find("its 1000000 vertices and 1 triangles need "), 0u);
+}
+
+TEST_F(HugeFile, Texture) {
+    std::string tga(18 + 1'000'000, '\0');
+    tga[2] = 10;                                // true colour, in runs
+    tga[12] = tga[14] = static_cast<char>(160); // 4000 x 4000
+    tga[13] = tga[15] = 15;
+    tga[16] = 24;
+    EXPECT_EQ(refusal([&] {
+                  parse_bitmap(tga, ".tga", true, [] { return true; });
+              }).find("its pixels need 92 MiB of memory, and "),
+              0u);
 }
 
 } // namespace

@@ -60,6 +60,7 @@ expect_end "ctrl+q" 0
 
 "$tessera" view --screenshot "$work/own.png" --spp 4 || fail "no screenshot"
 more_than "$(brightness "$work/own.png")" 0.05 || fail "the screenshot is black"
+timeout 120 "$tessera" view --screenshot "$work/usual.png" --size 64x48 || fail "without --spp a screenshot has no end"
 env -u DISPLAY "$tessera" view --screenshot "$work/none.png" --spp 2 || fail "no screenshot without a display"
 more_than "$(brightness "$work/none.png")" 0.05 || fail "the screenshot without a display is black"
 keep "$work/own.png"
