@@ -138,8 +138,11 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     wait_until([&] { return state().charts[1].curves.back().reconstruction.norm == Norm::guided; });
     EXPECT_EQ(errors(1).size(), weighted + 1);
 
-    // Until another method's pictures have been measured, the points are still the old one's.
+    // Until another method's pictures have been measured, the points are still the old one's, and so is the
+    // colour.
+    const ImU32 colour = line_colours(state()).back();
     state().panes[1].settings.render.method = Method::pr;
+    EXPECT_EQ(line_colours(state()).back(), colour);
     EXPECT_EQ(chart_csv(state()).find("2,pr,"), std::string::npos);
     EXPECT_EQ(viewer_chart(state()).plots.at(0).series.back().label.rfind("2  G-PR, guided", 0), 0u);
 }

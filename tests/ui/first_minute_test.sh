@@ -30,6 +30,12 @@ picture_in() {
 shows() { more_than "$(brightness "$work/$1.png" "$(part_of "$2")")" 0.03 || fail "$2 is black: $1"; }
 changed() { more_than "$(distance "$1" "$2" "$(part_of "$3")")" 0.002 || fail "$3 looks the same: $1, $2"; }
 
+# A panel that came up since the step began takes no samples from the panes, however few there are.
+restarts_nothing() {
+    tail -n "+$from" "$log" | grep -E '^pane [0-9] generation ' && fail "$1 restarted the panes"
+    return 0
+}
+
 # $1: what the pictures are called; $2: options and scene.
 minute() {
     local name=$1
@@ -78,6 +84,7 @@ minute() {
     done_with "a pixel clicked, its paths drawn"
     look "$name-inspector"
     changed "$name-four" "$name-inspector" pane3.picture
+    restarts_nothing "the inspector"
     xdotool key Escape
 
     begin
@@ -86,6 +93,7 @@ minute() {
     wait_for '^control charts' "$from"
     done_with "charts"
     look "$name-charts"
+    restarts_nothing "charts"
 
     begin
     xdotool key shift+g
@@ -95,8 +103,6 @@ minute() {
     look "$name-norms"
     shows "$name-norms" pane3.picture
 
-    sleep 1
-    picture_in 3 # the panes may have begun anew in another size
     begin
     xdotool key ctrl+shift+s
     wait_for '^messages ' "$from"

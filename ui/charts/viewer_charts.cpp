@@ -139,20 +139,15 @@ ImU32 readable(ImU32 colour, Theme theme) {
     return ImGui::ColorConvertFloat4ToU32({c.x * share, c.y * share, c.z * share, c.w});
 }
 
-/// Panes with one method are told apart by their brightness.
-ImU32 pane_colour(const ViewerState& state, std::size_t pane) {
-    const Method method = method_of(state, pane);
+/// That of the method that made a line's pictures. Panes with one method are told apart by its brightness; the
+/// newest of a pane's lines has it in full, older ones are fainter.
+ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
+    const Method method = settings_of(state, line).render.method;
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(state.layout.theme == Theme::light ? method_ink(method)
                                                                                  : method_colour(method));
-    for (std::size_t i = 0; i < pane; ++i)
+    for (std::size_t i = 0; i < line.pane; ++i)
         if (method_of(state, i) == method)
             c.w *= 0.6f;
-    return ImGui::ColorConvertFloat4ToU32(c);
-}
-
-/// The newest of a pane's lines has its colour, older ones a fainter one.
-ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
-    ImVec4 c = ImGui::ColorConvertU32ToFloat4(pane_colour(state, line.pane));
     c.w *= 1 / (1 + 0.8f * static_cast<float>(line.age));
     return ImGui::ColorConvertFloat4ToU32(c);
 }

@@ -27,6 +27,14 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
     return source == s->reconstruction ? source : nullptr;
 }
 
+/// Whether the newest estimate has nearly as many samples: another one would tell nothing new, and takes time from
+/// the render.
+bool is_close(const PaneChart& chart, const Snapshot* s) {
+    constexpr double least_step = 1.04;
+    return s && chart.generation == s->generation && !chart.reference && !chart.curves.empty() &&
+           s->spp < least_step * chart.curves.back().points().back().spp;
+}
+
 } // namespace
 
 void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
@@ -44,7 +52,9 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
             if (!job.running())
                 job.cancel(); // asked again, it is to be measured again
         }
-        if (!job.running())
+        const bool is_told =
+            !wants_histograms && !state.companions.reference && is_close(chart, pane.snapshot.get());
+        if (!job.running() && !is_told)
             ask(job, pane, state.companions.reference, wants_histograms, wake);
         state.histograms_due |= wants_histograms && job.running() && !chart.histogram;
     }

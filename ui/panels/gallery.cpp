@@ -127,12 +127,9 @@ void Gallery::take_entries(ViewerState& state, const Sources& sources) {
 
 void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& state, const Sources& sources) {
     take_entries(state, sources);
-    const float font = ImGui::GetFontSize(), margin = std::floor(font);
-    ImGui::SetNextWindowPos({where.min.x + margin, where.min.y + margin});
-    ImGui::SetNextWindowSize(
-        {std::max(where.size().x - 2 * margin, font), std::max(where.size().y - 2 * margin, font)});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
+    ImGui::SetNextWindowPos(
+        {where.min.x, where.min.y}); // in full: parts of pictures beside it would be in the way
+    ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Gallery", nullptr, overlay_flags)) {
         heading("Scenes");
         if (controls.button("gallery.open", "Open a scene ...", "Chooses a Mitsuba scene, an .xml file (Ctrl+O)."))
@@ -151,8 +148,6 @@ void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& sta
         ImGui::EndChild();
     }
     ImGui::End();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
 }
 
 } // namespace tessera
