@@ -134,6 +134,17 @@ TEST_F(BenchCommand, GoesOnAfterAKill) {
     EXPECT_TRUE(fs::exists(folder() / "out/images/box-pt.exr"));
 }
 
+TEST_F(BenchCommand, ReferencesHaveAFolderWhereNoneIsSaid) {
+    for (const char* command : {"bench", "sweep"}) {
+        const Outcome o = run(folder(), std::string(command) +
+                                            " box.xml --methods pt --seeds 1 --size 32x18 --spp 4 "
+                                            "--reference-spp 16 --threads 1 -o " +
+                                            command);
+        EXPECT_EQ(o.exit_code, 0) << o.output;
+        EXPECT_TRUE(fs::exists(folder() / "references/box-32x18-d8.exr")) << o.output;
+    }
+}
+
 TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
     const std::string bench = "bench box.xml --methods pt --seeds 1" + small_;
     ASSERT_EQ(run(folder(), bench).exit_code, 0);

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 namespace tessera::test {
 namespace {
@@ -108,6 +109,8 @@ TEST(Modes, AreToldInThePanesAndLeaveTheMessagesTheirPlace) {
     h.frames(2);
     EXPECT_TRUE(h.has("pane0.mode"));
     EXPECT_TRUE(h.has("pane1.mode"));
+    h.move_to(h.place("pane0.picture").center());
+    EXPECT_EQ(ImGui::GetMouseCursor(), ImGuiMouseCursor_Hand); // a click chooses, and moves no camera
     h.state().add_message(Message::Kind::error, "something went wrong");
     h.frames(3);
     h.save("mode-and-messages.png");
@@ -115,7 +118,9 @@ TEST(Modes, AreToldInThePanesAndLeaveTheMessagesTheirPlace) {
     EXPECT_TRUE(h.has("inspector.direction")) << "the inspector's panel is hidden";
     EXPECT_LT(h.place("clear_messages").max.y, h.place("inspector.direction").min.y);
     h.type(Key::escape);
+    h.frames(2);
     EXPECT_FALSE(h.state().inspector.active);
+    EXPECT_EQ(ImGui::GetMouseCursor(), ImGuiMouseCursor_Arrow);
     EXPECT_FALSE(h.has("pane0.mode"));
 }
 
