@@ -45,6 +45,34 @@ Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometri
     return {normal, by_u};
 }
 
+/// The unit normal of shading before relief; and the triangle's, turned to its front.
+glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& geometric_normal) {
+    geometric_normal = hit.geometric_normal;
+    if (!shape.normals)
+        return geometric_normal;
+    const glm::uvec3 t = shape.triangles[hit.triangle];
+    const glm::vec3 n0 = shape.normals[t.x], n1 = shape.normals[t.y], n2 = shape.normals[t.z];
+    const glm::vec3 sum = n0 + n1 + n2;
+    const float side =
+        hit.placement ? hit.placement->side(sum, geometric_normal) : glm::dot(sum, geometric_normal);
+    if (side < 0)
+        geometric_normal = -geometric_normal; // as front_normal() has it
+    glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
+    if (hit.placement)
+        n = hit.placement->of_normals * n;
+    const float length = glm::length(n);
+    return length > 0 ? n * (1 / length) : geometric_normal;
+}
+
+/// -1: a two-sided material is seen from its back.
+float side_shown(const ShapeRecord& shape, glm::vec3 normal, glm::vec3 direction) {
+    return shape.material->two_sided && glm::dot(normal, direction) > 0 ? -1.0f : 1.0f;
+}
+
+Frame shading_frame(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
+    return shape.has_frame_along_u ? frame_along_u(shape, hit, geometric_normal, normal) : Frame(normal);
+}
+
 /// The unit normal that relief makes of `normal`, on the same side.
 glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
     glm::vec3 bent;
@@ -71,15 +99,19 @@ float terminator_of(const Relief& relief, float cosine) {
     return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
 }
 
-/// Sets the sides of what a beam covers on the triangle: one that lies across it, and one that is the longer, the
-/// more it grazes the surface.
-void set_footprint(const TextureView::Beam& beam, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v,
-                   SurfacePoint::Footprint& footprint) {
+/// What a beam covers on a surface: one side lies across it, and one is the longer, the more it grazes.
+TextureView::Sides sides_of(const TextureView::Beam& beam, glm::vec3 normal) {
     constexpr float least_cosine = 1e-3f;
     const float cosine = glm::dot(beam.direction, normal);
     const glm::vec3 tilt = beam.direction - cosine * normal;
     const float sine = glm::length(tilt);
     const glm::vec3 along = sine > 1e-4f ? tilt / sine : Frame(normal).tangent;
+    const float width = TextureView::share_of_pixel * beam.width;
+    return {along * (width / std::max(std::abs(cosine), least_cosine)), glm::cross(normal, along) * width};
+}
+
+void set_footprint(const TextureView::Sides& sides, glm::vec3 by_u, glm::vec3 by_v,
+                   SurfacePoint::Footprint& footprint) {
     const float uu = glm::dot(by_u, by_u), uv = glm::dot(by_u, by_v), vv = glm::dot(by_v, by_v);
     const float determinant = uu * vv - uv * uv;
     const auto in_uv = [&](glm::vec3 side) {
@@ -88,9 +120,8 @@ void set_footprint(const TextureView::Beam& beam, glm::vec3 normal, glm::vec3 by
     };
     if (!(determinant > 0))
         return;
-    const float width = TextureView::share_of_pixel * beam.width;
-    footprint.along = in_uv(along * (width / std::max(std::abs(cosine), least_cosine)));
-    footprint.across = in_uv(glm::cross(normal, along) * width);
+    footprint.along = in_uv(sides.a);
+    footprint.across = in_uv(sides.b);
 }
 
 } // namespace
@@ -100,21 +131,21 @@ LightPoint Vertex::light_toward(glm::vec3 direction) const {
     return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
 }
 
-std::optional<BsdfSample> Vertex::sample_guided(float lobe, glm::vec2 u) const {
+std::optional<BsdfSample> Vertex::sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
     constexpr float share = PathGuiding::share;
     if (lobe >= share) {
-        auto s = bsdf.sample(to_previous, (lobe - share) / (1 - share), u);
+        auto s = bsdf.sample(to_viewer, (lobe - share) / (1 - share), u);
         if (s)
             s->pdf_w = s->is_delta ? (1 - share) * s->pdf_w : guided_pdf_w(s->pdf_w, to_world(s->to_next));
         return s;
     }
     const DirectionMap::Sample drawn = guide->sample(lobe / share, u);
     const glm::vec3 to_next = to_local(drawn.direction);
-    const BsdfValue v = bsdf.evaluate(to_previous, to_next);
+    const BsdfValue v = bsdf.evaluate(to_viewer, to_next);
     if (is_black(v.f_cos))
         return {};
     const float pdf_w = (1 - share) * v.pdf_w + share * drawn.pdf_w;
-    const bool transmits = to_next.z * to_previous.z < 0;
+    const bool transmits = to_next.z * to_viewer.z < 0;
     return std::make_optional<BsdfSample>(to_next, v.f_cos, pdf_w, false,
                                           transmits ? Scatter::transmit : Scatter::reflect);
 }
@@ -158,22 +189,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
             v.position = hit.placement->point(v.position);
     }
     v.guide = nullptr;
-    v.geometric_normal = hit.geometric_normal;
-    glm::vec3 normal = v.geometric_normal;
-    if (shape.normals) {
-        const glm::uvec3 t = shape.triangles[hit.triangle];
-        const glm::vec3 n0 = shape.normals[t.x], n1 = shape.normals[t.y], n2 = shape.normals[t.z];
-        const glm::vec3 sum = n0 + n1 + n2;
-        const float side =
-            hit.placement ? hit.placement->side(sum, v.geometric_normal) : glm::dot(sum, v.geometric_normal);
-        if (side < 0)
-            v.geometric_normal = -v.geometric_normal; // as front_normal() has it
-        glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
-        if (hit.placement)
-            n = hit.placement->of_normals * n;
-        const float length = glm::length(n);
-        normal = length > 0 ? n * (1 / length) : v.geometric_normal;
-    }
+    const glm::vec3 normal = shading_normal(shape, hit, v.geometric_normal);
     SurfacePoint at(hit.barycentric);
     if (shape.uvs) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
@@ -184,9 +200,12 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         at.on_mesh = {hit.triangle, hit.barycentric};
     } else if (glm::vec3 by_u, by_v; view && shape.uvs && position_derivatives(shape, hit, by_u, by_v)) {
         const bool is_own = width >= 0;
-        set_footprint(is_own ? TextureView::Beam{ray.direction, width + view->angle() * hit.distance}
-                             : view->from_camera(v.position),
-                      v.geometric_normal, by_u, by_v, at.footprint);
+        const auto beam = [&] {
+            return is_own ? TextureView::Beam{ray.direction, width + view->angle() * hit.distance}
+                          : view->from_camera(v.position);
+        };
+        set_footprint(view->sides() ? *view->sides() : sides_of(beam(), v.geometric_normal), by_u, by_v,
+                      at.footprint);
     }
     // In its place, as a copy of what was only just written, number by number, has to wait.
     new (&v.bsdf) Bsdf(shape.material->resolve(at));
@@ -199,9 +218,8 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
             v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
         }
     }
-    const float shown = shape.material->two_sided && glm::dot(normal, ray.direction) > 0 ? -1.0f : 1.0f;
-    const Frame frame = shape.has_frame_along_u ? frame_along_u(shape, hit, v.geometric_normal, shown * bent)
-                                                : Frame(shown * bent);
+    const float shown = side_shown(shape, normal, ray.direction);
+    const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
     if (v.bsdf.is_bent())
         v.bsdf.unbent_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
@@ -211,6 +229,13 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
                 : view && width >= 0 ? shape.emission_map->filtered(at)
                                      : shape.emission_map->evaluate(at);
     v.emitter_pdf_a = shape.emitter_pdf_a;
+}
+
+Frame frame_at(const Scene& scene, const Hit& hit, const Ray& ray) {
+    const ShapeRecord& shape = scene.record(hit.shape);
+    glm::vec3 geometric_normal;
+    const glm::vec3 normal = shading_normal(shape, hit, geometric_normal);
+    return shading_frame(shape, hit, geometric_normal, side_shown(shape, normal, ray.direction) * normal);
 }
 
 Look look_along(const Tracer& tracer, Ray ray, const Random& random) {

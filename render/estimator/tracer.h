@@ -11,6 +11,7 @@
 #include "render/surface/bsdf.h"
 
 #include <optional>
+#include <vector>
 
 namespace tessera {
 
@@ -46,8 +47,10 @@ struct Vertex {
         v.probability *= guide ? 1 - PathGuiding::share : 1;
         return v;
     }
-    std::optional<BsdfSample> sample(float lobe, glm::vec2 u) const {
-        return guide ? sample_guided(lobe, u) : bsdf.sample(to_previous, lobe, u);
+    std::optional<BsdfSample> sample(float lobe, glm::vec2 u) const { return sample_from(to_previous, lobe, u); }
+    /// As if it were seen from another direction, unit, in `frame`.
+    std::optional<BsdfSample> sample_from(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
+        return guide ? sample_guided(to_viewer, lobe, u) : bsdf.sample(to_viewer, lobe, u);
     }
     /// Of a direction (unit, world), where there is a guide, by what the BSDF alone has.
     float guided_pdf_w(float bsdf_pdf_w, glm::vec3 direction) const {
@@ -58,7 +61,7 @@ struct Vertex {
     LightPoint light_toward(glm::vec3 direction) const;
 
 private:
-    std::optional<BsdfSample> sample_guided(float lobe, glm::vec2 u) const;
+    std::optional<BsdfSample> sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const;
 };
 
 /// Whoever sees a vertex that many share, and has no width of its own (TextureView).
@@ -70,6 +73,9 @@ inline constexpr float no_width = -1;
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& vertex,
                  const TextureView* view = nullptr, float width = no_width);
 
+/// The frame of shading at a hit on `ray`, before relief.
+Frame frame_at(const Scene& scene, const Hit& hit, const Ray& ray);
+
 /// Shoots the rays of paths and counts them; knows the lights as emitter sampling sees them.
 struct Tracer {
     const Scene& scene;
@@ -77,6 +83,7 @@ struct Tracer {
     PathSettings settings;
     TextureView view{};
     const PathGuiding* guiding = nullptr; ///< null: paths are not guided
+    std::vector<Hit>* hits = nullptr;     ///< vertices' own are added, as they are made; null: nobody asks
 
     /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
     /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
@@ -87,6 +94,13 @@ struct Tracer {
             return false;
         light.pdf *= density_factor();
         return true;
+    }
+
+    /// Of the point that sample_light() draws.
+    LightDerivatives differentiate_light(const Random& random, int index, int sample) const {
+        LightDerivatives d = scene.lights().differentiate(random, index + sample * (most_edges + 1));
+        d.chance *= density_factor();
+        return d;
     }
 
     /// The light of a vertex toward a unit direction (world, away from the surface); black from behind.
@@ -125,6 +139,8 @@ struct Tracer {
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return false;
+        if (hits) [[unlikely]]
+            hits->push_back(hit);
         make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
         if (guiding && vertex.bsdf.roughness() >= PathGuiding::least_roughness)
             vertex.guide = guiding->at(vertex.position, vertex.frame.normal);
@@ -146,6 +162,8 @@ struct Tracer {
         const ShapeRecord& shape = scene.record(hit.shape);
         if (shape.emitter_pdf_a <= 0 && !(or_mirror && shape.material->may_be_mirror()))
             return Met::darkness;
+        if (hits) [[unlikely]]
+            hits->push_back(hit);
         make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
         return Met::light;
     }

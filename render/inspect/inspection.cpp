@@ -71,17 +71,38 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
     return false;
 }
 
-/// Finds what the vertices of the path stand for.
-void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from, const Worker& worker,
-                    std::vector<InspectedVertex>& path) {
-    const PathDifferentials differentials =
-        differentiate(worker.tracer, pass.projection(), glm::vec2(pixel) + from.subpixel, from.lens, worker.path);
-    const DeltaRule rule{std::max(pass.index + 1.0, 1.0), true, DeltaRule::published_change};
-    for (int i = 0; i < static_cast<int>(differentials.vertices.size()); ++i) {
-        InspectedVertex& x = path[static_cast<std::size_t>(i)];
-        x.footprint = footprint(differentials, i, rule);
-        x.footprint_width = std::sqrt(scalar_area(differentials, i, rule));
+/// @param d  of vertex i of the path
+void add_light_footprints(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
+                          InspectedVertex& x) {
+    auto light = x.light_points.begin();
+    for (int sample = 0; sample < worker.path.light_samples(); ++sample) {
+        const LightSample& drawn = worker.path.lights(i)[static_cast<std::size_t>(sample)];
+        if (is_black(drawn.brings) || drawn.light.is_at_infinity())
+            continue;
+        if (drawn.light.kind == LightPoint::Kind::surface)
+            light->footprint = footprint(differentiate_light(worker.tracer, worker.path, i, sample, d), rule);
+        ++light;
     }
+}
+
+/// Finds what the vertices of the path stand for, and its light samples.
+void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from, const Worker& worker,
+                    std::span<const Hit> hits, std::vector<InspectedVertex>& path) {
+    const glm::vec2 at = glm::vec2(pixel) + from.subpixel;
+    const Projection projection = pass.projection();
+    const float samples = std::max(static_cast<float>(pass.index) + 1, 1.0f);
+    const DeltaRule rule{samples, true, DeltaRule::published_change};
+    std::vector<float> widths;
+    scalar_footprints(worker.path, projection.pixel_width(), projection.ray(at, from.lens).origin, samples,
+                      widths);
+    Differentiation along;
+    differentiate(pass.scene, projection, at, from.lens, worker.path, hits, along,
+                  [&](int i, const PathDerivatives& d) {
+                      InspectedVertex& x = path[static_cast<std::size_t>(i)];
+                      x.footprint = footprint(d, rule);
+                      x.footprint_width = widths[static_cast<std::size_t>(i)];
+                      add_light_footprints(worker, i, d, rule, x);
+                  });
 }
 
 } // namespace
@@ -138,14 +159,16 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
     const int paths = std::max(paths_alone, 1) * pass.grid.samples(pass.block_at(pixel));
+    std::vector<Hit> hits;
     for (int number = 0; number < paths; ++number) {
         // Not by trace_pixel(), which empties a path that is to be refused.
         const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.camera_sample(pixel, number));
+        worker.tracer.hits = number == 0 ? &hits : nullptr;
         trace_base_path(worker.tracer, ray, pass.pixel_width(), pass.random(pixel.x, pixel.y, number),
                         worker.path);
         if (number == 0) {
             result.path = inspect_path(worker.path);
-            add_footprints(pass, pixel, from, worker, result.path);
+            add_footprints(pass, pixel, from, worker, hits, result.path);
             result.radiance = worker.path.radiance();
         }
         result.very_direct += worker.path.very_direct / static_cast<float>(paths);
@@ -153,6 +176,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
         result.is_refused =
             result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + worker.path.very_direct);
     }
+    worker.tracer.hits = nullptr;
     for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
         if (inner.contains(pixel) && worker.set.contains(pixel))
             result.sets.push_back(inspect_set(pass, inner, pixel, worker));

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "render/film/counters.h"
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/shift_onlooker.h"
+#include "render/film/counters.h"
 #include "render/inspect/path_differentials.h"
 #include "render/settings/settings.h"
 
@@ -26,6 +26,12 @@ struct SeenVertex {
     float roughness;       ///< alpha of the roughest part that is no delta; 0: there is none
 };
 
+/// A light sample that brings light, on a surface or a point.
+struct InspectedLight {
+    glm::vec3 position;
+    Footprint footprint{}; ///< as InspectedVertex has it
+};
+
 /// A vertex of a base path as one looks at it. Densities as in BaseVertex; radiances are toward the vertex before.
 struct InspectedVertex : SeenVertex {
     bool goes_on;      ///< there is a next vertex, or the environment; the next four are meaningless otherwise
@@ -33,11 +39,11 @@ struct InspectedVertex : SeenVertex {
     glm::vec3 to_next; ///< unit, world
     bool is_delta;
     float pdf_w;
-    Rgb throughput;                      ///< of the path through this vertex: product of f cos / (pdf survival)
-    float survival;                      ///< probability of the roulette on path length
-    Rgb sampled;                         ///< direct light by emitter sampling, with its MIS weight
-    Rgb hit;                             ///< direct light by BSDF sampling, with its MIS weight
-    std::vector<glm::vec3> light_points; ///< on surfaces, those that bring light
+    Rgb throughput; ///< of the path through this vertex: product of f cos / (pdf survival)
+    float survival; ///< probability of the roulette on path length
+    Rgb sampled;    ///< direct light by emitter sampling, with its MIS weight
+    Rgb hit;        ///< direct light by BSDF sampling, with its MIS weight
+    std::vector<InspectedLight> light_points;
     /// What the path stands for there, as one of the samples so far; a point: not known, or none of this pixel's
     /// own.
     Footprint footprint{};

@@ -28,7 +28,7 @@ InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
     for (const LightSample& light : path.lights(i)) {
         v.sampled += light.brings;
         if (!is_black(light.brings) && !light.light.is_at_infinity())
-            v.light_points.push_back(light.light.position);
+            v.light_points.push_back({light.light.position});
     }
     if (v.goes_on) {
         v.to_next = x.vertex.to_world(x.to_next);

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "render/estimator/base_path.h"
+#include "render/inspect/differentiation.h"
 #include "render/scene/camera.h"
 
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -9,48 +13,47 @@
 
 namespace tessera {
 
-struct BasePath;
-struct Tracer;
+/// At vertex i of a path that goes on from there.
+Scattering scattering_of(const BasePath& path, int i);
 
-/// The neighbourhood of a base path, without tracing any other: partial derivatives of its vertices by all random
-/// numbers that it was made of [Suykens 2001]. Each is uniform in [0, 1]: the first two say where in its pixel a
-/// path begins, and two more at every vertex in which direction it goes on by a lobe; delta scatters draw none.
-struct PathDifferentials {
-    struct Vertex {
-        glm::vec3 normal; ///< geometric, unit: derivatives lie in that plane
-        /// By the numbers drawn up to here: units of the scene. Those drawn later do not move it.
-        std::vector<glm::vec3> position;
-        /// Relative derivatives of what the vertices before it do to light, f cos along the path, by the same
-        /// numbers [Suykens 2001, 4.2]; by the luminance.
-        std::vector<float> gradient;
-        double survival; ///< probability that roulette on path length let the path come here
+/// The neighbourhood of a base path, without tracing any other [Suykens 2001]: calls visit(i, derivatives) for its
+/// vertices, 0 the first. Of a path through a point of the picture and of the lens. Where lobes are chosen by
+/// chance, and alpha and opacity are looked up in textures, choices stay as they are.
+/// @param hits   what the path's rays met (Tracer::hits)
+/// @param along  is used
+template <class Visit>
+void differentiate(const Scene& scene, const Projection& projection, glm::vec2 pixel, glm::vec2 lens,
+                   const BasePath& path, std::span<const Hit> hits, Differentiation& along, Visit&& visit) {
+    along.start(projection, pixel, lens);
+    Ray ray = projection.ray(pixel, lens);
+    for (int i = 0; i < path.size(); ++i) {
+        const Vertex& x = path[i].vertex;
+        const Hit& hit = hits[static_cast<std::size_t>(i)];
+        along.arrive(ray, hit.distance, x.geometric_normal);
+        visit(i, along.derivatives());
+        if (i + 1 == path.size())
+            break;
+        along.scatter(scene, ray, hit, x, scattering_of(path, i));
+        const glm::vec3 direction = x.to_world(path[i].to_next);
+        ray = {scene.intersector().off_surface(x.position, x.geometric_normal, direction), direction};
+    }
+}
 
-        // For the scalar form.
-        float distance;      ///< from the vertex before, or the camera
-        float cosine;        ///< to the normal, absolute
-        float cosine_before; ///< of the same way to the normal of the vertex before; 1: there is none
-        float kept_angle; ///< share of the angle before that a scatter keeps: 1 of a mirror's, none of a diffuse
-                          ///< one's
-        float scatter_angle; ///< root of 1 / pdf_w with which it was sent here, radians; 0: the camera, or a delta
-    };
-    std::vector<Vertex> vertices;
-    PixelWidth pixel;
-};
-
-/// Of a path through a point of the picture and of the lens. Where lobes are chosen by chance, and alpha and
-/// opacity are looked up in textures, choices stay as they are. A path whose ray comes to another end when it is
-/// traced again is followed as far as it does not.
-PathDifferentials differentiate(const Tracer& tracer, const Projection& projection, glm::vec2 pixel,
-                                glm::vec2 lens, const BasePath& path);
+/// How light sample `sample` of vertex i of a path, which lies on a surface and brings light, moves: by its own
+/// two numbers, as those before do not move it. The gradient is of f cos at the vertex, and of cosine and squared
+/// distance at the light.
+PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i, int sample,
+                                    const PathDerivatives& vertex);
 
 /// How large a part of [0, 1] one path stands for in each of its numbers [Suykens 2001, 3.4 and 4.3].
 struct DeltaRule {
-    double samples = 1; ///< a pixel
-    /// All samples are evenly spread over all numbers: (samples * survival) ^ (-1 / numbers) for each. Otherwise
-    /// 1 / sqrt(samples) for the pixel, and 1 for each scatter, as no path splits.
+    float samples = 1; ///< a pixel
+    /// All samples are evenly spread over all numbers: (samples * chance) ^ (-1 / numbers) for each. Otherwise
+    /// 1 / sqrt(samples) for the pixel, and for each scatter 1 / sqrt(splits), more after choices of less chance.
     bool is_global = true;
     /// FR_max: a path's light may change by this share at the most within it; 0: it may by any.
     float most_change = 0;
+    float splits = 1; ///< ways that each scatter goes on in; not for global ones
     static constexpr float published_change = 0.7f;
 };
 
@@ -61,20 +64,59 @@ struct Footprint {
     float area() const;
 };
 
-/// How far vertex i, counted from 0, goes within the part of each number that the path stands for: units of the
-/// scene.
-std::vector<glm::vec3> differential_vectors(const PathDifferentials& path, int i, const DeltaRule& rule);
+/// How far the point goes within the part of each number that the path stands for: units of the scene.
+NumberVectors differential_vectors(const PathDerivatives& point, const DeltaRule& rule);
 
-/// Of vertex i.
-Footprint footprint(const PathDifferentials& path, int i, const DeltaRule& rule);
+/// Of the point.
+Footprint footprint(const PathDerivatives& point, const DeltaRule& rule);
 
 /// The Minkowski sum of segments, the sides of a polygon: reduced to two vectors [Suykens 2001, 3.5].
-Footprint reduce(const std::vector<glm::vec3>& segments, glm::vec3 normal);
+Footprint reduce(const NumberVectors& segments, int count, glm::vec3 normal);
 /// The area of that polygon.
-float area_of_sum(const std::vector<glm::vec3>& segments, glm::vec3 normal);
+float area_of_sum(const NumberVectors& segments, int count, glm::vec3 normal);
 
-/// The same area by two numbers a vertex, the width of a square and the angle by which it grows: from pixel angle,
-/// distances, cosines and densities alone, for flat surfaces. No gradient.
-float scalar_area(const PathDifferentials& path, int i, const DeltaRule& rule);
+/// About as large a footprint by two floats a vertex, the width of a square and the angle by which it grows: from
+/// pixel angle, distances, cosines and densities alone, for flat surfaces. No gradient; deltas are global.
+class ScalarFootprint {
+public:
+    /// Of a camera ray.
+    explicit ScalarFootprint(PixelWidth pixel) : width_(pixel.least), angle_(pixel.angle) {}
+
+    /// @param cosine  between the ray and the normal where it arrives, absolute
+    void arrive(float distance, float cosine) {
+        // Squares of the same area: across the way from the vertex before, and on the surface.
+        width_ = (width_ * std::sqrt(cosine_) + angle_ * distance) / std::sqrt(cosine);
+    }
+    /// @param cosine     between the next ray and the normal, absolute
+    /// @param roughness  in [0, 1]: the share of the angle so far that is forgotten: none of a mirror's, all of a
+    ///                   diffuse surface's
+    void scatter(float cosine, float roughness, float pdf_w, float survival) {
+        cosine_ = cosine;
+        angle_ = (1 - roughness) * angle_ + std::sqrt(1 / pdf_w);
+        numbers_ += 2;
+        survive(survival);
+    }
+    void scatter_delta(float cosine, float survival) {
+        cosine_ = cosine;
+        survive(survival);
+    }
+
+    /// On the surface, of one of so many samples: units of the scene.
+    /// @param log_samples  to the base 2
+    float width(float log_samples) const { return width_ * std::exp2(-(log_samples + log_chance_) / numbers_); }
+
+private:
+    void survive(float survival) { log_chance_ += survival < 1 ? std::log2(survival) : 0; }
+
+    // As if each number's whole interval were the path's.
+    float width_, angle_;
+    float cosine_ = 1, log_chance_ = 0, numbers_ = 2;
+};
+
+/// Of x_1, x_2, ... of a path: widths, units of the scene.
+/// @param pixel   of the camera ray's picture
+/// @param origin  of that ray
+void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float samples,
+                       std::vector<float>& widths);
 
 } // namespace tessera

@@ -36,11 +36,18 @@ void write_footprints(const Tracer& tracer, const Projection& projection, int x,
     const auto index = static_cast<std::uint32_t>(y * hits.depth.width() + x);
     std::array<std::array<float, paths>, 2> widths{};
     BasePath path;
+    std::vector<Hit> met;
+    Tracer noting = tracer;
+    noting.hits = &met;
+    Differentiation along;
     for (std::uint32_t k = 0; k < paths; ++k) {
-        trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), Random(0, index, k), path);
-        const PathDifferentials d = differentiate(tracer, projection, pixel, glm::vec2(0), path);
-        for (int i = 0; i < std::min(2, static_cast<int>(d.vertices.size())); ++i)
-            widths[static_cast<std::size_t>(i)][k] = std::sqrt(footprint(d, i, {}).area());
+        met.clear();
+        trace_base_path(noting, projection.ray(pixel), projection.pixel_width(), Random(0, index, k), path);
+        differentiate(tracer.scene, projection, pixel, glm::vec2(0), path, met, along,
+                      [&](int i, const PathDerivatives& d) {
+                          if (i < 2)
+                              widths[static_cast<std::size_t>(i)][k] = std::sqrt(footprint(d, {}).area());
+                      });
     }
     for (auto& of_paths : widths)
         std::ranges::nth_element(of_paths, of_paths.begin() + paths / 2);

@@ -205,4 +205,29 @@ EnvironmentSample Environment::sample_map(glm::vec2 u_cell, glm::vec2 u_position
     return {direction, is_on_sun(direction) ? pdf_w + sun_pdf_w() : pdf_w};
 }
 
+EnvironmentDerivatives Environment::differentiate(glm::vec2 u_cell, glm::vec2 u_position) const {
+    // A point at height z and `turns` about the axis: z moves by `rise`, and turns by `turn`.
+    const auto on_sphere = [](float z, float rise, float turns, float turn) {
+        const float sine = std::sqrt(std::max(1 - z * z, 1e-12f));
+        const glm::vec2 sc = sin_cos_of_turns(turns);
+        return std::pair(glm::vec3(-z / sine * rise * sc.y, -z / sine * rise * sc.x, rise),
+                         2 * pi * turn * sine * glm::vec3(-sc.x, sc.y, 0));
+    };
+    if (u_position.x < sun_share_) {
+        const float z = 1 - u_position.x / sun_share_ * sun_chord2_ / 2;
+        const auto [outward, around] = on_sphere(z, -sun_chord2_ / (2 * sun_share_), u_position.y, 1);
+        const Frame frame(description_.sun->direction);
+        return {{frame.to_world(outward), frame.to_world(around)}, 1};
+    }
+    const AliasTable::Choice cell = cells_.choose(u_cell);
+    const Row& row = rows_[cell.index >> column_bits_];
+    const auto column = static_cast<float>(cell.index & ((std::size_t{1} << column_bits_) - 1));
+    const auto columns = static_cast<float>(cell_count_.x);
+    const float z = row.top + u_position.y * (row.bottom - row.top);
+    const float turns = (column + (u_position.x - sun_share_) / (1 - sun_share_)) / columns;
+    const auto [down, around] = on_sphere(z, row.bottom - row.top, turns, 1 / (columns * (1 - sun_share_)));
+    const auto to_world = [&](glm::vec3 v) { return description_.map->to_world * glm::vec3(v.y, v.z, -v.x); };
+    return {{to_world(around), to_world(down)}, cell.probability};
+}
+
 } // namespace tessera

@@ -3,6 +3,7 @@
 #include "recon/image.h"
 #include "render/sampling/sampling.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,6 +57,12 @@ struct EnvironmentSample {
     float pdf_w;
 };
 
+/// How a direction that is drawn turns with the two numbers of its place on the sun, or in a cell.
+struct EnvironmentDerivatives {
+    std::array<glm::vec3, 2> direction;
+    float cell_probability; ///< of the choice among cells; 1: it is on the sun
+};
+
 /// An environment, made ready for look-ups and for sampling by luminance.
 class Environment {
 public:
@@ -73,6 +80,10 @@ public:
     /// A direction chosen with random numbers in [0, 1)^2: a cell of the map and a place in it, or on the sun. Its
     /// density is that of pdf_w(), but for rounding at the edges of cells.
     EnvironmentSample sample(glm::vec2 u_cell, glm::vec2 u_position) const;
+
+    /// Of the direction that sample() chooses with these numbers. The first of both also tells the sun from the
+    /// map, and is used again for the place there.
+    EnvironmentDerivatives differentiate(glm::vec2 u_cell, glm::vec2 u_position) const;
 
     /// Integral of the luminance over all directions; 0: it is black.
     double flux() const { return map_flux_ + sun_flux_; }

@@ -159,4 +159,15 @@ bool LightTable::may_be_hit(const Ray& ray) const {
     return enter <= leave;
 }
 
+LightDerivatives LightTable::differentiate(const Random& random, int vertex) const {
+    const AliasTable::Choice chosen = choice_.choose(random.draw_2d(vertex, Draw::emitter));
+    const glm::vec2 u = random.draw_2d(vertex, Draw::emitter_position);
+    if (const auto* triangle = std::get_if<LightTriangle>(&sources_[chosen.index]))
+        return {triangle->differentiate(u), chosen.probability};
+    if (!std::holds_alternative<Infinite>(sources_[chosen.index]))
+        return {{}, chosen.probability};
+    const EnvironmentDerivatives d = environment_->differentiate(random.draw_2d(vertex, Draw::emitter_cell), u);
+    return {d.direction, chosen.probability * d.cell_probability};
+}
+
 } // namespace tessera

@@ -8,6 +8,7 @@
 #include "render/surface/texture.h"
 #include "render/trace/rays.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -101,6 +102,11 @@ struct LightTriangle {
 
     /// Whether it sends light toward a point, from anywhere on it.
     bool faces(glm::vec3 point) const { return glm::dot(point - corner, normal) > 0; }
+    /// Of the point that sample() takes, by both numbers.
+    std::array<glm::vec3, 2> differentiate(glm::vec2 u) const {
+        const float root = std::sqrt(1 - u.x);
+        return {(edge1 - u.y * edge2) / (2 * root), root * edge2};
+    }
     void sample(glm::vec2 u, LightPoint& point) const {
         const glm::vec2 b = sample_triangle(u);
         point.kind = LightPoint::Kind::surface;
@@ -109,6 +115,15 @@ struct LightTriangle {
         point.radiance = radiance_map ? radiance_map->evaluate(surface_point(*mesh, index, b)) : radiance;
         point.pdf = pdf_a;
     }
+};
+
+/// How a point that emitter sampling draws moves with the two numbers that say where on its light it lies
+/// (Draw::emitter_position), which is all that moves it: those of the choice among lights, and among the cells of
+/// an environment, make steps.
+struct LightDerivatives {
+    std::array<glm::vec3, 2>
+        position{};   ///< of LightPoint::position: at infinity of the direction; 0 0: there is but one
+    float chance = 1; ///< of these choices; the area of both vectors together over that is 1 / LightPoint::pdf
 };
 
 /// The lights of a scene, chosen in proportion to their power and factors on it, by an alias table over all
@@ -143,6 +158,9 @@ public:
             return false;
         return true;
     }
+
+    /// Of the point that sample() chooses with these numbers.
+    LightDerivatives differentiate(const Random& random, int vertex) const;
 
     /// Looks up the radiance that sample() has left out.
     void complete(LightPoint& point) const {

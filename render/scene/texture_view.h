@@ -3,6 +3,8 @@
 #include "render/scene/camera.h"
 #include "render/settings/settings.h"
 
+#include <optional>
+
 #include <glm/geometric.hpp>
 
 namespace tessera {
@@ -29,6 +31,14 @@ public:
         forward_ = middle.direction;
         width_ = projection.pixel_width();
     }
+
+    /// A parallelogram on the one surface that is looked at, whoever looks: a path's own (PathDifferentials).
+    /// World.
+    struct Sides {
+        glm::vec3 a, b;
+    };
+    explicit TextureView(const Sides& sides) : filter_(TextureFilter::path), sides_(sides) {}
+    const std::optional<Sides>& sides() const { return sides_; }
 
     /// How wide a footprint is, of a pixel: the path's share if it is one of sixteen [Suykens 2001, 3.4]. A whole
     /// pixel would be blurred once more by the pixel filter.
@@ -58,6 +68,7 @@ private:
     TextureFilter filter_ = TextureFilter::off;
     glm::vec3 eye_{0}, forward_{0, 0, 1};
     PixelWidth width_;
+    std::optional<Sides> sides_;
     bool is_parallel_ = false, spares_first_ = false;
 };
 

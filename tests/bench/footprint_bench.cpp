@@ -1,12 +1,18 @@
-// Areas of footprints of a scene's base paths: the scalar form, and the parallelogram of two vectors, over the
-// sums of all differential vectors, by vertex; and what the latter take beside tracing the paths.
+// Footprints of base paths of scenes: what the scalar form and the parallelogram of two vectors have of the area
+// of the sum of all differential vectors, by vertex, with a chart; and what they cost.
+//
+//     footprint_bench CHART.svg SAMPLES SCENE.xml...
 #include "render/estimator/base_path.h"
 #include "render/inspect/path_differentials.h"
 #include "render/load/mitsuba_xml.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -17,51 +23,171 @@ namespace tessera {
 namespace {
 
 constexpr glm::ivec2 size(320, 180);
-constexpr int most_vertices = 4;
+constexpr int most_vertices = 4, paths_a_turn = 1000, turns = 60;
 
 double cpu_seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-double quantile(std::vector<float>& sorted, double share) {
-    return double(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))]);
+/// 10 %, median and 90 %.
+using Quantiles = std::array<double, 3>;
+
+Quantiles quantiles(std::vector<double> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    const auto at = [&](double share) {
+        return numbers[static_cast<std::size_t>(share * static_cast<double>(numbers.size() - 1))];
+    };
+    return {at(0.1), at(0.5), at(0.9)};
 }
 
-void measure(const Scene& scene, double samples) {
-    Counters counters;
-    const Tracer tracer{scene, counters, {6, 1, 0}};
-    const Projection projection(scene.camera(), size);
-    std::vector<float> ratios[most_vertices], reduced[most_vertices];
-    double tracing = 0, differentiating = 0;
-    const DeltaRule rule{samples};
-    for (std::uint32_t i = 0; i < 20000; ++i) {
-        const Random random(1, i, 0);
-        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(size);
-        BasePath path;
+struct Areas {
+    std::vector<double> scalar, reduced; ///< over the sum of all
+};
+
+struct Measured {
+    std::string name;
+    std::array<Areas, most_vertices> areas;
+    std::vector<double> scalar_cost, full_cost; ///< of each turn, over the time of the same paths alone
+};
+
+/// Base paths of a scene, each traced alone, and with what is to be measured.
+class Measurement {
+public:
+    Measurement(const Scene& scene, double samples)
+        : scene_(scene), rule_{static_cast<float>(samples)}, projection_(scene.camera(), size) {}
+
+    Measured take(std::string name) {
+        Measured m{std::move(name), {}, {}, {}};
+        for (std::uint32_t turn = 0; turn < turns; ++turn) {
+            double alone = 0, scalar = 0, full = 0;
+            // Neither is first whenever caches are cold.
+            for (const std::uint32_t what : {turn % 3, (turn + 1) % 3, (turn + 2) % 3})
+                (what == 0 ? alone : what == 1 ? scalar : full) = seconds_of(turn, what);
+            m.scalar_cost.push_back(scalar / alone - 1);
+            m.full_cost.push_back(full / alone - 1);
+        }
+        for (std::uint32_t i = 0; i < 20000; ++i) {
+            trace(i, &hits_);
+            compare(i, m);
+        }
+        return m;
+    }
+
+private:
+    glm::vec2 pixel(std::uint32_t i) const {
+        return Random(1, i, 0).draw_2d(0, Draw::direction) * glm::vec2(size);
+    }
+
+    void trace(std::uint32_t i, std::vector<Hit>* hits) {
+        hits_.clear();
+        const Tracer tracer{scene_, counters_, {6, 1, 0}, {}, nullptr, hits};
+        trace_base_path(tracer, projection_.ray(pixel(i)), projection_.pixel_width(), Random(1, i, 0), path_);
+    }
+
+    void find_scalar(std::uint32_t i) {
+        scalar_footprints(path_, projection_.pixel_width(), projection_.ray(pixel(i)).origin, rule_.samples,
+                          widths_);
+    }
+    template <class Visit>
+    void find_full(std::uint32_t i, Visit&& visit) {
+        differentiate(scene_, projection_, pixel(i), glm::vec2(0), path_, hits_, along_, visit);
+    }
+
+    /// @param what  0: paths, 1: and scalar footprints, 2: and full differentials with their footprints
+    double seconds_of(std::uint32_t turn, std::uint32_t what) {
         const double begin = cpu_seconds();
-        trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), random, path);
-        const double traced = cpu_seconds();
-        const PathDifferentials d = differentiate(tracer, projection, pixel, glm::vec2(0), path);
-        differentiating += cpu_seconds() - traced;
-        tracing += traced - begin;
-        for (int v = 0; v < std::min(most_vertices, static_cast<int>(d.vertices.size())); ++v)
-            if (const float full =
-                    area_of_sum(differential_vectors(d, v, rule), d.vertices[static_cast<std::size_t>(v)].normal);
-                full > 0) {
-                ratios[v].push_back(scalar_area(d, v, rule) / full);
-                reduced[v].push_back(footprint(d, v, rule).area() / full);
-            }
+        for (std::uint32_t i = turn * paths_a_turn; i < (turn + 1) * paths_a_turn; ++i) {
+            trace(i, what == 2 ? &hits_ : nullptr);
+            if (what == 1)
+                find_scalar(i);
+            if (what == 2)
+                find_full(i, [&](int, const PathDerivatives& d) { sink_ += footprint(d, rule_).a.x; });
+        }
+        return cpu_seconds() - begin;
     }
+
+    void compare(std::uint32_t i, Measured& m) {
+        find_scalar(i);
+        find_full(i, [&](int v, const PathDerivatives& d) {
+            if (v >= most_vertices)
+                return;
+            const NumberVectors vectors = differential_vectors(d, rule_);
+            const float all = area_of_sum(vectors, d.count, d.normal),
+                        width = widths_[static_cast<std::size_t>(v)];
+            if (!(all > 0))
+                return;
+            Areas& a = m.areas[static_cast<std::size_t>(v)];
+            a.scalar.push_back(double(width * width / all));
+            a.reduced.push_back(double(reduce(vectors, d.count, d.normal).area() / all));
+        });
+    }
+
+    const Scene& scene_;
+    DeltaRule rule_;
+    Projection projection_;
+    Counters counters_;
+    BasePath path_;
+    std::vector<Hit> hits_;
+    Differentiation along_;
+    std::vector<float> widths_;
+    float sink_ = 0;
+};
+
+void print(const Measured& m) {
+    fmt::print("{}\n", m.name);
     for (int v = 0; v < most_vertices; ++v) {
-        std::sort(ratios[v].begin(), ratios[v].end());
-        std::sort(reduced[v].begin(), reduced[v].end());
-        if (!ratios[v].empty())
-            fmt::print("x{}: {} paths, scalar / full: 10 % {:.2f}, median {:.2f}, 90 % {:.2f}; parallelogram / "
-                       "full: median {:.2f}\n",
-                       v + 1, ratios[v].size(), quantile(ratios[v], 0.1), quantile(ratios[v], 0.5),
-                       quantile(ratios[v], 0.9), quantile(reduced[v], 0.5));
+        const Areas& a = m.areas[static_cast<std::size_t>(v)];
+        if (a.scalar.empty())
+            continue;
+        const Quantiles q = quantiles(a.scalar);
+        fmt::print(
+            "  x{}: {} paths, scalar / full: 10 % {:.2f}, median {:.2f}, 90 % {:.2f}; parallelogram / full: "
+            "median {:.2f}\n",
+            v + 1, a.scalar.size(), q[0], q[1], q[2], quantiles(a.reduced)[1]);
     }
-    fmt::print("full differentials take {:.2f} of the paths' time\n", differentiating / tracing);
+    const Quantiles scalar = quantiles(m.scalar_cost), full = quantiles(m.full_cost);
+    fmt::print(
+        "  cost over the paths' time, median of {} turns (10 %, 90 %): scalar {:.1f} % ({:.1f}, {:.1f}), full "
+        "{:.1f} % ({:.1f}, {:.1f})\n",
+        turns, 100 * scalar[1], 100 * scalar[0], 100 * scalar[2], 100 * full[1], 100 * full[0], 100 * full[2]);
+}
+
+/// The scalar form over all vectors: a bar from 10 to 90 % with its median for each vertex of each scene.
+void write_chart(const std::string& file, const std::vector<Measured>& all) {
+    constexpr double top = 20, low = 280, left = 60, step = 24, gap = 28, decades = 2; // 0.03 to 3
+    const auto y = [&](double ratio) {
+        return low - (low - top) * (std::clamp(std::log10(ratio), -1.5, 0.5) + 1.5) / decades;
+    };
+    const double width = left + double(all.size()) * (most_vertices * step + gap) + 20;
+    std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"330\" "
+                                  "font-family=\"sans-serif\" font-size=\"12\">\n"
+                                  "<rect width=\"{0}\" height=\"330\" fill=\"white\"/>\n",
+                                  width);
+    for (const double ratio : {0.03, 0.1, 0.3, 1.0, 3.0})
+        svg +=
+            fmt::format("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\"/>\n"
+                        "<text x=\"{4}\" y=\"{5:.1f}\" text-anchor=\"end\">{6}</text>\n",
+                        left, width - 10, y(ratio), ratio == 1 ? "#444" : "#ddd", left - 6, y(ratio) + 4, ratio);
+    double x = left + gap / 2;
+    for (const Measured& m : all) {
+        for (int v = 0; v < most_vertices; ++v, x += step) {
+            const Areas& a = m.areas[static_cast<std::size_t>(v)];
+            if (a.scalar.empty())
+                continue;
+            const Quantiles q = quantiles(a.scalar);
+            svg +=
+                fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"{:.1f}\" fill=\"#9cc3e6\"/>\n"
+                            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"3\" fill=\"#1f4e79\"/>\n"
+                            "<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">x{}</text>\n",
+                            x, y(q[2]), y(q[0]) - y(q[2]), x, y(q[1]) - 1.5, x + 7, low + 16, v + 1);
+        }
+        svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                           x - step * most_vertices / 2 - 5, low + 36, m.name);
+        x += gap;
+    }
+    std::ofstream(file) << svg << "</svg>\n";
 }
 
 } // namespace
@@ -69,10 +195,18 @@ void measure(const Scene& scene, double samples) {
 } // namespace tessera
 
 int main(int count, char** arguments) {
-    if (count < 2) {
-        fmt::print("usage: footprint_bench SCENE.xml [SAMPLES]\n");
+    if (count < 4) {
+        fmt::print("usage: footprint_bench CHART.svg SAMPLES SCENE.xml...\n");
         return 2;
     }
-    const tessera::Scene scene(tessera::load_mitsuba_xml(arguments[1]).description);
-    tessera::measure(scene, count > 2 ? std::stod(arguments[2]) : 16);
+    std::vector<tessera::Measured> all;
+    for (int i = 3; i < count; ++i) {
+        const std::filesystem::path file(arguments[i]);
+        const tessera::Scene scene(tessera::load_mitsuba_xml(file).description);
+        const bool is_named = file.stem() == "scene";
+        all.push_back(tessera::Measurement(scene, std::stod(arguments[2]))
+                          .take((is_named ? file.parent_path().filename() : file.stem()).string()));
+        tessera::print(all.back());
+    }
+    tessera::write_chart(arguments[1], all);
 }

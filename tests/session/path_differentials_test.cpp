@@ -104,32 +104,45 @@ double below(std::vector<double>& numbers, double share) {
     return numbers[static_cast<std::size_t>(share * double(numbers.size()))];
 }
 
+/// A base path with the derivatives of its vertices.
+struct Differentiated {
+    const Tracer& tracer;
+    const Projection& projection;
+    glm::vec2 pixel;
+    BasePath path;
+    std::vector<PathDerivatives> vertices;
+};
+
 template <class Visit>
 void for_paths(const Scene& scene, Visit&& visit) {
     Counters counters;
-    const Tracer tracer{scene, counters, {6, 1, 0}};
+    std::vector<Hit> hits;
+    const Tracer tracer{scene, counters, {6, 1, 0}, {}, nullptr, &hits};
     const Projection projection(scene.camera(), size);
+    Differentiation along;
     for (std::uint32_t i = 0; i < 400; ++i) {
         const Random random(11, i, 0);
-        const glm::vec2 pixel = random.draw_2d(0, Draw::direction) * glm::vec2(size);
-        BasePath path;
-        trace_base_path(tracer, projection.ray(pixel), projection.pixel_width(), random, path);
-        visit(tracer, projection, pixel, path, differentiate(tracer, projection, pixel, glm::vec2(0), path));
+        Differentiated d{tracer, projection, random.draw_2d(0, Draw::direction) * glm::vec2(size), {}, {}};
+        hits.clear();
+        trace_base_path(tracer, projection.ray(d.pixel), projection.pixel_width(), random, d.path);
+        differentiate(scene, projection, d.pixel, glm::vec2(0), d.path, hits, along,
+                      [&](int, const PathDerivatives& x) { d.vertices.push_back(x); });
+        visit(d);
     }
 }
 
 Tally compare(const Scene& scene) {
     Tally tally;
-    for_paths(scene, [&](const Tracer& tracer, const Projection& projection, glm::vec2 pixel, const BasePath& path,
-                         const PathDifferentials& d) {
-        const Numbers n = numbers_of(path, pixel);
+    for_paths(scene, [&](const Differentiated& d) {
+        const Numbers n = numbers_of(d.path, d.pixel);
         for (std::size_t i = 0; i < d.vertices.size(); ++i)
-            for (std::size_t j = 0; j < d.vertices[i].position.size(); ++j) {
-                const auto truth = measured(tracer, projection, n, i, j, j < 2 ? 0.05f : 5e-4f);
+            for (int k = 0; k < d.vertices[i].count; ++k) {
+                const auto j = static_cast<std::size_t>(k);
+                const auto truth = measured(d.tracer, d.projection, n, i, j, j < 2 ? 0.05f : 5e-4f);
                 // Tiny ones are rounding.
                 if (!truth || glm::length(truth->position) * (j < 2 ? 0.05f : 5e-4f) <= 2e-4f)
                     continue;
-                tally.errors.push_back(double(glm::distance(truth->position, d.vertices[i].position[j])) /
+                tally.errors.push_back(double(glm::distance(truth->position, d.vertices[i].position[k])) /
                                        double(glm::length(truth->position)));
                 if (std::abs(truth->gradient) > (j < 2 ? 0.01f : 0.3f))
                     tally.gradient_errors.push_back(
@@ -149,9 +162,10 @@ TEST(PathDifferentials, AreThoseOfPathsThatAreReplayed) {
             name, t.errors.size(), below(t.errors, 0.5), below(t.errors, 0.99), t.gradient_errors.size(),
             below(t.gradient_errors, 0.5), below(t.gradient_errors, 0.9));
         EXPECT_LT(below(t.errors, 0.5), 2e-4) << name;
+        EXPECT_LT(below(t.errors, 0.95), 2e-3) << name;
         EXPECT_LT(below(t.errors, 0.99), 0.03) << name;
-        EXPECT_LT(below(t.gradient_errors, 0.5), 0.01) << name;
-        EXPECT_LT(below(t.gradient_errors, 0.9), 0.1) << name;
+        EXPECT_LT(below(t.gradient_errors, 0.5), 1e-3) << name;
+        EXPECT_LT(below(t.gradient_errors, 0.9), 0.01) << name;
     };
     judge("diffuse", Room().build());
     {
@@ -171,14 +185,13 @@ TEST(PathDifferentials, AreThoseOfPathsThatAreReplayed) {
 
 TEST(PathDifferentials, ReducedSumsKeepMostOfTheirArea) {
     for (std::uint32_t i = 0; i < 300; ++i) {
-        std::vector<glm::vec3> segments;
-        for (int j = 0; j < 2 + int(i % 7); ++j) {
-            const glm::vec2 u = Random(5, i, 0).draw_2d(j, Draw::direction) - 0.5f;
-            segments.emplace_back(u, 0);
-        }
-        const float all = area_of_sum(segments, {0, 0, 1}), two = reduce(segments, {0, 0, 1}).area();
+        NumberVectors segments{};
+        const int count = 2 + int(i % 7);
+        for (int j = 0; j < count; ++j)
+            segments.set(j, glm::vec3(Random(5, i, 0).draw_2d(j, Draw::direction) - 0.5f, 0));
+        const float all = area_of_sum(segments, count, {0, 0, 1}), two = reduce(segments, count, {0, 0, 1}).area();
         EXPECT_LE(two, all * 1.0001f);
-        if (segments.size() == 2) {
+        if (count == 2) {
             EXPECT_NEAR(two, all, 1e-5f);
         } else {
             EXPECT_GT(two, 0.3f * all);
@@ -189,21 +202,20 @@ TEST(PathDifferentials, ReducedSumsKeepMostOfTheirArea) {
 /// A pixel's footprint at x_1 is what lies between its neighbours.
 TEST(PathDifferentials, AtTheFirstVertexCoverAPixel) {
     int count = 0;
-    for_paths(*Room().build(), [&](const Tracer&, const Projection& projection, glm::vec2 pixel, const BasePath&,
-                                   const PathDifferentials& d) {
+    for_paths(*Room().build(), [&](const Differentiated& d) {
         if (d.vertices.empty())
             return;
         ++count;
-        const PathDifferentials::Vertex& x = d.vertices[0];
+        const PathDerivatives& x = d.vertices[0];
+        const glm::vec3 point = d.path[0].vertex.position;
         const auto at = [&](glm::vec2 p) {
-            const Ray ray = projection.ray(pixel + p), middle = projection.ray(pixel);
-            const glm::vec3 point = middle.origin + x.distance * middle.direction;
+            const Ray ray = d.projection.ray(d.pixel + p);
             return ray.origin +
                    ray.direction * (glm::dot(point - ray.origin, x.normal) / glm::dot(ray.direction, x.normal));
         };
         const float area = glm::length(glm::cross(at({1, 0}) - at({0, 0}), at({0, 1}) - at({0, 0})));
-        EXPECT_NEAR(footprint(d, 0, {}).area() / area, 1, 0.15f);
-        EXPECT_NEAR(footprint(d, 0, {16}).area() / footprint(d, 0, {}).area(), 1.0 / 16, 1e-3);
+        EXPECT_NEAR(footprint(x, {}).area() / area, 1, 0.15f);
+        EXPECT_NEAR(footprint(x, {16}).area() / footprint(x, {}).area(), 1.0 / 16, 1e-3);
     });
     EXPECT_GT(count, 300);
 }
@@ -211,47 +223,122 @@ TEST(PathDifferentials, AtTheFirstVertexCoverAPixel) {
 /// Local deltas are those of paths that do not split; and within any delta light changes by no more than it may.
 TEST(PathDifferentials, DeltasAreOfTheirRules) {
     int count = 0, limited = 0;
-    for_paths(*Room().build(),
-              [&](const Tracer&, const Projection&, glm::vec2, const BasePath&, const PathDifferentials& d) {
-                  for (int i = 0; i < static_cast<int>(d.vertices.size()); ++i) {
-                      const PathDifferentials::Vertex& x = d.vertices[static_cast<std::size_t>(i)];
-                      const std::vector<glm::vec3> local = differential_vectors(d, i, {16, false}),
-                                                   all = differential_vectors(d, i, {16, true}),
-                                                   held = differential_vectors(d, i, {16, true, 0.1f});
-                      const double even = std::pow(16 * x.survival, -1.0 / double(x.position.size()));
-                      for (std::size_t j = 0; j < x.position.size(); ++j, ++count) {
-                          const float whole = glm::length(x.position[j]);
-                          if (!(whole > 0))
-                              continue;
-                          EXPECT_NEAR(glm::length(local[j]) / whole, j < 2 ? 0.25f : 1, 1e-4f);
-                          EXPECT_NEAR(glm::length(all[j]) / whole, std::min(even, 1.0), 1e-4);
-                          const float change = std::abs(x.gradient[j]) * glm::length(held[j]) / whole;
-                          EXPECT_LE(change, 0.1f * 1.0001f);
-                          limited += glm::length(held[j]) < 0.999f * glm::length(all[j]);
-                      }
-                  }
-              });
+    for_paths(*Room().build(), [&](const Differentiated& d) {
+        for (const PathDerivatives& x : d.vertices) {
+            const NumberVectors local = differential_vectors(x, {16, false}),
+                                split = differential_vectors(x, {16, false, 0, 4}),
+                                all = differential_vectors(x, {16, true}),
+                                held = differential_vectors(x, {16, true, 0.1f});
+            const float even = std::pow(16 * x.chance, -1.0f / static_cast<float>(x.count));
+            for (int j = 0; j < x.count; ++j, ++count) {
+                const float whole = glm::length(x.position[j]);
+                if (!(whole > 0))
+                    continue;
+                EXPECT_NEAR(glm::length(local[j]) / whole, j < 2 ? 0.25f : 1, 1e-4f);
+                EXPECT_NEAR(glm::length(split[j]) / whole, j < 2 ? 0.25f : 0.5f, 1e-4f);
+                EXPECT_NEAR(glm::length(all[j]) / whole, std::min(even, 1.0f), 1e-4);
+                const float change =
+                    std::abs(x.gradient[static_cast<std::size_t>(j)]) * glm::length(held[j]) / whole;
+                EXPECT_LE(change, 0.1f * 1.0001f);
+                limited += glm::length(held[j]) < 0.999f * glm::length(all[j]);
+            }
+        }
+    });
     EXPECT_GT(count, 1000);
     EXPECT_GT(limited, 100);
 }
 
 /// The two numbers a vertex know about how large the sum of all vectors is, where all is diffuse and flat.
 TEST(PathDifferentials, TheScalarFormKnowsAreas) {
-    for (const int i : {0, 1}) {
+    for (const std::size_t i : {0, 1}) {
         std::vector<double> ratios;
-        for_paths(*Room().build(),
-                  [&](const Tracer&, const Projection&, glm::vec2, const BasePath&, const PathDifferentials& d) {
-                      if (i >= static_cast<int>(d.vertices.size()))
-                          return;
-                      const float all = area_of_sum(differential_vectors(d, i, {}),
-                                                    d.vertices[static_cast<std::size_t>(i)].normal);
-                      if (all > 0)
-                          ratios.push_back(double(scalar_area(d, i, {}) / all));
-                  });
+        std::vector<float> widths;
+        for_paths(*Room().build(), [&](const Differentiated& d) {
+            if (i >= d.vertices.size())
+                return;
+            const PathDerivatives& x = d.vertices[i];
+            const float all = area_of_sum(differential_vectors(x, {}), x.count, x.normal);
+            scalar_footprints(d.path, d.projection.pixel_width(), d.projection.ray(d.pixel).origin, 1, widths);
+            if (all > 0)
+                ratios.push_back(double(widths[i] * widths[i] / all));
+        });
         ASSERT_GT(ratios.size(), 200u);
         // At x1 it has the pixel of the middle of the picture, which is the largest.
         EXPECT_NEAR(below(ratios, 0.5), 1, i == 0 ? 0.25 : 0.15) << i;
     }
+}
+
+/// Of a BSDF with one lobe, both numbers' directions span 1 / pdf; of one with several that do not overlap, the
+/// chance of the one that was drawn times that.
+TEST(PathDifferentials, ChoicesAmongLobesHaveTheirChances) {
+    Room r;
+    r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.conductor(0.3f));
+    r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.plastic(Rgb(0.3f), 0));
+    r.sphere({0.5f, -0.5f, 0.2f}, 0.4f, r.glass());
+    std::vector<double> alone;
+    int coated = 0, delta = 0;
+    for_paths(*r.build(), [&](const Differentiated& d) {
+        float chance = 1;
+        for (std::size_t i = 0; i + 1 < d.vertices.size(); ++i) {
+            const BaseVertex& x = d.path[int(i)];
+            const PathDerivatives& next = d.vertices[i + 1];
+            if (x.is_delta) {
+                chance *= x.pdf_w;
+                ++delta;
+            } else {
+                const float choice = next.choice[static_cast<std::size_t>(next.count - 1)];
+                if (const auto* plastic = std::get_if<Plastic>(&x.vertex.bsdf.kind)) {
+                    const float base =
+                        1 - x.vertex.bsdf.evaluate_delta(x.vertex.to_previous, Scatter::reflect).probability;
+                    EXPECT_EQ(plastic->facets.alpha, 0);
+                    EXPECT_NEAR(choice / base, 1, 2e-3f);
+                    ++coated;
+                } else {
+                    alone.push_back(double(1 - choice));
+                }
+                chance *= choice;
+            }
+            EXPECT_NEAR(next.chance / chance, 1, 1e-4f);
+        }
+    });
+    ASSERT_GT(alone.size(), 500u);
+    EXPECT_LT(below(alone, 0.95), 1e-3) << "but where numbers are mapped to disks with a kink";
+    EXPECT_GT(coated, 20);
+    EXPECT_GT(delta, 20);
+}
+
+/// Footprints of light samples, by their own numbers: how the light that comes from there changes as they do.
+TEST(PathDifferentials, LightSamplesHaveTheirGradients) {
+    Room r;
+    r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.conductor(0.3f));
+    std::vector<double> errors;
+    for_paths(*r.build(), [&](const Differentiated& d) {
+        for (int i = 0; i < d.path.size(); ++i) {
+            const LightSample& drawn = d.path.lights(i)[0];
+            if (is_black(drawn.brings))
+                continue;
+            const PathDerivatives& vertex = d.vertices[static_cast<std::size_t>(i)];
+            const PathDerivatives light = differentiate_light(d.tracer, d.path, i, 0, vertex);
+            EXPECT_EQ(light.numbers, vertex.numbers + 2);
+            EXPECT_LT(footprint(light, {16}).area(), footprint(light, {}).area() * 1.001f);
+            const Vertex& x = d.path[i].vertex;
+            const auto brought = [&](glm::vec3 at) {
+                const glm::vec3 way = at - x.position, direction = glm::normalize(way);
+                return std::log(double(luminance(x.evaluate(x.to_local(direction)).f_cos)) *
+                                double(-glm::dot(direction, drawn.light.normal)) / double(glm::dot(way, way)));
+            };
+            for (int j = 0; j < 2; ++j) {
+                const glm::vec3 step = 5e-3f * light.position[j];
+                const double truth =
+                    (brought(drawn.light.position + step) - brought(drawn.light.position - step)) / 1e-2;
+                if (std::abs(truth) > 0.1)
+                    errors.push_back(std::abs(double(light.gradient[static_cast<std::size_t>(j)]) / truth - 1));
+            }
+        }
+    });
+    ASSERT_GT(errors.size(), 300u);
+    EXPECT_LT(below(errors, 0.5), 1e-3);
+    EXPECT_LT(below(errors, 0.95), 0.02);
 }
 
 } // namespace

@@ -195,9 +195,11 @@ void draw_base_path(const SceneLines& lines, const std::vector<InspectedVertex>&
         if (x.footprint.area() > 0)
             draw_footprint(lines, x.position, x.footprint, font * 0.08f);
     for (const InspectedVertex& x : path)
-        for (glm::vec3 light : x.light_points) {
-            lines.line(x.position, light, light_colour, font * 0.09f);
-            lines.point(light, light_colour, font * 0.15f);
+        for (const InspectedLight& light : x.light_points) {
+            lines.line(x.position, light.position, light_colour, font * 0.09f);
+            lines.point(light.position, light_colour, font * 0.15f);
+            if (light.footprint.area() > 0)
+                draw_footprint(lines, light.position, light.footprint, font * 0.08f);
         }
     for (std::size_t i = 0; i < path.size(); ++i) {
         if (i + 1 < path.size())

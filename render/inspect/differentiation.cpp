@@ -1,0 +1,311 @@
+#include "render/inspect/differentiation.h"
+
+#include "render/surface/material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// The sides of the triangle that is hit, in the world.
+std::array<glm::vec3, 2> sides_of(const Scene& scene, const Hit& hit) {
+    const ShapeRecord& shape = scene.record(hit.shape);
+    const glm::uvec3 t = shape.triangles[hit.triangle];
+    std::array<glm::vec3, 2> sides{shape.positions[t.y] - shape.positions[t.x],
+                                   shape.positions[t.z] - shape.positions[t.x]};
+    if (hit.placement)
+        for (glm::vec3& side : sides)
+            side = hit.placement->vector(side);
+    return sides;
+}
+
+/// How far to move a hit, for what is seen under that angle, but not far on its triangle.
+float step_of(const Scene& scene, const Hit& hit, float angle) {
+    const auto [a, b] = sides_of(scene, hit);
+    return std::min(angle * hit.distance, 0.2f * std::min(glm::length(a), glm::length(b - a)));
+}
+
+/// The hit that lies further along in the plane of its triangle.
+Hit moved_on(const Scene& scene, Hit hit, glm::vec3 by) {
+    const auto [a, b] = sides_of(scene, hit);
+    const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b);
+    const float along_a = glm::dot(by, a), along_b = glm::dot(by, b), determinant = aa * bb - ab * ab;
+    if (determinant > 0)
+        hit.barycentric += glm::vec2(bb * along_a - ab * along_b, aa * along_b - ab * along_a) / determinant;
+    return hit;
+}
+
+/// Whether normals of shading differ over the triangle that is hit.
+bool is_curved(const ShapeRecord& shape, const Hit& hit) {
+    if (!shape.normals)
+        return false;
+    const glm::uvec3 t = shape.triangles[hit.triangle];
+    return shape.normals[t.x] != shape.normals[t.y] || shape.normals[t.x] != shape.normals[t.z];
+}
+
+/// By what vector the frame of shading turns (its length is the angle, radians) where a hit moves by a unit
+/// direction in its plane.
+glm::vec3 turn_of_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 along) {
+    const float step = step_of(scene, hit, 2e-3f);
+    const Frame more = frame_at(scene, moved_on(scene, hit, step * along), ray),
+                less = frame_at(scene, moved_on(scene, hit, -step * along), ray);
+    return (glm::cross(less.tangent, more.tangent) + glm::cross(less.bitangent, more.bitangent) +
+            glm::cross(less.normal, more.normal)) /
+           (4 * step);
+}
+
+bool is_plain_diffuse(const Vertex& x) {
+    return std::holds_alternative<Diffuse>(x.bsdf.kind) && !x.bsdf.is_bent() && !x.guide;
+}
+
+bool is_constant(const Texture& texture) {
+    return texture.is_constant();
+}
+bool is_constant(const std::optional<Texture>& texture) {
+    return !texture || texture->is_constant();
+}
+
+/// Whether textures tell how a material scatters, and not only how much: what they change of a reflectance neither
+/// turns directions nor is counted. What has many textures is not looked into.
+bool scatters_by_texture(const ShapeRecord& shape) {
+    if (!shape.uvs && !shape.attributed)
+        return false;
+    if (shape.material->relief)
+        return true;
+    const auto& kind = shape.material->kind;
+    if (const auto* m = std::get_if<DiffuseMaterial>(&kind))
+        return !is_constant(m->alpha);
+    if (const auto* m = std::get_if<ConductorMaterial>(&kind))
+        return !is_constant(m->alpha) || !is_constant(m->alpha_v);
+    if (const auto* m = std::get_if<DielectricMaterial>(&kind))
+        return !is_constant(m->alpha) || !is_constant(m->alpha_v);
+    if (const auto* m = std::get_if<PhongMaterial>(&kind))
+        return !is_constant(m->exponent);
+    return !std::holds_alternative<PlasticMaterial>(kind);
+}
+
+/// The sampling routine of a scatter, with what goes into it moved by little.
+class MovedScatter {
+public:
+    MovedScatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x, const Scattering& s,
+                 bool looks_up)
+        : scene_(scene), ray_(ray), hit_(hit), x_(x),
+          s_(s), base_{x.to_world(s.to_next), std::log(luminance(s.f_cos))},
+          // Sharp lobes change within less.
+          angle_(2e-3f * (s.is_delta ? 1 : std::clamp(10 * x.bsdf.roughness(), 0.1f, 1.0f))) {
+        if (looks_up)
+            looked_up_ = x;
+    }
+
+    /// By the two numbers.
+    Turn by_number(glm::vec2 axis) const {
+        constexpr float step = 2e-3f;
+        const glm::vec2 more = glm::min(s_.u + step * axis, 0x1.fffffep-1f),
+                        less = glm::max(s_.u - step * axis, 0.0f);
+        return differ(scattered(x_, x_.to_previous, more), glm::dot(more - s_.u, axis),
+                      scattered(x_, x_.to_previous, less), glm::dot(s_.u - less, axis));
+    }
+    /// By a direction across the one that meets the vertex, a radian.
+    Turn by_direction(glm::vec3 across) const {
+        return differ(seen_from(angle_ * across), angle_, seen_from(-angle_ * across), angle_);
+    }
+    /// By a unit direction in the plane, with all that is looked up there.
+    Turn by_position(glm::vec3 along) {
+        const float step = step_of(scene_, hit_, angle_);
+        return differ(moved(step * along), step, moved(-step * along), step);
+    }
+
+private:
+    std::optional<Turn> scattered(const Vertex& x, glm::vec3 to_previous, glm::vec2 u) const {
+        const auto s = x.sample_from(to_previous, s_.lobe, u);
+        if (!s || s->is_delta != s_.is_delta || s->scatter != s_.scatter)
+            return {};
+        return Turn{x.to_world(s->to_next), std::log(luminance(s->f_cos))};
+    }
+
+    std::optional<Turn> seen_from(glm::vec3 turn) const {
+        return scattered(x_, x_.to_local(-glm::normalize(ray_.direction + turn)), s_.u);
+    }
+
+    std::optional<Turn> moved(glm::vec3 by) {
+        make_vertex(scene_, moved_on(scene_, hit_, by), {ray_.origin + by, ray_.direction}, looked_up_);
+        looked_up_.guide = x_.guide;
+        return scattered(looked_up_, looked_up_.to_previous, s_.u);
+    }
+
+    /// From both sides, or the one where nothing else is chosen.
+    Turn differ(const std::optional<Turn>& more, float step_up, const std::optional<Turn>& less,
+                float step_down) const {
+        const Turn &high = more ? *more : base_, &low = less ? *less : base_;
+        const float step = (more ? step_up : 0) + (less ? step_down : 0);
+        if (!(step > 0))
+            return {};
+        return {(high.direction - low.direction) / step, (high.log_value - low.log_value) / step};
+    }
+
+    const Scene& scene_;
+    const Ray& ray_;
+    const Hit& hit_;
+    const Vertex& x_;
+    const Scattering& s_;
+    Turn base_;
+    float angle_; ///< by how much directions are turned, radians
+    Vertex looked_up_;
+};
+
+/// How sample_cosine_hemisphere() turns with both numbers, at what it made of them; local.
+std::array<Turn, 2> turns_of_cosine(glm::vec2 u, glm::vec3 to_next) {
+    // The disk by rings [Shirley and Chiu 1997]: its radius is one coordinate, and the angle the quotient of both.
+    const float x = 2 * u.x - 1, y = 2 * u.y - 1;
+    const bool wide = std::abs(x) > std::abs(y);
+    const float radius = wide ? x : y;
+    if (radius == 0)
+        return {};
+    const float angle = pi / 4 * ((wide ? y : x) / radius);
+    const float c = (wide ? to_next.x : to_next.y) / radius, s = (wide ? to_next.y : to_next.x) / radius;
+    const glm::vec2 outward(c + angle * s, s - angle * c), around(pi / 4 * glm::vec2(-s, c));
+    const auto turn = [&](glm::vec2 d) {
+        const float down = -2 * (to_next.x * d.x + to_next.y * d.y) / to_next.z;
+        return Turn{{2 * d.x, 2 * d.y, down}, down / to_next.z}; // what it does to light is its cosine
+    };
+    const auto swapped = [](glm::vec2 d) { return glm::vec2(d.y, d.x); };
+    return wide ? std::array{turn(outward), turn(around)}
+                : std::array{turn(swapped(around)), turn(swapped(outward))};
+}
+
+} // namespace
+
+void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns) {
+    for (const Turn& t : turns) {
+        const int j = here_.count++;
+        here_.position.set(j, glm::vec3(0));
+        direction_.set(j, t.direction);
+        here_.gradient[static_cast<std::size_t>(j)] = t.log_value;
+        here_.choice[static_cast<std::size_t>(j)] = choice;
+    }
+    here_.numbers = here_.count;
+}
+
+void Differentiation::start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens) {
+    // What a longer path has left behind must not lie beyond the numbers of this one.
+    for (int j = 0; j < NumberVectors::padded(here_.count); ++j) {
+        here_.position.set(j, glm::vec3(0));
+        direction_.set(j, glm::vec3(0));
+        here_.gradient[static_cast<std::size_t>(j)] = 0;
+    }
+    here_.count = 0;
+    here_.chance = 1;
+    std::array<Turn, 2> turns;
+    std::array<glm::vec3, 2> origins;
+    for (const std::size_t axis : {0, 1}) {
+        const glm::vec2 half = axis == 0 ? glm::vec2(0.5f, 0) : glm::vec2(0, 0.5f);
+        const Ray more = projection.ray(pixel + half, lens), less = projection.ray(pixel - half, lens);
+        turns[axis].direction = more.direction - less.direction;
+        origins[axis] = more.origin - less.origin;
+    }
+    add_numbers(1, turns);
+    for (const int axis : {0, 1})
+        here_.position.set(axis, origins[static_cast<std::size_t>(axis)]);
+}
+
+void Differentiation::arrive(const Ray& ray, float distance, glm::vec3 normal) {
+    here_.normal = normal;
+    const glm::vec3 d = ray.direction, slope = normal / glm::dot(d, normal);
+    NumberVectors& p = here_.position;
+    const auto count = static_cast<std::size_t>(NumberVectors::padded(here_.count));
+    for (std::size_t j = 0; j < count; ++j) {
+        const float x = p.x[j] + distance * direction_.x[j], y = p.y[j] + distance * direction_.y[j],
+                    z = p.z[j] + distance * direction_.z[j];
+        const float later = x * slope.x + y * slope.y + z * slope.z; // the plane is met earlier or later
+        p.x[j] = x - later * d.x;
+        p.y[j] = y - later * d.y;
+        p.z[j] = z - later * d.z;
+    }
+}
+
+void Differentiation::turn(const Turns& position, const Turns& direction) {
+    const auto count = static_cast<std::size_t>(NumberVectors::padded(here_.count));
+    const NumberVectors& p = here_.position;
+    for (std::size_t j = 0; j < count; ++j) {
+        const glm::vec3 by(p.x[j], p.y[j], p.z[j]), turned(direction_.x[j], direction_.y[j], direction_.z[j]);
+        const float a = glm::dot(position.along[0], by), b = glm::dot(position.along[1], by),
+                    c = glm::dot(direction.along[0], turned), d = glm::dot(direction.along[1], turned);
+        const auto sum = [&](auto part) {
+            return a * part(position.by[0]) + b * part(position.by[1]) + c * part(direction.by[0]) +
+                   d * part(direction.by[1]);
+        };
+        direction_.x[j] = sum([](const Turn& t) { return t.direction.x; });
+        direction_.y[j] = sum([](const Turn& t) { return t.direction.y; });
+        direction_.z[j] = sum([](const Turn& t) { return t.direction.z; });
+        here_.gradient[j] += sum([](const Turn& t) { return t.log_value; });
+    }
+}
+
+/// Where the surface scatters alike everywhere, it is all turned with the frame: the next direction turns with it,
+/// and against the direction in which it is seen, which is as if that had turned back.
+void Differentiation::turn_with_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 next,
+                                      const Turns& seen) {
+    if (!is_curved(scene.record(hit.shape), hit))
+        return turn({}, seen);
+    const Frame plane(here_.normal);
+    Turns position{{plane.tangent, plane.bitangent}, {}};
+    for (const std::size_t k : {0, 1}) {
+        const glm::vec3 turn = turn_of_frame(scene, ray, hit, position.along[k]),
+                        back = -glm::cross(turn, ray.direction);
+        position.by[k].direction = glm::cross(turn, next);
+        for (const std::size_t m : {0, 1}) {
+            const float by = glm::dot(seen.along[m], back);
+            position.by[k].direction += by * seen.by[m].direction;
+            position.by[k].log_value += by * seen.by[m].log_value;
+        }
+    }
+    turn(position, seen);
+}
+
+void Differentiation::scatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x,
+                              const Scattering& s) {
+    const ShapeRecord& shape = scene.record(hit.shape);
+    const bool is_diffuse = is_plain_diffuse(x), looks_up = scatters_by_texture(shape);
+    std::array<Turn, 2> own;
+    float choice = 1;
+    if (is_diffuse && !looks_up) {
+        own = turns_of_cosine(s.u, s.to_next);
+        for (Turn& t : own)
+            t.direction = x.to_world(t.direction);
+        turn_with_frame(scene, ray, hit, x.to_world(s.to_next), {});
+    } else {
+        MovedScatter moved(scene, ray, hit, x, s, looks_up);
+        const Frame across(ray.direction);
+        const Turns seen{{across.tangent, across.bitangent},
+                         {moved.by_direction(across.tangent), moved.by_direction(across.bitangent)}};
+        if (looks_up) {
+            const Frame plane(x.geometric_normal);
+            turn({{plane.tangent, plane.bitangent},
+                  {moved.by_position(plane.tangent), moved.by_position(plane.bitangent)}},
+                 seen);
+        } else {
+            turn_with_frame(scene, ray, hit, x.to_world(s.to_next), seen);
+        }
+        if (!s.is_delta) {
+            own = {moved.by_number({1, 0}), moved.by_number({0, 1})};
+            if (sample_cosine_hemisphere(s.u) == s.to_next) // the diffuse part of some other kind
+                for (const std::size_t k : {0, 1})
+                    own[k].direction = x.to_world(turns_of_cosine(s.u, s.to_next)[k].direction);
+            // The lobe alone has 1 / pdf for an area; with its chance, and other lobes that overlap, pdf_w.
+            const float area = glm::length(glm::cross(own[0].direction, own[1].direction));
+            choice = area > 0 ? std::min(area * s.pdf_w, 1.0f) : 1;
+        }
+    }
+    here_.chance *= s.survival * (s.is_delta ? s.pdf_w : choice);
+    if (!s.is_delta)
+        add_numbers(choice, own);
+}
+
+} // namespace tessera

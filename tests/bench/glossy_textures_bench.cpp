@@ -1,0 +1,178 @@
+// Texture filtering in distributed ray tracing, the first application of path differentials [Suykens 2001, 5.1]:
+// glossy reflections and refractions of textures with point lookups, with lookups over footprints, and with those
+// limited by the path gradient.
+//
+//     glossy_textures_bench [FOLDER [SCENE.xml]]
+//
+// As published: a ray tracer whose paths end at diffuse surfaces, which direct light reaches, and go on from
+// glossy ones in four stratified directions each; one ray a pixel, through its middle. Then with 4 and 16 rays,
+// evenly spread. Writes pictures of all, and the reference of many rays with point lookups; says relMSE to that,
+// free of the noise it has itself, and CPU seconds of a thread.
+#include "recon/metrics/metrics.h"
+#include "render/estimator/base_path.h"
+#include "render/inspect/path_differentials.h"
+#include "render/io/plain_images.h"
+#include "render/load/mitsuba_xml.h"
+#include "render/run/thread_pool.h"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+namespace {
+
+constexpr glm::ivec2 size(320, 180);
+constexpr int splits_edge = 2, splits = splits_edge * splits_edge;
+constexpr int most_scatters = 4;
+constexpr float least_diffuse = 0.9f; ///< roughness at which paths end
+
+enum class Lookup : std::uint8_t { point, footprint, limited };
+constexpr const char* names[] = {"point", "footprint", "limited"};
+
+/// The ray tracer, with its counters.
+class RayTracer {
+public:
+    RayTracer(const Scene& scene, Lookup lookup, int rays_edge)
+        : scene_(scene), tracer_{scene, counters_, {most_scatters + 2, 1, 0}}, projection_(scene.camera(), size),
+          lookup_(lookup),
+          rays_edge_(rays_edge), rule_{static_cast<float>(rays_edge * rays_edge), false,
+                                       lookup == Lookup::limited ? DeltaRule::published_change : 0,
+                                       static_cast<float>(splits)} {}
+
+    /// @param jitters  points of the grid are spread over its cells, not in their middle
+    Rgb pixel(glm::ivec2 p, std::uint64_t seed, bool jitters) {
+        Rgb sum(0);
+        for (int i = 0; i < rays_edge_ * rays_edge_; ++i) {
+            random_ = Random(seed, static_cast<std::uint32_t>(p.y * size.x + p.x), static_cast<std::uint32_t>(i));
+            drawn_ = 0;
+            const glm::vec2 place = jitters ? random_.draw_2d(0, Draw::direction) : glm::vec2(0.5f);
+            const glm::vec2 at = glm::vec2(p) + (glm::vec2(i % rays_edge_, i / rays_edge_) + place) /
+                                                    static_cast<float>(rays_edge_);
+            std::optional<Differentiation> along;
+            if (lookup_ != Lookup::point)
+                along.emplace().start(projection_, at, glm::vec2(0));
+            sum += seen(projection_.ray(at), along ? &*along : nullptr, 0);
+        }
+        return sum / static_cast<float>(rays_edge_ * rays_edge_);
+    }
+
+private:
+    /// @param along  how the ray moves with the numbers so far; null: textures are looked up at points
+    Rgb seen(const Ray& ray, Differentiation* along, int scatters) {
+        Hit hit;
+        if (!scene_.intersector().closest(ray, hit))
+            return tracer_.environment_toward(ray.direction).radiance;
+        Vertex x;
+        if (along) {
+            along->arrive(ray, hit.distance, hit.geometric_normal);
+            const Footprint f = footprint(along->derivatives(), rule_);
+            const TextureView view(TextureView::Sides{f.a, f.b});
+            make_vertex(scene_, hit, ray, x, &view);
+        } else {
+            make_vertex(scene_, hit, ray, x);
+        }
+        Rgb light = x.light_toward(-ray.direction).radiance + direct(x);
+        if (x.bsdf.roughness() >= least_diffuse || scatters == most_scatters)
+            return light;
+        const int offset = drawn_;
+        drawn_ += splits;
+        for (int i = 0; i < splits; ++i)
+            light += scattered(ray, hit, x, along, scatters, offset, i) / static_cast<float>(splits);
+        return light;
+    }
+
+    /// Of the strata of a square, and of the choice among lobes.
+    Rgb scattered(const Ray& ray, const Hit& hit, const Vertex& x, const Differentiation* along, int scatters,
+                  int offset, int i) {
+        const glm::vec2 u =
+            (glm::vec2(i % splits_edge, i / splits_edge) + random_.draw_2d(offset + i, Draw::direction)) /
+            static_cast<float>(splits_edge);
+        // Strata of lobes are not those of directions, but shuffled.
+        const int turn = static_cast<int>(random_.draw(offset, Draw::path_survival) * splits);
+        const float lobe = (static_cast<float>((5 * i + turn) % splits) + random_.draw(offset + i, Draw::lobe)) /
+                           static_cast<float>(splits);
+        const auto s = x.sample(lobe, u);
+        if (!s)
+            return Rgb(0);
+        const Ray next = tracer_.leave(x, x.to_world(s->to_next));
+        std::optional<Differentiation> further;
+        if (along)
+            further.emplace(*along).scatter(scene_, ray, hit, x,
+                                            {lobe, u, s->to_next, s->f_cos, s->pdf_w, s->is_delta, s->scatter, 1});
+        return s->f_cos / s->pdf_w * seen(next, further ? &*further : nullptr, scatters + 1);
+    }
+
+    Rgb direct(const Vertex& x) {
+        LightSample drawn;
+        Segment way;
+        if (!draw_light(tracer_, x, random_, drawn_++, 0, drawn, way) || tracer_.occluded(way, RayKind::light))
+            return Rgb(0);
+        complete_light(tracer_, drawn);
+        return drawn.brings;
+    }
+
+    const Scene& scene_;
+    Counters counters_;
+    Tracer tracer_;
+    Projection projection_;
+    Lookup lookup_;
+    int rays_edge_;
+    DeltaRule rule_;
+    Random random_{0, 0, 0};
+    int drawn_ = 0;
+};
+
+struct Rendered {
+    RgbImage image;
+    double cpu_seconds;
+};
+
+Rendered render(const Scene& scene, Lookup lookup, int rays_edge, std::uint64_t seed, bool jitters,
+                ThreadPool& pool) {
+    Rendered r{RgbImage(size.x, size.y, Rgb(0)), 0};
+    const double begin = pool.cpu_seconds();
+    pool.parallel_for(size.y, [&](int y, int) {
+        RayTracer tracer(scene, lookup, rays_edge);
+        for (int x = 0; x < size.x; ++x)
+            r.image(x, y) = tracer.pixel({x, y}, seed, jitters);
+    });
+    r.cpu_seconds = pool.cpu_seconds() - begin;
+    return r;
+}
+
+void run(const std::filesystem::path& folder, const Scene& scene) {
+    std::filesystem::create_directories(folder);
+    ThreadPool pool;
+    ThreadPool alone(1);
+    constexpr int reference_edge = 6;
+    const RgbImage references[] = {render(scene, Lookup::point, reference_edge, 1001, true, pool).image,
+                                   render(scene, Lookup::point, reference_edge, 1002, true, pool).image};
+    write_png(folder / "reference.png", references[0]);
+    for (const int edge : {1, 2, 4})
+        for (const Lookup lookup : {Lookup::point, Lookup::footprint, Lookup::limited}) {
+            const char* name = names[static_cast<std::size_t>(lookup)];
+            const Rendered r = render(scene, lookup, edge, 7, false, alone);
+            write_png(folder / fmt::format("{}-{}.png", name, edge * edge), r.image);
+            fmt::print("{:2} rays a pixel, {:9}: relMSE {:.5f}, {:.2f} CPU s\n", edge * edge, name,
+                       measure_floor_free_error(r.image, references[0], references[1]).relative_mse,
+                       r.cpu_seconds);
+        }
+}
+
+} // namespace
+
+} // namespace tessera
+
+int main(int count, char** arguments) {
+    const std::filesystem::path scene =
+        count > 2 ? arguments[2] : TESSERA_SOURCE_DIR "/assets/footprints/pieces.xml";
+    tessera::run(count > 1 ? arguments[1] : "glossy-textures",
+                 tessera::Scene(tessera::load_mitsuba_xml(scene).description));
+}

@@ -1,0 +1,115 @@
+// How points on lights move with the numbers that they are drawn with.
+#include "render/scene/light.h"
+#include "render/scene/scene.h"
+#include "tests/support/scene_builder.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera {
+
+namespace {
+
+using test::SceneBuilder;
+
+/// Compares derivatives by both numbers with differences of what `draw(u)` returns; 1e-3 of their length.
+template <class Draw>
+void expect_derivatives(const std::array<glm::vec3, 2>& found, glm::vec2 u, Draw&& draw) {
+    constexpr float step = 1e-3f;
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::vec2 by(0);
+        by[axis] = step;
+        const glm::vec3 truth =
+            (8.0f * (draw(u + by) - draw(u - by)) - (draw(u + 2.0f * by) - draw(u - 2.0f * by))) / (12 * step);
+        const glm::vec3 got = found[static_cast<std::size_t>(axis)];
+        EXPECT_LT(glm::distance(got, truth), 1e-3f * glm::length(truth) + 1e-5f)
+            << u.x << ' ' << u.y << " by number " << axis;
+    }
+}
+
+/// Away from 0 and 1, where there are no neighbours.
+glm::vec2 number(std::uint32_t i) {
+    return 0.01f + 0.98f * Random(3, i, 0).draw_2d(0, Draw::direction);
+}
+
+TEST(LightDerivatives, OfTrianglesAreThoseOfPointsDrawnNearby) {
+    LightTriangle t{};
+    t.corner = {1, 2, 3};
+    t.edge1 = {0.5f, 0.2f, -1};
+    t.edge2 = {-0.3f, 0.8f, 0.1f};
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const glm::vec2 u = number(i) * glm::vec2(0.9f, 1);
+        expect_derivatives(t.differentiate(u), u, [&](glm::vec2 at) {
+            LightPoint p;
+            t.sample(at, p);
+            return p.position;
+        });
+    }
+}
+
+/// A map of few cells that is turned, with a sun: the number that tells one from the other is used again.
+EnvironmentDescription sky_with_sun() {
+    SceneBuilder b;
+    std::vector<Rgb> pixels;
+    for (int i = 0; i < 12; ++i)
+        pixels.push_back(Rgb(0.2f + 0.3f * static_cast<float>(i % 5)));
+    b.environment(pixels, 4, glm::mat3(0, 0, -1, 0.6f, 0.8f, 0, 0.8f, -0.6f, 0));
+    b.sun({glm::normalize(glm::vec3(1, 2, 0.5f)), 0.3f, Rgb(20)});
+    b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
+    b.camera({0, 1, 5}, {0, 1, 0}, 40);
+    return b.build()->description().environment;
+}
+
+TEST(LightDerivatives, OfSkyAndSunAreThoseOfDirectionsDrawnNearby) {
+    const Environment sky(sky_with_sun());
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        const glm::vec2 cell = Random(4, i, 0).draw_2d(1, Draw::direction), u = number(i);
+        const EnvironmentSample here = sky.sample(cell, u);
+        const float apart = glm::distance(here.direction, sky.sample(cell, u + glm::vec2(0.004f, 0)).direction) +
+                            glm::distance(here.direction, sky.sample(cell, u - glm::vec2(0.004f, 0)).direction);
+        if (apart > 0.2f)
+            continue; // the choice between both is near
+        expect_derivatives(sky.differentiate(cell, u).direction, u,
+                           [&](glm::vec2 at) { return sky.sample(cell, at).direction; });
+    }
+}
+
+/// Both vectors span the area, or solid angle, of one of so many points as their pdf says [Suykens 2001, A.4].
+TEST(LightDerivatives, SpanWhatOnePointStandsFor) {
+    SceneBuilder b;
+    b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
+    b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, b.diffuse(Rgb(0)), b.light(Rgb(4, 2, 1)));
+    b.quad({-1, 3, -1}, {1, 0, 0}, {0, 0, 1}, b.diffuse(Rgb(0)), b.light(Rgb(0.1f)));
+    b.point({{0, 1, 0}, Rgb(3)});
+    b.environment({Rgb(1), Rgb(0.5f), Rgb(2), Rgb(0.3f)}, 2);
+    b.camera({0, 1, 5}, {0, 1, 0}, 40);
+    const auto scene = b.build();
+    std::array<int, 4> count{};
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const Random random(5, i, 0);
+        LightPoint p;
+        if (!scene->lights().sample({0, 0, 0}, random, 1, p))
+            continue;
+        ++count[static_cast<std::size_t>(p.kind)];
+        const LightDerivatives d = scene->lights().differentiate(random, 1);
+        const float area = glm::length(glm::cross(d.position[0], d.position[1]));
+        if (p.kind == LightPoint::Kind::point) {
+            EXPECT_EQ(area, 0);
+            EXPECT_FLOAT_EQ(d.chance, p.pdf);
+        } else {
+            EXPECT_NEAR(area / d.chance * p.pdf, 1, 1e-3f);
+        }
+    }
+    EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::surface)], 100);
+    EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::point)], 20);
+    EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::environment)], 100);
+}
+
+} // namespace
+
+} // namespace tessera
