@@ -30,7 +30,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
     worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0}, worker.set.number);
-    Onlooker onlooker(worker, pixel ? result.index_of(*pixel) : -1, result);
+    Onlooker onlooker(worker, static_cast<float>(pass.index) + 1, pixel ? result.index_of(*pixel) : -1, result);
     const bool is_alone = reuses_paths(pass.settings.method) && pass.grid.paths_alone_at(result.pixels[0]) > 0;
     share_light(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
     result.albedo = worker.set.albedo;
@@ -90,7 +90,7 @@ void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from
                     std::span<const Hit> hits, std::vector<InspectedVertex>& path) {
     const glm::vec2 at = glm::vec2(pixel) + from.subpixel;
     const Projection projection = pass.projection();
-    const float samples = std::max(static_cast<float>(pass.index) + 1, 1.0f);
+    const float samples = static_cast<float>(pass.index) + 1;
     const DeltaRule rule{samples, true, DeltaRule::published_change};
     std::vector<float> widths;
     scalar_footprints(worker.path, projection.pixel_width(), projection.ray(at, from.lens).origin, samples,

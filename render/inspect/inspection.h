@@ -57,6 +57,8 @@ struct InspectedStep {
     bool is_joined; ///< it is the base path's own vertex, seen from the offset
     /// Jacobian, pdf_w, ratio and value so far; the last one's with the light that the path ends at.
     OffsetStep shifted;
+    /// What it stands for there, as InspectedVertex has it, by the scalar form: a square.
+    Footprint footprint{};
 };
 
 /// One base path shifted to another pixel. A base path carries several light paths; `ratio`, `jacobian`, `weight`

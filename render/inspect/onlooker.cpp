@@ -1,7 +1,10 @@
 #include "render/inspect/onlooker.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace tessera {
@@ -76,8 +79,8 @@ void OffsetTrace::arrives(int m, const Vertex& y) {
     at(m).vertices.push_back(seen(y));
 }
 
-Onlooker::Onlooker(Worker& worker, int pixel, InspectedSet& result)
-    : worker_(worker), result_(result), pixel_(pixel) {
+Onlooker::Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result)
+    : worker_(worker), result_(result), samples_(samples), pixel_(pixel) {
     worker_.reuse.set_onlooker(&trace_);
 }
 
@@ -178,8 +181,40 @@ void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
     for (const InspectedStep& step : steps)
         s.jacobian *= step.shifted.jacobian;
     s.ending = ending_of(slot);
-    if (base == pixel_ || m == pixel_)
+    if (base == pixel_ || m == pixel_) {
+        add_footprints(base, m, steps);
         s.steps = std::move(steps);
+    }
+}
+
+/// Of the offset path as if its own pixel had drawn it. What the base path drew in the end is its own.
+void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps) const {
+    const BasePath& seen_first = path(m);
+    if (seen_first.empty())
+        return;
+    const Vertex& first = seen_first[0].vertex;
+    ScalarFootprint along({seen_first.pixel_angle, seen_first.pixel_width});
+    glm::vec3 to_before = first.to_world(first.to_previous);
+    float distance = 0; // the width is that of the pixel there
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const SeenVertex& y = steps[i].vertex;
+        along.arrive(distance, std::abs(glm::dot(to_before, y.normal)));
+        const Frame frame(y.normal);
+        const float width = along.width(std::log2(samples_));
+        steps[i].footprint = {width * frame.tangent, width * frame.bitangent};
+        if (i + 1 == steps.size())
+            break;
+        const OffsetStep& step = steps[i].shifted;
+        const glm::vec3 way = steps[i + 1].vertex.position - y.position;
+        distance = glm::length(way);
+        to_before = way / distance;
+        const float cosine = std::abs(glm::dot(to_before, y.normal)),
+                    survival = path(base)[static_cast<int>(i)].survival;
+        if (step.is_delta)
+            along.scatter_delta(cosine, survival);
+        else
+            along.scatter(cosine, std::min(y.roughness, 1.0f), step.pdf_w, survival);
+    }
 }
 
 std::string_view Onlooker::ending_of(int slot) const {

@@ -46,8 +46,9 @@ std::vector<InspectedVertex> inspect_path(const BasePath& path);
 /// Looks on while the light of a worker's set is shared out (share_light).
 class Onlooker {
 public:
-    /// @param pixel  the shifts to and from this entry of the set are told step by step; -1: none is
-    Onlooker(Worker& worker, int pixel, InspectedSet& result);
+    /// @param samples  a pixel so far, of which footprints are
+    /// @param pixel    the shifts to and from this entry of the set are told step by step; -1: none is
+    Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result);
     ~Onlooker();
     Onlooker(const Onlooker&) = delete;
     Onlooker& operator=(const Onlooker&) = delete;
@@ -60,12 +61,14 @@ private:
     int first_attempt(int m) const;
     void add_places(int base, int m, InspectedShift& s) const;
     void add_steps(int base, int m, int slot, InspectedShift& s) const;
+    void add_footprints(int base, int m, std::vector<InspectedStep>& steps) const;
     std::string_view ending_of(int slot) const;
     const BasePath& path(int k) const { return *worker_.set.paths[static_cast<std::size_t>(k)]; }
 
     Worker& worker_;
     InspectedSet& result_;
     OffsetTrace trace_;
+    float samples_;
     int pixel_;
 };
 

@@ -136,6 +136,38 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
     EXPECT_EQ(stretched > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
 }
 
+/// Shifted paths have footprints as if their own pixel had drawn them; so has a pixel's own path, which it did
+/// draw.
+TEST_P(Inspected, ShiftedPathsHaveFootprints) {
+    Render render(scene, scene->camera(), size, settings);
+    render.pass(pool);
+    int own = 0, shifted = 0;
+    for (int x = 0; x < size.x; ++x) {
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 9});
+        for (const InspectedSet& set : seen.sets)
+            for (const InspectedShift* s : set.to(seen.pixel))
+                for (std::size_t i = 0; i < s->steps.size(); ++i) {
+                    const float width = glm::length(s->steps[i].footprint.a);
+                    EXPECT_GT(width, 0);
+                    EXPECT_FLOAT_EQ(width * width, s->steps[i].footprint.area());
+                    if (s->from != s->to) {
+                        ++shifted;
+                        continue;
+                    }
+                    if (&set != seen.sets.data())
+                        continue; // another path of a pixel that shares nothing
+                    ++own;
+                    // Of balls, the normals of shading are not the triangles'.
+                    const bool is_flat = i == 0 && s->steps[i].vertex.bsdf != "dielectric";
+                    EXPECT_NEAR(width / seen.path[i].footprint_width, 1, is_flat ? 1e-4f : 0.2f);
+                }
+    }
+    if (settings.method == Method::pt)
+        return;
+    EXPECT_GT(shifted, 0);
+    EXPECT_GT(own, 0);
+}
+
 /// The tile whole: what its pixels get is what the pass adds, whichever of its pixels was asked for.
 TEST_P(Inspected, TheTileIsThatOfThePass) {
     Render render(scene, scene->camera(), size, settings);

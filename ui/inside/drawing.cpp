@@ -144,6 +144,13 @@ constexpr ImU32 base_colour = IM_COL32(255, 255, 255, 255), light_colour = IM_CO
                 footprint_colour = IM_COL32(226, 130, 255, 230);
 constexpr ImU32 untried_colour = IM_COL32(150, 150, 150, 255);
 
+void draw_footprint(const SceneLines& lines, glm::vec3 middle, const Footprint& f, float width) {
+    const glm::vec3 to_corner[] = {f.a + f.b, f.b - f.a, -f.a - f.b, f.a - f.b};
+    for (int i = 0; i < 4; ++i)
+        lines.outlined_line(middle + 0.5f * to_corner[i], middle + 0.5f * to_corner[(i + 1) % 4], footprint_colour,
+                            width);
+}
+
 /// `share` of the light decides how plain it is.
 void draw_shift(const SceneLines& lines, const InspectedShift& shift, float share, bool marked) {
     if (shift.offset.empty())
@@ -159,6 +166,10 @@ void draw_shift(const SceneLines& lines, const InspectedShift& shift, float shar
                    width);
     for (glm::vec3 y : shift.offset) // circles for hundreds of them would take a software driver most of its time
         marked ? lines.point(y, colour, font * 0.25f) : lines.dot(y, colour, font * 0.25f);
+    if (marked)
+        for (const InspectedStep& step : shift.steps)
+            if (step.footprint.area() > 0)
+                draw_footprint(lines, step.vertex.position, step.footprint, font * 0.08f);
 }
 
 } // namespace
@@ -177,17 +188,6 @@ void draw_shifts(const SceneLines& lines, const std::vector<const InspectedShift
     if (marked >= 0 && marked < static_cast<int>(shifts.size()))
         draw_shift(lines, *shifts[static_cast<std::size_t>(marked)], 1, true);
 }
-
-namespace {
-
-void draw_footprint(const SceneLines& lines, glm::vec3 middle, const Footprint& f, float width) {
-    const glm::vec3 to_corner[] = {f.a + f.b, f.b - f.a, -f.a - f.b, f.a - f.b};
-    for (int i = 0; i < 4; ++i)
-        lines.outlined_line(middle + 0.5f * to_corner[i], middle + 0.5f * to_corner[(i + 1) % 4], footprint_colour,
-                            width);
-}
-
-} // namespace
 
 void draw_base_path(const SceneLines& lines, const std::vector<InspectedVertex>& path, float far) {
     const float font = ImGui::GetFontSize();

@@ -43,7 +43,8 @@ constexpr Column vertex_columns[] = {
     {"footprint",
      "What the path stands for there as one of the samples so far (violet): sides of a parallelogram, units of "
      "the scene, from the path's derivatives by its random numbers, no further than light changes by 70 % "
-     "[Suykens 2001]. In brackets the side of a square by the scalar form, which does not look at light."},
+     "[Suykens 2001]. In brackets the side of a square by the scalar form, which does not look at light; of a "
+     "shifted path this alone, as if its own pixel had drawn it."},
     {"position", "In the world, units of the scene."},
     {"alpha", "Roughness (no unit): 1 diffuse, 0 perfectly smooth. Above the shift threshold, vertices can be "
               "connected to."},
@@ -124,7 +125,7 @@ void draw_step(const InspectedStep& y, bool own) {
     cell(short_text(s.jacobian));
     cell(short_text(s.value));
     cell(short_text(s.ratio));
-    cell("");
+    cell(y.footprint.area() > 0 ? "(" + short_text(glm::length(y.footprint.a)) + ")" : "");
     surface_cells(y.vertex);
     for (int i = 0; i < 3; ++i)
         cell("");
