@@ -182,10 +182,33 @@ std::array<Turn, 2> turns_of_cosine(glm::vec2 u, glm::vec3 to_next) {
 
 } // namespace
 
+Differentiation::Differentiation(const Differentiation& other) {
+    *this = other;
+}
+
+Differentiation& Differentiation::operator=(const Differentiation& other) {
+    here_.count = other.here_.count;
+    here_.normal = other.here_.normal;
+    here_.chance = other.here_.chance;
+    here_.numbers = other.here_.numbers;
+    const auto count = static_cast<std::ptrdiff_t>(NumberVectors::padded(here_.count));
+    const auto copy = [&](const auto& from, auto& to) { std::copy_n(from.begin(), count, to.begin()); };
+    for (const auto part : {&NumberVectors::x, &NumberVectors::y, &NumberVectors::z}) {
+        copy(other.here_.position.*part, here_.position.*part);
+        copy(other.direction_.*part, direction_.*part);
+    }
+    copy(other.here_.gradient, here_.gradient);
+    copy(other.here_.choice, here_.choice);
+    return *this;
+}
+
 void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns) {
     for (const Turn& t : turns) {
+        if (here_.count % NumberVectors::lanes == 0) // a vector more, of which the rest is 0
+            for (auto* part : {&here_.position.x, &here_.position.y, &here_.position.z, &direction_.x,
+                               &direction_.y, &direction_.z, &here_.gradient, &here_.choice})
+                std::fill_n(part->begin() + here_.count, NumberVectors::lanes, 0.0f);
         const int j = here_.count++;
-        here_.position.set(j, glm::vec3(0));
         direction_.set(j, t.direction);
         here_.gradient[static_cast<std::size_t>(j)] = t.log_value;
         here_.choice[static_cast<std::size_t>(j)] = choice;
@@ -194,12 +217,6 @@ void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns
 }
 
 void Differentiation::start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens) {
-    // What a longer path has left behind must not lie beyond the numbers of this one.
-    for (int j = 0; j < NumberVectors::padded(here_.count); ++j) {
-        here_.position.set(j, glm::vec3(0));
-        direction_.set(j, glm::vec3(0));
-        here_.gradient[static_cast<std::size_t>(j)] = 0;
-    }
     here_.count = 0;
     here_.chance = 1;
     std::array<Turn, 2> turns;

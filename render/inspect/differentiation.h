@@ -72,6 +72,11 @@ struct Turn {
 /// diffuse reflectance is not part of the gradient: that is what footprints average over.
 class Differentiation {
 public:
+    Differentiation() = default;
+    /// Copies no more than the numbers that there are.
+    Differentiation(const Differentiation& other);
+    Differentiation& operator=(const Differentiation& other);
+
     /// At a point of the picture, in pixels, and one of the lens.
     void start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens);
 
@@ -96,8 +101,8 @@ private:
     void turn_with_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 next, const Turns& seen);
     void add_numbers(float choice, const std::array<Turn, 2>& turns);
 
-    PathDerivatives here_{};
-    NumberVectors direction_{};
+    PathDerivatives here_;
+    NumberVectors direction_;
 };
 
 } // namespace tessera
