@@ -231,13 +231,6 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
     v.emitter_pdf_a = shape.emitter_pdf_a;
 }
 
-Frame frame_at(const Scene& scene, const Hit& hit, const Ray& ray) {
-    const ShapeRecord& shape = scene.record(hit.shape);
-    glm::vec3 geometric_normal;
-    const glm::vec3 normal = shading_normal(shape, hit, geometric_normal);
-    return shading_frame(shape, hit, geometric_normal, side_shown(shape, normal, ray.direction) * normal);
-}
-
 Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     constexpr int most_bounces = 8; // what is seen beyond so many mirrors is as good a guide as any
     Look look{Rgb(0), {Rgb(1)}};

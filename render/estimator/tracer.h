@@ -73,9 +73,6 @@ inline constexpr float no_width = -1;
 void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& vertex,
                  const TextureView* view = nullptr, float width = no_width);
 
-/// The frame of shading at a hit on `ray`, before relief.
-Frame frame_at(const Scene& scene, const Hit& hit, const Ray& ray);
-
 /// Shoots the rays of paths and counts them; knows the lights as emitter sampling sees them.
 struct Tracer {
     const Scene& scene;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include <glm/common.hpp>
@@ -14,33 +15,31 @@ namespace tessera {
 
 namespace {
 
-/// The sides of the triangle that is hit, in the world.
-std::array<glm::vec3, 2> sides_of(const Scene& scene, const Hit& hit) {
-    const ShapeRecord& shape = scene.record(hit.shape);
-    const glm::uvec3 t = shape.triangles[hit.triangle];
-    std::array<glm::vec3, 2> sides{shape.positions[t.y] - shape.positions[t.x],
-                                   shape.positions[t.z] - shape.positions[t.x]};
-    if (hit.placement)
-        for (glm::vec3& side : sides)
-            side = hit.placement->vector(side);
-    return sides;
-}
+/// A triangle that is hit, by its sides in the world.
+class TrianglePlane {
+public:
+    TrianglePlane(const ShapeRecord& shape, const Hit& hit) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        a_ = shape.positions[t.y] - shape.positions[t.x];
+        b_ = shape.positions[t.z] - shape.positions[t.x];
+        if (hit.placement) {
+            a_ = hit.placement->vector(a_);
+            b_ = hit.placement->vector(b_);
+        }
+    }
 
-/// How far to move a hit, for what is seen under that angle, but not far on its triangle.
-float step_of(const Scene& scene, const Hit& hit, float angle) {
-    const auto [a, b] = sides_of(scene, hit);
-    return std::min(angle * hit.distance, 0.2f * std::min(glm::length(a), glm::length(b - a)));
-}
+    /// What a vector in the plane changes the barycentric coordinates by.
+    glm::vec2 barycentric(glm::vec3 by) const {
+        const float aa = glm::dot(a_, a_), ab = glm::dot(a_, b_), bb = glm::dot(b_, b_);
+        const float along_a = glm::dot(by, a_), along_b = glm::dot(by, b_), determinant = aa * bb - ab * ab;
+        return determinant > 0 ? glm::vec2(bb * along_a - ab * along_b, aa * along_b - ab * along_a) / determinant
+                               : glm::vec2(0);
+    }
+    float shortest_side() const { return std::min(glm::length(a_), glm::length(b_ - a_)); }
 
-/// The hit that lies further along in the plane of its triangle.
-Hit moved_on(const Scene& scene, Hit hit, glm::vec3 by) {
-    const auto [a, b] = sides_of(scene, hit);
-    const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b);
-    const float along_a = glm::dot(by, a), along_b = glm::dot(by, b), determinant = aa * bb - ab * ab;
-    if (determinant > 0)
-        hit.barycentric += glm::vec2(bb * along_a - ab * along_b, aa * along_b - ab * along_a) / determinant;
-    return hit;
-}
+private:
+    glm::vec3 a_, b_;
+};
 
 /// Whether normals of shading differ over the triangle that is hit.
 bool is_curved(const ShapeRecord& shape, const Hit& hit) {
@@ -50,16 +49,45 @@ bool is_curved(const ShapeRecord& shape, const Hit& hit) {
     return shape.normals[t.x] != shape.normals[t.y] || shape.normals[t.x] != shape.normals[t.z];
 }
 
-/// By what vector the frame of shading turns (its length is the angle, radians) where a hit moves by a unit
-/// direction in its plane.
-glm::vec3 turn_of_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 along) {
-    const float step = step_of(scene, hit, 2e-3f);
-    const Frame more = frame_at(scene, moved_on(scene, hit, step * along), ray),
-                less = frame_at(scene, moved_on(scene, hit, -step * along), ray);
-    return (glm::cross(less.tangent, more.tangent) + glm::cross(less.bitangent, more.bitangent) +
-            glm::cross(less.normal, more.normal)) /
-           (4 * step);
-}
+/// The vectors by which the frame of shading turns (their length is the angle, radians) where a hit moves by unit
+/// directions in its plane.
+class FrameTurns {
+public:
+    FrameTurns(const ShapeRecord& shape, const Hit& hit, const Frame& frame) : plane_(shape, hit), frame_(frame) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        const glm::vec3 n0 = shape.normals[t.x];
+        by_barycentric_[0] = shape.normals[t.y] - n0;
+        by_barycentric_[1] = shape.normals[t.z] - n0;
+        glm::vec3 sum = n0 + hit.barycentric.x * by_barycentric_[0] + hit.barycentric.y * by_barycentric_[1];
+        if (hit.placement)
+            for (glm::vec3* n : {&by_barycentric_[0], &by_barycentric_[1], &sum})
+                *n = hit.placement->of_normals * *n;
+        // As the frame has it: a two-sided material turns it over.
+        const float length = glm::length(sum), scale = std::copysign(1 / length, glm::dot(sum, frame.normal));
+        for (glm::vec3& n : by_barycentric_)
+            n = scale * n - glm::dot(scale * n, frame.normal) * frame.normal;
+    }
+
+    glm::vec3 along(glm::vec3 direction) const {
+        const glm::vec2 by = plane_.barycentric(direction);
+        const glm::vec3 change = by.x * by_barycentric_[0] + by.y * by_barycentric_[1];
+        const float size = glm::length(change);
+        if (!(size > 0))
+            return glm::vec3(0);
+        // How the tangent lies is the frame's own matter.
+        const float step = 1e-3f / size;
+        const Frame more(glm::normalize(frame_.normal + step * change)),
+            less(glm::normalize(frame_.normal - step * change));
+        return (glm::cross(less.tangent, more.tangent) + glm::cross(less.bitangent, more.bitangent) +
+                glm::cross(less.normal, more.normal)) /
+               (4 * step);
+    }
+
+private:
+    TrianglePlane plane_;
+    const Frame& frame_;
+    std::array<glm::vec3, 2> by_barycentric_;
+};
 
 bool is_plain_diffuse(const Vertex& x) {
     return std::holds_alternative<Diffuse>(x.bsdf.kind) && !x.bsdf.is_bent() && !x.guide;
@@ -77,6 +105,8 @@ bool is_constant(const std::optional<Texture>& texture) {
 bool scatters_by_texture(const ShapeRecord& shape) {
     if (!shape.uvs && !shape.attributed)
         return false;
+    if (shape.has_frame_along_u && shape.normals)
+        return true; // and how the frame lies is a matter of the texture's u
     if (shape.material->relief)
         return true;
     const auto& kind = shape.material->kind;
@@ -118,11 +148,13 @@ public:
     }
     /// By a unit direction in the plane, with all that is looked up there.
     Turn by_position(glm::vec3 along) {
-        const float step = step_of(scene_, hit_, angle_);
+        const float step = std::min(angle_ * hit_.distance, 0.2f * TrianglePlane(shape(), hit_).shortest_side());
         return differ(moved(step * along), step, moved(-step * along), step);
     }
 
 private:
+    const ShapeRecord& shape() const { return scene_.record(hit_.shape); }
+
     std::optional<Turn> scattered(const Vertex& x, glm::vec3 to_previous, glm::vec2 u) const {
         const auto s = x.sample_from(to_previous, s_.lobe, u);
         if (!s || s->is_delta != s_.is_delta || s->scatter != s_.scatter)
@@ -135,7 +167,9 @@ private:
     }
 
     std::optional<Turn> moved(glm::vec3 by) {
-        make_vertex(scene_, moved_on(scene_, hit_, by), {ray_.origin + by, ray_.direction}, looked_up_);
+        Hit hit = hit_;
+        hit.barycentric += TrianglePlane(shape(), hit_).barycentric(by);
+        make_vertex(scene_, hit, {ray_.origin + by, ray_.direction}, looked_up_);
         looked_up_.guide = x_.guide;
         return scattered(looked_up_, looked_up_.to_previous, s_.u);
     }
@@ -219,17 +253,10 @@ void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns
 void Differentiation::start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens) {
     here_.count = 0;
     here_.chance = 1;
-    std::array<Turn, 2> turns;
-    std::array<glm::vec3, 2> origins;
-    for (const std::size_t axis : {0, 1}) {
-        const glm::vec2 half = axis == 0 ? glm::vec2(0.5f, 0) : glm::vec2(0, 0.5f);
-        const Ray more = projection.ray(pixel + half, lens), less = projection.ray(pixel - half, lens);
-        turns[axis].direction = more.direction - less.direction;
-        origins[axis] = more.origin - less.origin;
-    }
-    add_numbers(1, turns);
-    for (const int axis : {0, 1})
-        here_.position.set(axis, origins[static_cast<std::size_t>(axis)]);
+    const std::array<Ray, 2> by = projection.ray_derivatives(pixel, lens);
+    add_numbers(1, {Turn{by[0].direction, 0}, Turn{by[1].direction, 0}});
+    here_.position.set(0, by[0].origin);
+    here_.position.set(1, by[1].origin);
 }
 
 void Differentiation::arrive(const Ray& ray, float distance, glm::vec3 normal) {
@@ -267,15 +294,15 @@ void Differentiation::turn(const Turns& position, const Turns& direction) {
 
 /// Where the surface scatters alike everywhere, it is all turned with the frame: the next direction turns with it,
 /// and against the direction in which it is seen, which is as if that had turned back.
-void Differentiation::turn_with_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 next,
-                                      const Turns& seen) {
-    if (!is_curved(scene.record(hit.shape), hit))
+void Differentiation::turn_with_frame(const ShapeRecord& shape, const Ray& ray, const Hit& hit, const Vertex& x,
+                                      glm::vec3 next, const Turns& seen) {
+    if (!is_curved(shape, hit))
         return turn({}, seen);
+    const FrameTurns turns(shape, hit, x.frame);
     const Frame plane(here_.normal);
     Turns position{{plane.tangent, plane.bitangent}, {}};
     for (const std::size_t k : {0, 1}) {
-        const glm::vec3 turn = turn_of_frame(scene, ray, hit, position.along[k]),
-                        back = -glm::cross(turn, ray.direction);
+        const glm::vec3 turn = turns.along(position.along[k]), back = -glm::cross(turn, ray.direction);
         position.by[k].direction = glm::cross(turn, next);
         for (const std::size_t m : {0, 1}) {
             const float by = glm::dot(seen.along[m], back);
@@ -296,7 +323,7 @@ void Differentiation::scatter(const Scene& scene, const Ray& ray, const Hit& hit
         own = turns_of_cosine(s.u, s.to_next);
         for (Turn& t : own)
             t.direction = x.to_world(t.direction);
-        turn_with_frame(scene, ray, hit, x.to_world(s.to_next), {});
+        turn_with_frame(shape, ray, hit, x, x.to_world(s.to_next), {});
     } else {
         MovedScatter moved(scene, ray, hit, x, s, looks_up);
         const Frame across(ray.direction);
@@ -308,7 +335,7 @@ void Differentiation::scatter(const Scene& scene, const Ray& ray, const Hit& hit
                   {moved.by_position(plane.tangent), moved.by_position(plane.bitangent)}},
                  seen);
         } else {
-            turn_with_frame(scene, ray, hit, x.to_world(s.to_next), seen);
+            turn_with_frame(shape, ray, hit, x, x.to_world(s.to_next), seen);
         }
         if (!s.is_delta) {
             own = {moved.by_number({1, 0}), moved.by_number({0, 1})};

@@ -98,7 +98,8 @@ private:
         std::array<Turn, 2> by{};
     };
     void turn(const Turns& position, const Turns& direction);
-    void turn_with_frame(const Scene& scene, const Ray& ray, const Hit& hit, glm::vec3 next, const Turns& seen);
+    void turn_with_frame(const ShapeRecord& shape, const Ray& ray, const Hit& hit, const Vertex& x, glm::vec3 next,
+                         const Turns& seen);
     void add_numbers(float choice, const std::array<Turn, 2>& turns);
 
     PathDerivatives here_;

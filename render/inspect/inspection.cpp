@@ -93,8 +93,8 @@ void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from
     const float samples = static_cast<float>(pass.index) + 1;
     const DeltaRule rule{samples, true, DeltaRule::published_change};
     std::vector<float> widths;
-    scalar_footprints(worker.path, projection.pixel_width(), projection.ray(at, from.lens).origin, samples,
-                      widths);
+    scalar_footprints(worker.path, projection.pixel_width(), projection.ray(at, from.lens).origin,
+                      std::log2(samples), widths);
     Differentiation along;
     differentiate(pass.scene, projection, at, from.lens, worker.path, hits, along,
                   [&](int i, const PathDerivatives& d) {

@@ -102,11 +102,15 @@ namespace {
 struct LaneVectors {
     alignas(32) std::array<float, NumberVectors::lanes> x{}, y{}, z{};
 
-    glm::vec3 sum() const {
-        glm::vec3 all(0);
-        for (std::size_t lane = 0; lane < x.size(); ++lane)
-            all += glm::vec3(x[lane], y[lane], z[lane]);
-        return all;
+    /// By halves, which wait less for each other.
+    glm::vec3 sum() {
+        for (std::size_t half = x.size() / 2; half > 0; half /= 2)
+            for (std::size_t lane = 0; lane < half; ++lane) {
+                x[lane] += x[lane + half];
+                y[lane] += y[lane + half];
+                z[lane] += z[lane + half];
+            }
+        return {x[0], y[0], z[0]};
     }
 };
 
@@ -163,22 +167,24 @@ float area_of_sum(const NumberVectors& segments, int count, glm::vec3 normal) {
     return area;
 }
 
-void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float samples,
+void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float log_samples,
                        std::vector<float>& widths) {
     widths.clear();
+    if (path.empty())
+        return;
     ScalarFootprint along(pixel);
-    const float log_samples = std::log2(samples);
-    glm::vec3 from = origin;
-    for (int i = 0; i < path.size(); ++i) {
+    glm::vec3 way = path[0].vertex.position - origin;
+    float distance = glm::length(way);
+    for (int i = 0;; ++i) {
         const BaseVertex& x = path[i];
-        const glm::vec3 way = x.vertex.position - from;
-        const float distance = glm::length(way);
-        along.arrive(distance, std::abs(glm::dot(way, x.vertex.geometric_normal)) / distance);
+        const glm::vec3 normal = x.vertex.geometric_normal;
+        along.arrive(distance, std::abs(glm::dot(way, normal)) / distance);
         widths.push_back(along.width(log_samples));
         if (i + 1 == path.size())
-            break;
-        from = x.vertex.position;
-        const float cosine = std::abs(glm::dot(x.vertex.to_world(x.to_next), x.vertex.geometric_normal));
+            return;
+        way = path[i + 1].vertex.position - x.vertex.position;
+        distance = glm::length(way);
+        const float cosine = std::abs(glm::dot(way, normal)) / distance;
         if (x.is_delta)
             along.scatter_delta(cosine, x.survival);
         else

@@ -116,7 +116,8 @@ private:
 /// Of x_1, x_2, ... of a path: widths, units of the scene.
 /// @param pixel   of the camera ray's picture
 /// @param origin  of that ray
-void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float samples,
+/// @param log_samples  a pixel, to the base 2
+void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float log_samples,
                        std::vector<float>& widths);
 
 } // namespace tessera

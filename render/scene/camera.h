@@ -2,6 +2,7 @@
 
 #include "render/trace/rays.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -61,6 +62,15 @@ public:
     /// radii; (0, 0) is its middle. Its direction is unit.
     Ray ray(glm::vec2 pixel, glm::vec2 lens = glm::vec2(0)) const {
         return {origin_.at(pixel, lens), glm::normalize(direction_.at(pixel, lens))};
+    }
+
+    /// How that ray moves with the point of the picture: by the width of a pixel, and by its height.
+    std::array<Ray, 2> ray_derivatives(glm::vec2 pixel, glm::vec2 lens) const {
+        const glm::vec3 d = direction_.at(pixel, lens);
+        const float length = glm::length(d);
+        const glm::vec3 unit = d / length;
+        const auto across = [&](glm::vec3 by) { return (by - glm::dot(by, unit) * unit) / length; };
+        return {Ray{origin_.right, across(direction_.right)}, Ray{origin_.down, across(direction_.down)}};
     }
 
     PixelWidth pixel_width() const { return pixel_width_; }

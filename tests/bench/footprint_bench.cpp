@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -89,7 +90,7 @@ private:
     }
 
     void find_scalar(std::uint32_t i) {
-        scalar_footprints(path_, projection_.pixel_width(), projection_.ray(pixel(i)).origin, rule_.samples,
+        scalar_footprints(path_, projection_.pixel_width(), projection_.ray(pixel(i)).origin, log_samples_,
                           widths_);
     }
     template <class Visit>
@@ -136,6 +137,7 @@ private:
 
     const Scene& scene_;
     DeltaRule rule_;
+    float log_samples_ = std::log2(rule_.samples);
     Projection projection_;
     Counters counters_;
     BasePath path_;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -258,7 +259,7 @@ TEST(PathDifferentials, TheScalarFormKnowsAreas) {
                 return;
             const PathDerivatives& x = d.vertices[i];
             const float all = area_of_sum(differential_vectors(x, {}), x.count, x.normal);
-            scalar_footprints(d.path, d.projection.pixel_width(), d.projection.ray(d.pixel).origin, 1, widths);
+            scalar_footprints(d.path, d.projection.pixel_width(), d.projection.ray(d.pixel).origin, 0, widths);
             if (all > 0)
                 ratios.push_back(double(widths[i] * widths[i] / all));
         });
