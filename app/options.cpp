@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -238,7 +239,8 @@ int run_command_line(int argc, char** argv) {
     group_help(app);
     std::vector<const char*> words(argv, argv + argc);
     const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");
-    if (is_alone) // a scene, or a folder, is to be looked at
+    const bool has_display = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+    if (is_alone || (argc == 1 && has_display)) // a scene, or a folder, or what there is, is to be looked at
         words.insert(words.begin() + 1, "view");
     try {
         app.parse(static_cast<int>(words.size()), words.data());

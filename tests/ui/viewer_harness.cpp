@@ -91,6 +91,16 @@ void ViewerHarness::rest(int spp) {
     state().pace.spp_limit = spp;
     load_scene();
     wait_until([&] { return viewer.settled(spp); });
+    // Errors come a little later, where there are any, and stand in the lines below the pictures.
+    const auto is_measured = [&](const PaneState& p) {
+        const PaneChart& chart = state().chart_of(p);
+        return chart.generation == p.generation && chart.reference == state().companions.reference &&
+               !chart.curves.empty() && chart.curves.back().points().back().spp == spp;
+    };
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(spp > 1 ? 5 : 0);
+    while (!std::ranges::all_of(state().panes, is_measured) && std::chrono::steady_clock::now() < end)
+        frame();
+    frames(1);
 }
 
 void ViewerHarness::move_to(glm::vec2 position) {

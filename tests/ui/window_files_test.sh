@@ -99,4 +99,25 @@ grep -q absent.xml "$work/errors" || fail "no message names the absent scene"
 [ ! -e "$work/absent.png" ] || fail "a picture of nothing"
 "$tessera" view --screenshot "$work/no/such/folder.png" --spp 1 2>"$work/errors"
 [ $? -eq 2 ] || fail "an unwritable picture does not end with exit code 2"
+
+# --- without a word it opens as well, or says without a display what there is ---
+
+env -u DISPLAY -u WAYLAND_DISPLAY "$tessera" 2>"$work/errors"
+[ $? -eq 2 ] || fail "without a display and a command it does not end with exit code 2"
+grep -q "no command was given" "$work/errors" || fail "no message names the commands"
+"$tessera" &
+viewer=$!
+window=
+for _ in $(seq 300); do
+    window=$(xdotool search --name '^Tessera') && break
+    is_running || fail "without a command no viewer opens"
+    sleep 0.1
+done
+[ -n "$window" ] || fail "without a command no window opens"
+for _ in $(seq 20); do # until it has the keyboard
+    is_running || break
+    xdotool key ctrl+q
+    sleep 0.5
+done
+expect_end "ctrl+q" 0
 echo "passed"
