@@ -3,6 +3,7 @@
 #include "render/sampling/sampling.h"
 #include "tests/surface/bsdf_cases.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -222,6 +223,55 @@ TEST_P(EveryBsdf, SamplesAgreeWithEvaluate) {
                 EXPECT_EQ(v.pdf_w, s->pdf_w);
             }
         }
+}
+
+/// The area that a direction's derivatives by both of its numbers span: 1 over the density of the lobe it is of.
+/// 0: what is drawn nearby is another lobe's.
+double area_of_numbers(const Bsdf& bsdf, glm::vec3 to_previous, float lobe, glm::vec2 u) {
+    constexpr float step = 1e-3f;
+    glm::dvec3 by[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::dvec3 at[4]; // -2, -1, 1 and 2 steps away
+        for (int k = 0; k < 4; ++k) {
+            glm::vec2 moved = u;
+            moved[axis] += static_cast<float>(k < 2 ? k - 2 : k - 1) * step;
+            const auto s = bsdf.sample(to_previous, lobe, moved);
+            if (!s || s->is_delta)
+                return 0;
+            at[k] = s->to_next;
+        }
+        by[axis] = (8.0 * (at[2] - at[1]) - (at[3] - at[0])) / (12.0 * double(step));
+    }
+    return glm::length(glm::cross(by[0], by[1]));
+}
+
+/// Where one lobe is all there is, its density is the pdf, to 1e-3; of several, the pdf has its share in it.
+TEST_P(EveryBsdf, JacobiansOfSamplingAreThePdf) {
+    Uniform uniform(19);
+    std::vector<double> errors;
+    for (const glm::vec3 to_previous : views())
+        for (int i = 0; i < 200; ++i) {
+            const float lobe = uniform();
+            const glm::vec2 u = 0.01f + 0.98f * uniform.two();
+            const auto s = bsdf().sample(to_previous, lobe, u);
+            const double area = s && !s->is_delta ? area_of_numbers(bsdf(), to_previous, lobe, u) : 0;
+            if (!(area > 0))
+                continue;
+            constexpr int lobes = 100;
+            double chance = 0; // of the lobe
+            for (int k = 0; k < lobes; ++k)
+                if (const auto other = bsdf().sample(to_previous, (static_cast<float>(k) + 0.5f) / lobes, u))
+                    chance += other->to_next == s->to_next && !other->is_delta ? 1.0 / lobes : 0;
+            if (chance > 1 - 0.5 / lobes)
+                errors.push_back(std::abs(area * double(s->pdf_w) - 1));
+            else
+                EXPECT_GT(area * double(s->pdf_w), 0.98 * chance - 1.5 / lobes);
+        }
+    std::sort(errors.begin(), errors.end());
+    if (errors.size() < 100)
+        return; // it has several
+    EXPECT_LT(errors[errors.size() / 2], 1e-3);
+    EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3) << "but where squares are mapped to disks with a kink";
 }
 
 TEST_P(EveryBsdf, DeltaPartsHaveTheirProbability) {
