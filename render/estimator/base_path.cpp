@@ -95,6 +95,8 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 float path_survival(const PathSettings& settings, int index, const Vertex& x, const BsdfSample& s) {
     if (settings.roulette_depth == 0 || index < settings.roulette_depth)
         return 1;
+    if (x.bsdf.is_mirror()) // what is seen in mirrors alone is shared by nobody, nor smoothed
+        return 1;
     if (x.guide) {
         const Rgb albedo = x.bsdf.albedo(x.to_previous);
         return std::clamp(std::max({albedo.r, albedo.g, albedo.b}), 0.1f, 0.95f);

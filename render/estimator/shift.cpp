@@ -111,9 +111,10 @@ bool Shift::joins_light(int i, int sample) const {
 }
 
 /// Of the offsets that go on, asks those that have more than delta scatters.
-void Shift::ask_for_lobes(LaneMask& asked) const {
+void Shift::ask_for_lobes(LaneMask& asked) {
     for (int m = 0; m < padded(y_->count()); ++m)
         asked[m] = y_->roughness[m] > 0 ? active_[m] : 0;
+    fail_others(active_, asked, ShiftOutcome::kind_mismatch);
 }
 
 /// Of those asked, keeps the ones that are joined if and only if the base is.

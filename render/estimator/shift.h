@@ -96,7 +96,7 @@ private:
     void walk();
     void shift_lights(int i);
     void escape(int i);
-    void ask_for_lobes(LaneMask& asked) const;
+    void ask_for_lobes(LaneMask& asked);
     void keep_alike(bool joined, LaneMask& asked, SightLanes& sight);
     void fail_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
     void fail(int m, ShiftOutcome outcome);

@@ -180,8 +180,9 @@ std::optional<CopiedScatter> Shift::copy_scatter(int i, int m) {
         const std::optional<CopiedScatter> s =
             are_both_mirrors_or_neither(x.vertex, y) ? copy_delta(x.scatter, y) : std::nullopt;
         if (!s)
-            fail(m, x.scatter == Scatter::transmit && y.bsdf.roughness() <= 0 ? ShiftOutcome::total_reflection
-                                                                              : ShiftOutcome::kind_mismatch);
+            fail(m, x.scatter == Scatter::transmit && y.bsdf.roughness() <= 0 && !y.bsdf.is_mirror()
+                        ? ShiftOutcome::total_reflection
+                        : ShiftOutcome::kind_mismatch);
         return s;
     }
     if (y.bsdf.roughness() <= 0 || !may_be_alike(i, m)) {

@@ -14,6 +14,11 @@ double variance_of(double squares, double square_of_sum, double n) {
     return n > 1 ? std::max(squares - square_of_sum / n, 0.0) / (n - 1) : 0;
 }
 
+float square_of(const Guide& guide) {
+    return glm::dot(guide.albedo, guide.albedo) + glm::dot(guide.normal, guide.normal) +
+           guide.roughness * guide.roughness;
+}
+
 } // namespace
 
 void PixelLooks::Points::operator+=(const Look& look) {
@@ -21,8 +26,7 @@ void PixelLooks::Points::operator+=(const Look& look) {
     albedo += a;
     albedo_squares += glm::dot(a, a);
     guide += look.guide;
-    guide_squares +=
-        glm::dot(look.guide.albedo, look.guide.albedo) + glm::dot(look.guide.normal, look.guide.normal);
+    guide_squares += square_of(look.guide);
     ++count;
 }
 
@@ -40,8 +44,7 @@ double PixelLooks::Points::relative_albedo_variance() const {
 }
 
 double PixelLooks::Points::guide_variance() const {
-    const float square = glm::dot(guide.albedo, guide.albedo) + glm::dot(guide.normal, guide.normal);
-    return variance_of(static_cast<double>(guide_squares), static_cast<double>(square), count);
+    return variance_of(static_cast<double>(guide_squares), static_cast<double>(square_of(guide)), count);
 }
 
 void PixelLooks::ask_for_more(int passes) {

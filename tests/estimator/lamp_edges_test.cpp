@@ -104,6 +104,27 @@ TEST(LampEdges, AreSeenInMirrors) {
     }
 }
 
+/// What is seen in a mirror is all there in each sample, whatever the roulette on path length.
+TEST(LampEdges, MirrorsTakeNoRoulette) {
+    SceneBuilder b;
+    b.quad({-2, -1.6f, 5}, {-0.4f, 3.6f, 0}, {4, 0.4f, 0}, b.diffuse(Rgb(0.5f)), b.light(Texture(Rgb(3, 2, 1))));
+    b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.mirror());
+    b.camera({0, 0, 3}, {0, 0, 0}, 40);
+    RenderSettings settings;
+    settings.method = Method::pt;
+    settings.roulette_depth = 1;
+    settings.very_direct_grid = 1;
+    const auto scene = b.build();
+    Render render(scene, scene->camera(), {24, 24}, settings);
+    ThreadPool pool(1);
+    for (int pass = 0; pass < 8; ++pass)
+        render.pass(pool);
+    const RgbImage image = render.images().very_direct;
+    for (int y = 10; y < 14; ++y)
+        for (int x = 10; x < 14; ++x)
+            EXPECT_LT(glm::distance(image(x, y), Rgb(3, 2, 1)), 1e-4f) << x << ',' << y;
+}
+
 /// All of a lamp's middle, and the same colour everywhere: nothing is looked for twice.
 TEST(LampEdges, AreFollowedOnlyWhereTheyAre) {
     const auto rays = [](int grid) {

@@ -30,6 +30,8 @@ std::string set_text(const InspectedSet& set, glm::ivec2 pixel) {
 std::string headline(const Inspection& i) {
     std::string line = std::string(paper_name(i.method)) + "   pixel (" + short_text(i.pixel) + ")   pass " +
                        std::to_string(i.pass) + "   own path " + short_text(i.radiance);
+    if (!is_black(i.very_direct))
+        line += " and lamps seen " + short_text(i.very_direct);
     if (reuses_paths(i.method) && i.sets.size() > 1)
         line += "   |   shares nothing, and takes the mean of " + std::to_string(i.sets.size()) +
                 " paths of its own: it gets " + short_text(i.shared_radiance());

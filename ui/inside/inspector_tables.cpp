@@ -52,7 +52,8 @@ constexpr Column vertex_columns[] = {
     {"lamp",
      "Direct light at this vertex by emitter sampling, with its MIS weight: luminance of the radiance toward "
      "the vertex before."},
-    {"hit", "The same by BSDF sampling: the way on meets a lamp."},
+    {"hit", "The same by BSDF sampling: the way on meets a lamp. One that is seen in mirrors alone is none of the "
+            "path's light."},
 };
 constexpr Column shift_columns[] = {
     {"from", "Pixel whose base path is shifted."},

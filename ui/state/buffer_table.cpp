@@ -36,8 +36,9 @@ constexpr BufferInfo table[] = {
      "roulette none and G-PT reuse all: 100 %. Not for PT.",
      Family::reuse, ColourMap::false_colour, "%", 100},
     {Buffer::very_direct, "very_direct", "Very direct",
-     "Emission that the camera itself sees; radiance. It is added after the reconstruction.", Family::picture,
-     ColourMap::radiance, "", 1},
+     "Emission that the camera itself sees, straight or in mirrors; radiance. It is added after the "
+     "reconstruction.",
+     Family::picture, ColourMap::radiance, "", 1},
     {Buffer::error_relative_squared, "relMSE", "Error: relMSE",
      "(I - r)^2 / (r^2 + 0.001), the mean of red, green and blue, of the picture I and the reference r (no unit). "
      "Its mean over the pixels is the relMSE of [Bauszat 2017, 4].",
