@@ -26,8 +26,8 @@ namespace tessera {
 namespace {
 
 /// The setup whose verdict stands below a picture, and those that its help has.
-constexpr std::string_view judged_setup = "gpr-weighted";
-constexpr std::string_view shown_setups[] = {"pr", "gpt-weighted", judged_setup};
+constexpr std::string_view judged_setup = "gpr-guided";
+constexpr std::string_view shown_setups[] = {"pr", "gpt-guided", "gpr-weighted", judged_setup};
 
 RgbImage picture_of(const std::string& name) {
     for (const EmbeddedFile& file : gallery_pictures) {
