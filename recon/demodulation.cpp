@@ -12,6 +12,13 @@ Rgb known_albedo(const Demodulation& d, int x, int y) {
     return d.albedo(x, y) + d.sampled_share(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
 }
 
+void multiply_by_known_albedo(const Demodulation& d, RgbImage& image, const ParallelFor& parallel_for) {
+    parallel_for(d.empty() ? 0 : image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x)
+            image(x, y) *= known_albedo(d, x, y);
+    });
+}
+
 namespace {
 
 /// V = A E + m(v) - A m(e), of pixel (x, y).

@@ -29,6 +29,9 @@ void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image,
 /// A of pixel (x, y) where the answer is not unbiased: the mean of all albedos that are known of it.
 Rgb known_albedo(const Demodulation& demodulation, int x, int y);
 
+/// Multiplies an image by that, coefficients to radiance; without a demodulation it is radiance already.
+void multiply_by_known_albedo(const Demodulation& demodulation, RgbImage& image, const ParallelFor& parallel_for);
+
 /// The memory that remodulate() takes.
 std::uint64_t bytes_to_remodulate(int width, int height);
 

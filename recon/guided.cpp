@@ -186,17 +186,16 @@ struct RowSums {
     int begin, end;
     float values[6][chunk] = {}, weights[chunk] = {};
 
-    /// Adds what the pixels `shift` columns on in another row give. The weights are those of the pixels here, or
-    /// there.
-    void add(const Planes& from, int row, int shift, const float* row_weights, bool are_here);
+    /// Adds what the pixels `shift` columns on in another row give; their weights stand `place` columns on.
+    void add(const Planes& from, int row, int shift, const float* row_weights, int place);
 };
 
-void RowSums::add(const Planes& from, int row, int shift, const float* row_weights, bool are_here) {
+void RowSums::add(const Planes& from, int row, int shift, const float* row_weights, int place) {
     const int width = from[0].width(), first = std::max(begin, -shift),
               count = std::min(end, width - shift) - first;
     if (count <= 0)
         return;
-    const float* w = row_weights + first + (are_here ? 0 : shift);
+    const float* w = row_weights + first + place;
     for (std::size_t c = 0; c < from.size(); ++c) {
         const float* value = from[c].row(row) + first + shift;
         float* sum = values[c] + first - begin;
@@ -215,13 +214,13 @@ void smooth(const Planes& from, const PairWeights& weights, int step, const Para
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; x += chunk) {
             RowSums sums{x, std::min(width, x + chunk)};
-            sums.add(from, y, 0, own.data(), true);
+            sums.add(from, y, 0, own.data(), 0);
             for (std::size_t k = 0; k < weights.size(); ++k) {
                 const int shift = pairs[k].i * step, above = y - pairs[k].j * step, below = y + pairs[k].j * step;
                 if (below < height)
-                    sums.add(from, below, shift, weights[k].row(y), true);
+                    sums.add(from, below, shift, weights[k].row(y), 0);
                 if (above >= 0)
-                    sums.add(from, above, -shift, weights[k].row(above), false);
+                    sums.add(from, above, -shift, weights[k].row(above), -shift);
             }
             for (std::size_t c = 0; c < from.size(); ++c)
                 for (int i = x; i < sums.end; ++i)

@@ -180,7 +180,7 @@ struct GradientImages {
     RgbImage primal;      ///< radiance without what is in very_direct, or its coefficient (Demodulation)
     RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and means nothing
     RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
-    RgbImage very_direct; ///< emission seen by the camera itself; added after the reconstruction
+    RgbImage very_direct; ///< emission seen by the camera, straight or in mirrors; added after the reconstruction
 
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};

@@ -247,11 +247,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
         solvers_->weights = {};
     }
-    const Demodulation& d = images.demodulation;
-    parallel_for(d.empty() ? 0 : noise.height(), [&](int y) {
-        for (int x = 0; x < noise.width(); ++x)
-            noise(x, y) *= known_albedo(d, x, y);
-    });
+    multiply_by_known_albedo(images.demodulation, noise, parallel_for);
     if (!held.empty() && !images.brightest.half.empty()) {
         RgbImage held_noise = held;
         for (std::size_t i = 0; i < held.size(); ++i)

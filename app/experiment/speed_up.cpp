@@ -135,7 +135,7 @@ double slope_of(const Curve& curve) {
     for (const Result& result : curve)
         if (is_certain(result))
             points.emplace_back(cpu_seconds_of(result), error_of(result));
-    return log_log_slope(points);
+    return log_log_slope(points).value;
 }
 
 const Curve* best_curve(const SceneCurves& scene, Method method) {

@@ -148,41 +148,26 @@ std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImag
     return change;
 }
 
-double log_log_slope(std::span<const glm::dvec2> points) {
-    double n = 0, x_sum = 0, y_sum = 0, xx_sum = 0, xy_sum = 0;
-    for (const glm::dvec2& p : points) {
-        const double x = std::log(p.x), y = std::log(p.y);
-        if (!std::isfinite(x) || !std::isfinite(y))
-            continue;
-        n += 1;
-        x_sum += x;
-        y_sum += y;
-        xx_sum += x * x;
-        xy_sum += x * y;
-    }
-    const double spread = n * xx_sum - x_sum * x_sum;
-    return spread > 1e-9 * n * xx_sum ? (n * xy_sum - x_sum * y_sum) / spread
-                                      : std::numeric_limits<double>::quiet_NaN();
-}
-
-double log_log_slope_error(std::span<const glm::dvec2> points, std::span<const double> relative_errors) {
-    const auto has_place = [](const glm::dvec2& p) {
-        return std::isfinite(std::log(p.x)) && std::isfinite(std::log(p.y));
-    };
-    double n = 0, mean = 0, squares = 0, error = 0;
-    for (const glm::dvec2& p : points)
-        if (has_place(p)) {
+Slope log_log_slope(std::span<const glm::dvec2> points, std::span<const double> relative_errors) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto place = [](const glm::dvec2& p) { return glm::dvec2(std::log(p.x), std::log(p.y)); };
+    const auto has_place = [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+    double n = 0, x_sum = 0, xx_sum = 0;
+    for (const glm::dvec2& point : points)
+        if (const glm::dvec2 p = place(point); has_place(p)) {
             n += 1;
-            mean += std::log(p.x);
+            x_sum += p.x;
+            xx_sum += p.x * p.x;
         }
-    mean /= n;
+    double spread = 0, rise = 0, error = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (has_place(points[i])) {
-            const double x = std::log(points[i].x) - mean;
-            squares += x * x;
-            error += std::abs(x) * relative_errors[i];
+        if (const glm::dvec2 p = place(points[i]); has_place(p)) {
+            const double x = p.x - x_sum / n;
+            spread += x * x;
+            rise += x * p.y;
+            error += std::abs(x) * (relative_errors.empty() ? nan : relative_errors[i]);
         }
-    return squares > 0 ? error / squares : std::numeric_limits<double>::quiet_NaN();
+    return spread > 1e-9 * xx_sum ? Slope{rise / spread, error / spread} : Slope{nan, nan};
 }
 
 } // namespace tessera

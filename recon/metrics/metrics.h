@@ -73,15 +73,16 @@ Image<double> reference_errors(const RgbImage& reference1, const RgbImage& refer
 /// The mean of such a map, and its standard error.
 FloorFreeError mean_of_pieces(const Image<double>& errors);
 
+/// The slope of a line in a log-log chart, and the most that its standard error can be: points of one render stand
+/// on the same samples, so that their errors may go together in any way.
+struct Slope {
+    double value, error;
+};
+
 /// The exponent b of y ~ x^b, the slope of a line in a log-log chart, by least squares of the logarithms: -1 for
 /// an error that falls as noise does. Left out are points that have no place there. Not a number for fewer than
 /// two places along x.
-double log_log_slope(std::span<const glm::dvec2> points);
-
-/// The most that the slope's standard error can be where each y has that one relative to itself: points of one
-/// render stand on the same samples, so that their errors may go together in any way. Not a number where
-/// log_log_slope is not, or one of these.
-/// @param relative_errors  as many as points
-double log_log_slope_error(std::span<const glm::dvec2> points, std::span<const double> relative_errors);
+/// @param relative_errors  the standard error of each y, over that y; none: the slope's is not a number
+Slope log_log_slope(std::span<const glm::dvec2> points, std::span<const double> relative_errors = {});
 
 } // namespace tessera

@@ -17,13 +17,9 @@ constexpr int radius = 2;
 /// Half differences as radiance; 0 where one of both is not finite.
 RgbImage noise_of(const GradientImages& images, const RgbImage& picture) {
     RgbImage noise = images.halves.primal;
-    for (int y = 0; y < noise.height(); ++y)
-        for (int x = 0; x < noise.width(); ++x) {
-            if (!images.demodulation.empty())
-                noise(x, y) *= known_albedo(images.demodulation, x, y);
-            if (!is_finite(noise(x, y)) || !is_finite(picture(x, y)))
-                noise(x, y) = Rgb(0);
-        }
+    multiply_by_known_albedo(images.demodulation, noise, serial_for);
+    std::transform(noise.begin(), noise.end(), picture.begin(), noise.begin(),
+                   [](const Rgb& n, const Rgb& p) { return is_finite(n) && is_finite(p) ? n : Rgb(0); });
     return noise;
 }
 

@@ -112,16 +112,8 @@ TextureView::Sides sides_of(const TextureView::Beam& beam, glm::vec3 normal) {
 
 void set_footprint(const TextureView::Sides& sides, glm::vec3 by_u, glm::vec3 by_v,
                    SurfacePoint::Footprint& footprint) {
-    const float uu = glm::dot(by_u, by_u), uv = glm::dot(by_u, by_v), vv = glm::dot(by_v, by_v);
-    const float determinant = uu * vv - uv * uv;
-    const auto in_uv = [&](glm::vec3 side) {
-        const float u = glm::dot(side, by_u), v = glm::dot(side, by_v);
-        return glm::vec2(vv * u - uv * v, uu * v - uv * u) / determinant;
-    };
-    if (!(determinant > 0))
-        return;
-    footprint.along = in_uv(sides.a);
-    footprint.across = in_uv(sides.b);
+    footprint.along = coordinates_along(sides.a, by_u, by_v);
+    footprint.across = coordinates_along(sides.b, by_u, by_v);
 }
 
 } // namespace

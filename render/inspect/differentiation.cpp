@@ -1,5 +1,6 @@
 #include "render/inspect/differentiation.h"
 
+#include "render/sampling/sampling.h"
 #include "render/surface/material.h"
 
 #include <algorithm>
@@ -29,12 +30,7 @@ public:
     }
 
     /// What a vector in the plane changes the barycentric coordinates by.
-    glm::vec2 barycentric(glm::vec3 by) const {
-        const float aa = glm::dot(a_, a_), ab = glm::dot(a_, b_), bb = glm::dot(b_, b_);
-        const float along_a = glm::dot(by, a_), along_b = glm::dot(by, b_), determinant = aa * bb - ab * ab;
-        return determinant > 0 ? glm::vec2(bb * along_a - ab * along_b, aa * along_b - ab * along_a) / determinant
-                               : glm::vec2(0);
-    }
+    glm::vec2 barycentric(glm::vec3 by) const { return coordinates_along(by, a_, b_); }
     float shortest_side() const { return std::min(glm::length(a_), glm::length(b_ - a_)); }
 
 private:

@@ -74,15 +74,9 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
 /// @param d  of vertex i of the path
 void add_light_footprints(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
                           InspectedVertex& x) {
-    auto light = x.light_points.begin();
-    for (int sample = 0; sample < worker.path.light_samples(); ++sample) {
-        const LightSample& drawn = worker.path.lights(i)[static_cast<std::size_t>(sample)];
-        if (is_black(drawn.brings) || drawn.light.is_at_infinity())
-            continue;
-        if (drawn.light.kind == LightPoint::Kind::surface)
-            light->footprint = footprint(differentiate_light(worker.tracer, worker.path, i, sample, d), rule);
-        ++light;
-    }
+    for (InspectedLight& light : x.light_points)
+        if (worker.path.lights(i)[static_cast<std::size_t>(light.sample)].light.kind == LightPoint::Kind::surface)
+            light.footprint = footprint(differentiate_light(worker.tracer, worker.path, i, light.sample, d), rule);
 }
 
 /// Finds what the vertices of the path stand for, and its light samples.

@@ -28,8 +28,9 @@ struct SeenVertex {
 
 /// A light sample that brings light, on a surface or a point.
 struct InspectedLight {
+    int sample; ///< of those of its vertex
     glm::vec3 position;
-    Footprint footprint{}; ///< as InspectedVertex has it
+    Footprint footprint{}; ///< as InspectedVertex has it; a point: a light without extent
 };
 
 /// A vertex of a base path as one looks at it. Densities as in BaseVertex; radiances are toward the vertex before.

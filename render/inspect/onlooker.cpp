@@ -28,10 +28,11 @@ InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
                       Rgb(0),
                       Rgb(0),
                       {}};
-    for (const LightSample& light : path.lights(i)) {
+    for (int sample = 0; sample < path.light_samples(); ++sample) {
+        const LightSample& light = path.lights(i)[static_cast<std::size_t>(sample)];
         v.sampled += light.brings;
         if (!is_black(light.brings) && !light.light.is_at_infinity())
-            v.light_points.push_back({light.light.position});
+            v.light_points.push_back({sample, light.light.position});
     }
     if (v.goes_on) {
         v.to_next = x.vertex.to_world(x.to_next);
@@ -210,10 +211,7 @@ void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps
         to_before = way / distance;
         const float cosine = std::abs(glm::dot(to_before, y.normal)),
                     survival = path(base)[static_cast<int>(i)].survival;
-        if (step.is_delta)
-            along.scatter_delta(cosine, survival);
-        else
-            along.scatter(cosine, std::min(y.roughness, 1.0f), step.pdf_w, survival);
+        along.scatter(cosine, step.is_delta, y.roughness, step.pdf_w, survival);
     }
 }
 

@@ -185,10 +185,7 @@ void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin,
         way = path[i + 1].vertex.position - x.vertex.position;
         distance = glm::length(way);
         const float cosine = std::abs(glm::dot(way, normal)) / distance;
-        if (x.is_delta)
-            along.scatter_delta(cosine, x.survival);
-        else
-            along.scatter(cosine, std::min(x.vertex.bsdf.roughness(), 1.0f), x.pdf_w, x.survival);
+        along.scatter(cosine, x.is_delta, x.vertex.bsdf.roughness(), x.pdf_w, x.survival);
     }
 }
 

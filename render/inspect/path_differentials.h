@@ -4,6 +4,7 @@
 #include "render/inspect/differentiation.h"
 #include "render/scene/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -88,17 +89,15 @@ public:
         width_ = (width_ * std::sqrt(cosine_) + angle_ * distance) / std::sqrt(cosine);
     }
     /// @param cosine     between the next ray and the normal, absolute
-    /// @param roughness  in [0, 1]: the share of the angle so far that is forgotten: none of a mirror's, all of a
-    ///                   diffuse surface's
-    void scatter(float cosine, float roughness, float pdf_w, float survival) {
+    /// @param roughness  the share of the angle so far that is forgotten: none of a mirror's, all of a diffuse
+    ///                   surface's; of a delta scatter it and pdf_w do not count
+    void scatter(float cosine, bool is_delta, float roughness, float pdf_w, float survival) {
         cosine_ = cosine;
-        angle_ = (1 - roughness) * angle_ + std::sqrt(1 / pdf_w);
+        log_chance_ += survival < 1 ? std::log2(survival) : 0;
+        if (is_delta)
+            return;
+        angle_ = (1 - std::min(roughness, 1.0f)) * angle_ + std::sqrt(1 / pdf_w);
         numbers_ += 2;
-        survive(survival);
-    }
-    void scatter_delta(float cosine, float survival) {
-        cosine_ = cosine;
-        survive(survival);
     }
 
     /// On the surface, of one of so many samples: units of the scene.
@@ -106,8 +105,6 @@ public:
     float width(float log_samples) const { return width_ * std::exp2(-(log_samples + log_chance_) / numbers_); }
 
 private:
-    void survive(float survival) { log_chance_ += survival < 1 ? std::log2(survival) : 0; }
-
     // As if each number's whole interval were the path's.
     float width_, angle_;
     float cosine_ = 1, log_chance_ = 0, numbers_ = 2;

@@ -102,6 +102,13 @@ struct Frame {
     }
 };
 
+/// How far a vector goes along a and along b, of what lies in their plane; 0 0 where they span none.
+inline glm::vec2 coordinates_along(glm::vec3 v, glm::vec3 a, glm::vec3 b) {
+    const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
+    const float va = glm::dot(v, a), vb = glm::dot(v, b);
+    return determinant > 0 ? glm::vec2(bb * va - ab * vb, aa * vb - ab * va) / determinant : glm::vec2(0);
+}
+
 /// Sine and cosine of an angle in [-pi/4, pi/4], by their series; to the last bit but one.
 inline glm::vec2 sin_cos_quarter(float angle) {
     const float a2 = angle * angle;

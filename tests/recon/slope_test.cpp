@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ TEST(Slope, IsTheExponent) {
     std::vector<glm::dvec2> points;
     for (double x = 0.01; x < 1000; x *= 1.7)
         points.emplace_back(x, 3 * std::pow(x, -0.75));
-    EXPECT_NEAR(log_log_slope(points), -0.75, 1e-12);
+    EXPECT_NEAR(log_log_slope(points).value, -0.75, 1e-12);
 }
 
 TEST(Slope, LeavesOutWhatHasNoPlace) {
@@ -21,15 +22,25 @@ TEST(Slope, LeavesOutWhatHasNoPlace) {
                  infinity = std::numeric_limits<double>::infinity();
     const std::vector<glm::dvec2> points = {{1, 8},  {2, 4},        {4, 2}, {0, 1},   {-1, 3},
                                             {3, -1}, {3, infinity}, {3, 0}, {nan, 1}, {5, nan}};
-    EXPECT_NEAR(log_log_slope(points), -1, 1e-12);
+    EXPECT_NEAR(log_log_slope(points).value, -1, 1e-12);
+}
+
+/// Two points a factor of e apart: the slope is their difference, and so its error at most the sum of theirs. What
+/// has no place has no error either, and with errors that are not known, the slope's is not.
+TEST(Slope, HasAtMostTheErrorsOfItsPointsTogether) {
+    const std::vector<glm::dvec2> points = {{1, 5}, {0, 1}, {std::numbers::e, 4}};
+    const std::vector<double> errors = {0.1, 9, 0.2};
+    EXPECT_NEAR(log_log_slope(points, errors).value, std::log(0.8), 1e-12);
+    EXPECT_NEAR(log_log_slope(points, errors).error, 0.3, 1e-12);
+    EXPECT_TRUE(std::isnan(log_log_slope(points).error));
 }
 
 TEST(Slope, OfFewerThanTwoPlacesIsNoNumber) {
     const std::vector<glm::dvec2> one = {{2, 1}}, same = {{2, 1}, {2, 3}, {2, 5}}, useless = {{2, 1}, {3, 0}};
-    EXPECT_TRUE(std::isnan(log_log_slope({})));
-    EXPECT_TRUE(std::isnan(log_log_slope(one)));
-    EXPECT_TRUE(std::isnan(log_log_slope(same)));
-    EXPECT_TRUE(std::isnan(log_log_slope(useless)));
+    EXPECT_TRUE(std::isnan(log_log_slope({}).value));
+    EXPECT_TRUE(std::isnan(log_log_slope(one).value));
+    EXPECT_TRUE(std::isnan(log_log_slope(same).value));
+    EXPECT_TRUE(std::isnan(log_log_slope(useless).value));
 }
 
 } // namespace

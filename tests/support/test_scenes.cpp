@@ -313,7 +313,7 @@ std::vector<TestScene> all_test_scenes() {
         {"phong_half_vectors", phong(), 5, 0.5f},
         {"shining_wall", shining_wall(), 4},
         {"short_edges", blinds(), 4, 0.001f, 1, 20},
-        {"glass_in_plastic", glass_in_plastic(), 6, 0.001f, 3, 12},
+        {"glass_in_plastic", glass_in_plastic(), 6, 0.001f, 3, 2},
         {"lamp_in_mirrors", lamp_in_mirrors(), 5},
         {"squares_in_mirrors", squares_in_mirrors(), 5, 0.001f, 4},
         {"thin_lens", thin_lens(), 4, 0.001f, 2},

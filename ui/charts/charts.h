@@ -1,5 +1,6 @@
 #pragma once
 
+#include "recon/metrics/metrics.h"
 #include "ui/charts/chart.h"
 #include "ui/gl/controls.h"
 #include "ui/gl/gl.h"
@@ -58,11 +59,6 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state);
 
 /// How many pixels of the active pane's picture have which luminance; without lines where it is not known yet.
 ChartPlot histogram_plot(const ViewerState& state);
-
-/// A slope in a log-log chart, and at most its standard error.
-struct Slope {
-    double value, error;
-};
 
 /// Over the last decade of x (recon/metrics/metrics.h). Empty: there are too few points for it, or their own
 /// errors are not known.

@@ -245,7 +245,7 @@ std::optional<Slope> slope_of_last_decade(const ChartSeries& series) {
         }
     if (points.empty() || points.back().x < least_reach * points.front().x)
         return std::nullopt;
-    const Slope slope{log_log_slope(points), log_log_slope_error(points, errors)};
+    const Slope slope = log_log_slope(points, errors);
     return std::isfinite(slope.value) && std::isfinite(slope.error) ? std::optional(slope) : std::nullopt;
 }
 
