@@ -66,7 +66,7 @@ struct TestScene {
     int max_depth;
     float shift_threshold = 0.001f;
     int effort = 1; ///< factor on the runs: more where rare bright paths would leave too few for statistics
-    float shift_distance = 6;
+    float shift_distance = 1;
 };
 
 /// The name alone, for test reports.
