@@ -28,6 +28,10 @@ inline constexpr int most_parts = 16;
 
 /// How many functions b^l the basis has; 0: it expands nothing.
 int part_count(Basis basis);
+/// How many parts the light of a render is measured in.
+inline int part_count(const RenderSettings& s) {
+    return is_expanded(s) ? part_count(s.basis) : 0;
+}
 
 /// The functions b^l in a unit direction (world), part_count() of them: orthogonal, and of one length. By that
 /// length the projection of a diffuse surface has a length of about 1, so that misfits of parts weigh as those of

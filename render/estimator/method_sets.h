@@ -64,6 +64,19 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
     }
 }
 
+/// Likewise all sets that a pixel is in, those of its neighbours on the left and above among them, if these are of
+/// its block.
+template <class Visit>
+void for_each_gpt_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
+    const PixelRect block = pass.grid.block_at(p);
+    for (const glm::ivec2 owner : {p - glm::ivec2(0, 1), p - glm::ivec2(1, 0), p})
+        if (block.contains(owner) && owner.x >= 0 && owner.y >= 0)
+            for_each_gpt_set(pass, owner, set, [&](PixelRect, auto) {
+                if (set.contains(p))
+                    visit();
+            });
+}
+
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
 /// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all, paths_alone)`;
 /// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (ReusePlan::paths_alone).
@@ -82,7 +95,7 @@ void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit
 template <class Visit>
 void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
-    const int samples = pass.grid.samples(pass.block_at(p));
+    const int samples = pass.grid.samples(pass.grid.block_at(p));
     const auto visit_samples = [&](PixelRect inner, int paths = 1) {
         for (set.number = 0; set.number < samples * paths; ++set.number)
             visit(inner);
@@ -94,7 +107,7 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
     case Method::pr:
         return for_each_pr_set(pass, tile, set, visit_samples);
     case Method::gpt:
-        return for_each_gpt_set(pass, p, set, [&](PixelRect inner, auto) { visit_samples(inner); });
+        return for_each_gpt_set_with(pass, p, set, [&] { visit_samples(pixel); });
     case Method::gpr:
         return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
             if (paths_alone == 0)

@@ -69,44 +69,38 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     });
 }
 
-/// Adds a share of what entry 0 of worker.set got to the primal of a sample whose parts are worker.part_primal.
-void add_share(float share, Worker& worker, PixelSample& sample) {
-    sample.primal += worker.set.coefficient(0) * share;
-    const std::span<const Rgb> parts = worker.set.parts_of(0);
-    for (std::size_t l = 0; l < parts.size(); ++l)
-        worker.part_primal[l] += parts[l] * share;
+/// Lets a pixel share with its neighbours on the right and below, and finds its gradients.
+void share_with_neighbors(const Pass& pass, glm::ivec2 p, PixelSample& sample, Worker& worker, const Film& film) {
+    for_each_gpt_set(pass, p, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
+        share_light(pass, roulette_of(pass.settings), worker);
+        worker.set.expand(film);
+        worker.set_means.add(worker.set, 0);
+        worker.set_means.add(worker.set, 1);
+        sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
+        const bool is_dx = gradient == &PixelSample::dx;
+        (is_dx ? sample.parts_dx : sample.parts_dy) =
+            difference(worker.set.parts_of(1), worker.set.parts_of(0), is_dx ? worker.part_dx : worker.part_dy);
+    });
 }
 
 /// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that share the
-/// light of their base paths; the primal is the mean of what the pixel got in these sets, or path tracing's. Of
-/// the shifts, those to the pixel itself are counted.
+/// light of their base paths; the primal is the mean of what the pixel got in all sets that it is in, with the
+/// neighbours on the left and above, too, or path tracing's. Of the shifts, those to the pixel itself are counted.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
+    worker.set_means.begin(area, part_count(pass.settings));
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const BasePath& path = worker.base.at(x, y);
             const Rgb albedo = pass.albedo_of(path);
             PixelSample sample{coefficient(path.radiance(), albedo), Rgb(0), Rgb(0), path.very_direct, albedo};
+            share_with_neighbors(pass, {x, y}, sample, worker, film);
+            sample.reuse = worker.set_means.reuse(x, y); // row by row: by now all sets of the pixel have shared
             sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
-            const int sets = (x + 1 < pass.size.x) + (y + 1 < pass.size.y);
-            const bool takes_mean = pass.settings.primal == PrimalSource::reuse && sets > 0;
-            if (takes_mean) {
-                sample.primal = Rgb(0);
-                std::fill(worker.part_primal.begin(), worker.part_primal.end(), Rgb(0));
-            }
-            for_each_gpt_set(pass, {x, y}, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
-                share_light(pass, roulette_of(pass.settings), worker);
-                worker.set.expand(film);
-                if (takes_mean)
-                    add_share(1 / static_cast<float>(sets), worker, sample);
-                sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
-                const bool is_dx = gradient == &PixelSample::dx;
-                (is_dx ? sample.parts_dx : sample.parts_dy) = difference(
-                    worker.set.parts_of(1), worker.set.parts_of(0), is_dx ? worker.part_dx : worker.part_dy);
-                sample.reuse += worker.set.reuse[0];
-            });
+            if (pass.settings.primal == PrimalSource::reuse)
+                worker.set_means.take(x, y, sample, worker.part_primal);
             add_sample(pass, x, y, sample, worker, film);
         }
 }

@@ -75,34 +75,18 @@ glm::vec2 lens_of(std::uint64_t seed, int index) {
     return {fraction(start.x + index * std::sqrt(2.0)), fraction(start.y + index * std::sqrt(3.0))};
 }
 
-constexpr int usual_block_edge = 24; // small enough for many blocks, large enough for a thin border of base paths
-
-/// Blocks are whole tiles. Methods that have none have nothing to do with that setting.
-int block_edge(const RenderSettings& settings) {
-    return reuses_paths(settings.method) ? settings.tile * std::max(1, usual_block_edge / settings.tile)
-                                         : usual_block_edge;
-}
-
-glm::ivec2 block_origin(const Pass& pass) {
-    return reuses_paths(pass.settings.method) ? pass.grid.origin : glm::ivec2(0);
-}
-
-/// The column and row of the block that a pixel is in.
-glm::dvec2 block_of(const Pass& pass, glm::ivec2 pixel) {
-    return (pixel - block_origin(pass)) / block_edge(pass.settings);
-}
-
 } // namespace
 
 std::uint64_t Worker::bytes(const RenderSettings& settings) {
     constexpr int long_path = 16; // vertices: memory is for 2^n of them, and some of a block's paths are as long
-    const auto edge = static_cast<std::uint64_t>(block_edge(settings) + 1); // with one more column and row
+    const auto edge = static_cast<std::uint64_t>(block_edge_of(settings) + 1); // with one more column and row
     const std::uint64_t paths = settings.method == Method::pt ? 1 : edge * edge;
     const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
     const std::uint64_t a_vertex =
         sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
-                              (is_adaptive(settings) ? sizeof(PixelSample) : 0);
+                              (is_adaptive(settings) ? sizeof(PixelSample) : 0) +
+                              (settings.method == Method::gpt ? SetMeans::bytes(part_count(settings)) : 0);
     return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex);
 }
 
@@ -114,13 +98,13 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
 
 glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
     // Of the four numbers of the R4 sequence, two for the column and two for the row.
-    const glm::dvec2 block = block_of(*this, pixel);
+    const glm::dvec2 block = grid.block_of(pixel);
     return {fraction(subpixel_.x + block.x * 0.8566748838545029 + block.y * 0.6287067210378087),
             fraction(subpixel_.y + block.x * 0.7338918566271260 + block.y * 0.5385972572236101)};
 }
 
 glm::vec2 Pass::lens_at(glm::ivec2 pixel) const {
-    const glm::dvec2 block = block_of(*this, pixel);
+    const glm::dvec2 block = grid.block_of(pixel);
     return {fraction(lens_.x + block.x * std::sqrt(5.0) + block.y * std::sqrt(11.0)),
             fraction(lens_.y + block.x * std::sqrt(7.0) + block.y * std::sqrt(13.0))};
 }
@@ -132,10 +116,6 @@ CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
         return {subpixel, sample_disk(lens)};
     return {{fraction(subpixel.x + path * std::sqrt(17.0)), fraction(subpixel.y + path * std::sqrt(19.0))},
             sample_disk({fraction(lens.x + path * std::sqrt(23.0)), fraction(lens.y + path * std::sqrt(29.0))})};
-}
-
-PixelRect Pass::block_at(glm::ivec2 pixel) const {
-    return square_at(pixel, block_origin(*this), block_edge(settings));
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -189,15 +169,15 @@ void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, gl
 }
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
-    const int edge = block_edge(settings);
+    const int edge = block_edge_of(settings);
     const glm::ivec2 most =
         (size + settings.tile + edge - 1) / edge; // the first begin up to a tile before the image
     return static_cast<std::size_t>(most.x) * static_cast<std::size_t>(most.y);
 }
 
 std::vector<PixelRect> blocks_of(const Pass& pass) {
-    const int edge = block_edge(pass.settings);
-    const glm::ivec2 origin = block_origin(pass);
+    const int edge = pass.grid.block_edge;
+    const glm::ivec2 origin = pass.grid.block_origin;
     std::vector<PixelRect> blocks;
     for (int y = origin.y; y < pass.size.y; y += edge)
         for (int x = origin.x; x < pass.size.x; x += edge)
@@ -303,6 +283,40 @@ void SampleMeans::add(int x, int y, const PixelSample& sample) {
     mean.reuse += sample.reuse;
     mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;
     mean.paths += sample.paths;
+}
+
+void SetMeans::begin(PixelRect area, int parts) {
+    area_ = area;
+    parts_a_pixel_ = static_cast<std::size_t>(parts);
+    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
+    sums_.assign(pixels, {});
+    parts_.assign(pixels * parts_a_pixel_, Rgb(0));
+}
+
+void SetMeans::add(const SamplingSet& set, int i) {
+    const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
+    if (!area_.contains(p))
+        return;
+    const std::size_t at = index(p.x, p.y);
+    sums_[at].coefficient += set.coefficient(i);
+    sums_[at].reuse += set.reuse[static_cast<std::size_t>(i)];
+    ++sums_[at].sets;
+    const std::span<const Rgb> parts = set.parts_of(i);
+    for (std::size_t l = 0; l < parts.size(); ++l)
+        parts_[at * parts_a_pixel_ + l] += parts[l];
+}
+
+void SetMeans::take(int x, int y, PixelSample& sample, std::vector<Rgb>& parts) const {
+    const std::size_t at = index(x, y);
+    const Sum& sum = sums_[at];
+    if (sum.sets == 0)
+        return;
+    const float share = 1 / static_cast<float>(sum.sets);
+    sample.primal = sum.coefficient * share;
+    parts.resize(parts_a_pixel_);
+    for (std::size_t l = 0; l < parts_a_pixel_; ++l)
+        parts[l] = parts_[at * parts_a_pixel_ + l] * share;
+    sample.parts = parts;
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {

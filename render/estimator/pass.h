@@ -91,8 +91,6 @@ public:
     /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
     /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
     CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
-    /// The block that a pixel is in.
-    PixelRect block_at(glm::ivec2 pixel) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
@@ -183,6 +181,38 @@ private:
     std::vector<PixelSample> means_;
 };
 
+/// What the pixels of a block get in the sets of G-PT. Each is in up to four, with its neighbours on all sides;
+/// beyond the block these have base paths that begin elsewhere in their pixels, and so sets of their own.
+class SetMeans {
+public:
+    /// @param parts  of the basis; 0: none
+    void begin(PixelRect area, int parts);
+    /// Adds what entry i of a set got, if that pixel is in the block.
+    void add(const SamplingSet& set, int i);
+    /// How the shifts to a pixel ended.
+    const ReuseCounts& reuse(int x, int y) const { return sums_[index(x, y)].reuse; }
+    /// Puts means over a pixel's sets into a sample, which stays as it is where there is no set.
+    /// @param parts  memory for those of the sample; none without a basis
+    void take(int x, int y, PixelSample& sample, std::vector<Rgb>& parts) const;
+    /// The memory that a pixel takes.
+    static std::size_t bytes(int parts) { return sizeof(Sum) + static_cast<std::size_t>(parts) * sizeof(Rgb); }
+
+private:
+    struct Sum {
+        Rgb coefficient{0};
+        ReuseCounts reuse{};
+        int sets = 0;
+    };
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
+    }
+
+    PixelRect area_{0, 0, 0, 0};
+    std::size_t parts_a_pixel_ = 0;
+    std::vector<Sum> sums_;
+    std::vector<Rgb> parts_;
+};
+
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
     /// Keeps references to all but the camera.
@@ -211,6 +241,7 @@ struct Worker {
     int number = 0;                                 ///< of the sample that is taken, of so many:
     int samples = 1;                                ///< that the pixels of the block at hand take in this pass
     SampleMeans means;                              ///< if these are several
+    SetMeans set_means;                             ///< of the sample that is taken
     ArrivingLight own;                              ///< of one base path
     std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
 };

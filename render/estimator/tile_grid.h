@@ -5,6 +5,7 @@
 #include "render/sampling/sampling.h"
 #include "render/settings/settings.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -21,6 +22,15 @@ public:
     /// edge.
     const glm::ivec2 origin;
     const glm::ivec2 size; ///< of the image
+
+    /// Blocks of whole tiles, or of pixels where the method has none, are what workers render; base paths are
+    /// shared within a block alone, those of its border among them. The column and row of the block that a pixel
+    /// is in.
+    glm::ivec2 block_of(glm::ivec2 pixel) const { return (pixel - block_origin) / block_edge; }
+    /// Its pixels; it may reach beyond the image.
+    PixelRect block_at(glm::ivec2 pixel) const;
+    const int block_edge; ///< in pixels
+    const glm::ivec2 block_origin;
 
     /// The tile of a pixel; it may reach beyond the image.
     PixelRect tile_at(glm::ivec2 pixel) const;
@@ -84,8 +94,20 @@ inline PixelRect square_at(glm::ivec2 pixel, glm::ivec2 corner, int edge) {
     return {min.x, min.y, min.x + edge, min.y + edge};
 }
 
+/// The edge of blocks: small enough for many of them, large enough for a thin border of base paths.
+inline int block_edge_of(const RenderSettings& settings) {
+    constexpr int usual = 24;
+    return reuses_paths(settings.method) ? settings.tile * std::max(1, usual / settings.tile) : usual;
+}
+
 inline TileGrid::TileGrid(glm::ivec2 size_, const RenderSettings& settings, const ReusePlan& plan, int pass)
-    : origin(origin_of(settings, pass)), size(size_), settings_(settings), plan_(plan), pass_(pass) {}
+    : origin(origin_of(settings, pass)), size(size_), block_edge(block_edge_of(settings)),
+      block_origin(reuses_paths(settings.method) ? origin : glm::ivec2(0)), settings_(settings), plan_(plan),
+      pass_(pass) {}
+
+inline PixelRect TileGrid::block_at(glm::ivec2 pixel) const {
+    return square_at(pixel, block_origin, block_edge);
+}
 
 inline PixelRect TileGrid::tile_at(glm::ivec2 pixel) const {
     return square_at(pixel, origin, settings_.tile);

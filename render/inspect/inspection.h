@@ -116,8 +116,9 @@ struct Inspection {
     Rgb radiance;                      ///< of the pixel's own base path, without very direct light
     Rgb very_direct;
     bool is_refused; ///< a path, or what the pixel and its neighbours got, is not finite: it was left out
-    /// The sets that the pixel's values come from: one, but for G-PT, which has one a gradient (right, below); and
-    /// where the pixel shares nothing, one for each of the paths whose mean it takes.
+    /// The sets that the pixel's values come from: one, but for G-PT, which has one a gradient, those of the
+    /// neighbours above and on the left among them; and where the pixel shares nothing, one for each of the paths
+    /// whose mean it takes.
     std::vector<InspectedSet> sets;
 
     /// What the pixel gets from its sets: their mean.

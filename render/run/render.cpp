@@ -27,7 +27,7 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             s.method != Method::pt || is_adaptive(s),
             reuses_paths(s.method) && s.adapt_tile,
             s.very_direct_grid > 1,
-            is_expanded(s) ? part_count(s.basis) : 0,
+            part_count(s),
             finds_gain_of_sharing(s) || is_adaptive(s)};
 }
 

@@ -231,6 +231,26 @@ TEST(Inspection, TilesAreThoseOfThePass) {
     }
 }
 
+TEST(Inspection, APixelOfGptSharesWithEachNeighbourOfItsBlock) {
+    RenderSettings settings;
+    settings.method = Method::gpt;
+    settings.max_depth = 4;
+    const auto scene = Room().build();
+    const glm::ivec2 image(50, 30); // blocks of 24 x 24
+    ThreadPool pool{1};
+    Render render(scene, scene->camera(), image, settings);
+    render.pass(pool);
+    const RgbImage primal = render.images().radiance();
+    const std::pair<glm::ivec2, std::size_t> pixels[] = {{{30, 10}, 4}, {{23, 23}, 4}, {{24, 10}, 3},
+                                                         {{24, 24}, 2}, {{0, 0}, 2},   {{49, 29}, 2}};
+    for (const auto& [p, sets] : pixels) {
+        const Inspection seen = inspect(*scene, scene->camera(), image, settings, *render.newest_plan(), 0, p);
+        EXPECT_EQ(seen.sets.size(), sets) << p.x << ',' << p.y;
+        EXPECT_LE(glm::distance(seen.shared_radiance(), primal(p.x, p.y)),
+                  1e-5f * (1e-2f + glm::length(primal(p.x, p.y))));
+    }
+}
+
 TEST(Inspection, ProjectingUndoesTheCamerasRay) {
     const auto scene = Room().build();
     const Projection projection(scene->camera(), size);

@@ -54,7 +54,7 @@ public:
         const int n = settings_.tile;
         if (!reuses_paths(settings_.method))
             std::snprintf(line, sizeof line,
-                          settings_.method == Method::gpt ? "G-PT: a pixel and its neighbour share their paths"
+                          settings_.method == Method::gpt ? "G-PT: a pixel shares with each of its neighbours"
                                                           : "PT shares no paths between pixels");
         else if (uses_rooks())
             std::snprintf(line, sizeof line, "pass %d: %d-rooks patterns, moved by (%d, %d)", pass, n,
@@ -129,8 +129,10 @@ private:
     void draw_set(glm::ivec2 p) {
         const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
         if (settings_.method == Method::gpt) {
-            drawing_.fill(PixelRect{p.x + 1, p.y, p.x + 2, p.y + 1}.clipped(size_), halo_colour);
-            drawing_.fill(PixelRect{p.x, p.y + 1, p.x + 1, p.y + 2}.clipped(size_), halo_colour);
+            const PixelRect others = grid_.block_at(p).with_halo(size_);
+            for (const glm::ivec2 to : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)})
+                if (others.contains(p + to))
+                    drawing_.fill(p + to, halo_colour);
         } else if (uses_rooks()) {
             const PixelRect tile = grid_.tile_at(p);
             grid_.shuffle_columns(tile, columns_);
