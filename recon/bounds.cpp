@@ -47,16 +47,30 @@ Image<float> lit_shares(const RgbImage& radiance, const ParallelFor& parallel_fo
     return square_means(lit, lit_radius, 0, 0, parallel_for);
 }
 
+/// Looks that lead nowhere, in mirrors and through glass, too, are at no distance.
+Image<std::uint8_t> black_pixels(const GuideImages& guides, const RgbImage& found) {
+    Image<std::uint8_t> black(found.width(), found.height());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        black.data()[i] = guides.nearness.data()[i] == 0 && found.data()[i] == Rgb(0);
+    return black;
+}
+
 } // namespace
 
 bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-UpperBounds upper_bounds(const GradientImages& images, const ParallelFor& parallel_for) {
+UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const ParallelFor& parallel_for) {
+    UpperBounds bounds;
+    if (!images.guides.empty())
+        bounds.black = black_pixels(images.guides, found);
+    if (!can_bound(images))
+        return bounds;
     const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
     const Image<float> lit = lit_shares(images.radiance(), parallel_for);
-    UpperBounds bounds{images.primal, RgbImage(squares.width(), squares.height())};
+    bounds.light = images.primal;
+    bounds.error = RgbImage(squares.width(), squares.height());
     const bool is_demodulated = !images.demodulation.empty();
     if (is_demodulated)
         remodulate(images, false, bounds.light, parallel_for);
@@ -72,10 +86,13 @@ UpperBounds upper_bounds(const GradientImages& images, const ParallelFor& parall
 }
 
 RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for) {
-    RgbImage excess(image.width(), image.height());
+    RgbImage excess(image.width(), image.height(), Rgb(0));
     parallel_for(image.height(), [&](int y) {
         for (int x = 0; x < image.width(); ++x) {
-            excess(x, y) = glm::max(image(x, y) - (bounds.light(x, y) + reach * bounds.error(x, y)), Rgb(0));
+            if (!bounds.light.empty())
+                excess(x, y) = glm::max(image(x, y) - (bounds.light(x, y) + reach * bounds.error(x, y)), Rgb(0));
+            if (!bounds.black.empty() && bounds.black(x, y))
+                excess(x, y) = image(x, y);
             image(x, y) -= excess(x, y);
         }
     });

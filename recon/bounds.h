@@ -3,6 +3,8 @@
 #include "recon/image.h"
 #include "recon/parallel.h"
 
+#include <cstdint>
+
 namespace tessera {
 
 // How bright a pixel may be, as far as its own samples know. A solver gives a dark pixel beside a bright one some
@@ -21,19 +23,24 @@ namespace tessera {
 // dark by chance: there are no bounds. Where each pixel has paths of its own alone, being dark by chance is the
 // rule, and neighbours do not tell: nothing is done there (GradientImages::patch is 1).
 
+// A pixel that sees nothing, by its guides, and in which no sample has found light is black, whatever method it is
+// of: behind things that stand before nothing there is no glow.
+
 /// Whether there are variances, and pixels that share their paths.
 bool can_bound(const GradientImages& images);
 
 /// P and s, radiance without very direct light. P is the picture that the primal makes, or the mean of its samples
-/// where that is more; s is 1e30 where there are no bounds.
+/// where that is more; s is 1e30 where there are no bounds. Both are empty where can_bound() is false.
 struct UpperBounds {
     RgbImage light, error;
+    Image<std::uint8_t> black; ///< 1 where a pixel sees nothing; empty: there are no guides
 
-    bool empty() const { return light.empty(); }
+    bool empty() const { return light.empty() && black.empty(); }
 };
-UpperBounds upper_bounds(const GradientImages& images, const ParallelFor& parallel_for);
+/// @param found  radiance without very direct light, of all samples in full
+UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const ParallelFor& parallel_for);
 
-/// Takes what is above P + reach s from the image, and returns it.
+/// Takes what is above P + reach s, and all of a black pixel, from the image, and returns it.
 RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for);
 
 } // namespace tessera

@@ -89,7 +89,7 @@ void spread_within_bounds(const UpperBounds& bounds, RgbImage held, RgbImage& im
     constexpr float reach = 2;
     if (!bounds.empty())
         add(held, take_excess(bounds, reach, image, parallel_for));
-    const LightSpreader spreader(image, parallel_for);
+    const LightSpreader spreader(image, bounds.black, parallel_for);
     spreader.spread(held, image, parallel_for);
     if (!bounds.empty())
         spreader.spread(take_excess(bounds, reach, image, parallel_for), image, parallel_for);
@@ -252,7 +252,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         RgbImage held_noise = held;
         for (std::size_t i = 0; i < held.size(); ++i)
             held_noise.data()[i] *= images.brightest.half.data()[i];
-        LightSpreader(picture, parallel_for).spread(held_noise, noise, parallel_for);
+        LightSpreader(picture, {}, parallel_for).spread(held_noise, noise, parallel_for);
     }
     return noise;
 }
@@ -356,8 +356,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     Reconstruction result = picture_of(counted, settings, parallel_for, watch);
     UpperBounds bounds;
     if (limits) {
-        if (can_bound(counted))
-            bounds = upper_bounds(counted, parallel_for);
+        bounds = upper_bounds(counted, images.radiance(), parallel_for);
         if (!result.image.empty())
             spread_within_bounds(bounds, held, result.image, parallel_for);
         const double all = sum_of(images.radiance());

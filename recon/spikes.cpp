@@ -209,7 +209,8 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
 
 } // namespace
 
-LightSpreader::LightSpreader(const RgbImage& image, const ParallelFor& parallel_for)
+LightSpreader::LightSpreader(const RgbImage& image, const Image<std::uint8_t>& black,
+                             const ParallelFor& parallel_for)
     : brightness_(image.width(), image.height()) {
     double sum = 0;
     for (Rgb c : image)
@@ -219,6 +220,8 @@ LightSpreader::LightSpreader(const RgbImage& image, const ParallelFor& parallel_
     for (std::size_t i = 0; i < image.size(); ++i)
         brightness_.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
     blur(brightness_, guide_radius, parallel_for);
+    for (std::size_t i = 0; i < black.size(); ++i)
+        brightness_.data()[i] = black.data()[i] ? 0 : brightness_.data()[i];
     around_ = brightness_;
     blur(around_, spread_radius, parallel_for);
 }
@@ -229,7 +232,7 @@ void LightSpreader::spread(const RgbImage& light, RgbImage& image, const Paralle
         return;
     RgbImage ratio = light;
     for (std::size_t i = 0; i < image.size(); ++i)
-        ratio.data()[i] /= around_.data()[i];
+        ratio.data()[i] = around_.data()[i] > 0 ? ratio.data()[i] / around_.data()[i] : Rgb(0);
     blur(ratio, spread_radius, parallel_for);
     for (std::size_t i = 0; i < image.size(); ++i)
         image.data()[i] += brightness_.data()[i] * ratio.data()[i];

@@ -4,6 +4,7 @@
 #include "recon/parallel.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace tessera {
 
@@ -34,9 +35,11 @@ GradientImages limited(const GradientImages& images, RgbImage& held, const Paral
 class LightSpreader {
 public:
     /// By the brightness of `image`, radiance without very direct light.
-    LightSpreader(const RgbImage& image, const ParallelFor& parallel_for);
+    /// @param black  1 where a pixel is given none; empty: nowhere
+    LightSpreader(const RgbImage& image, const Image<std::uint8_t>& black, const ParallelFor& parallel_for);
 
-    /// Adds as much light to the image as there is in `light`, but for rounding.
+    /// Adds as much light to the image as there is in `light`, but for rounding, and for what is about black
+    /// pixels alone, which is lost.
     void spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const;
 
 private:

@@ -1,5 +1,5 @@
-// The L2 reconstruction redistributes light and keeps its sum: gradients alone cannot change it, as borders are
-// Neumann's.
+// What reconstructions do to light. L2 redistributes it and keeps its sum: gradients alone cannot change it, as
+// borders are Neumann's. None comes to pixels that see nothing.
 #include "recon/reconstruct.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -44,6 +44,37 @@ TEST(Brightness, L2KeepsTheMeanOfThePrimal) {
                     EXPECT_NEAR(mean(r.image)[c] / expected[c], 1, 1e-5)
                         << t.name << ' ' << short_name(method) << ' ' << size.x << 'x' << size.y;
             }
+    }
+}
+
+TEST(Brightness, NothingGlowsBeforeNothing) {
+    SceneBuilder things;
+    const int white = things.diffuse(Rgb(0.7f));
+    things.sphere({-0.4f, 0, 0}, 0.4f, white);
+    things.sphere({0.5f, 0.1f, 0}, 0.3f, things.conductor(0.1f));
+    things.quad({-0.1f, 0.9f, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}, white, things.light(Rgb(30)));
+    things.camera({0, 0, 4}, {0, 0, 0}, 40);
+    const auto scene = things.build();
+    ThreadPool pool(2);
+    for (const Method method : {Method::pt, Method::pr, Method::gpt, Method::gpr}) {
+        RenderSettings settings;
+        settings.method = method;
+        Render render(scene, scene->camera(), {60, 45}, settings);
+        for (int pass = 0; pass < 6; ++pass)
+            render.pass(pool);
+        const GradientImages images = render.images();
+        for (const Norm norm : {Norm::none, Norm::smoothed, Norm::weighted, Norm::guided}) {
+            if (expands(norm) && !images.has_gradients())
+                continue;
+            const RgbImage picture = reconstruct(images, {.norm = norm}).image;
+            int nothing = 0;
+            for (std::size_t i = 0; i < picture.size(); ++i)
+                if (images.guides.nearness.data()[i] == 0 && is_black(images.radiance().data()[i])) {
+                    ++nothing;
+                    EXPECT_EQ(picture.data()[i], images.very_direct.data()[i]) << short_name(method);
+                }
+            EXPECT_GT(nothing, 1000);
+        }
     }
 }
 

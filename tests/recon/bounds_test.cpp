@@ -30,7 +30,7 @@ GradientImages even_images() {
 
 RgbImage bounded(const GradientImages& images, float value) {
     RgbImage image(width, height, Rgb(value));
-    take_excess(upper_bounds(images, serial_for), 2, image, serial_for);
+    take_excess(upper_bounds(images, images.radiance(), serial_for), 2, image, serial_for);
     return image;
 }
 
@@ -129,7 +129,7 @@ TEST(Bounds, HaveTheSameBitsWithThreads) {
         for (int i = count - 1; i >= 0; --i)
             threads.emplace_back(body, i);
     };
-    take_excess(upper_bounds(images, in_threads), 2, image, in_threads);
+    take_excess(upper_bounds(images, images.radiance(), in_threads), 2, image, in_threads);
     const RgbImage alone = bounded(images, 1.7f);
     EXPECT_TRUE(std::equal(alone.begin(), alone.end(), image.begin()));
 }
@@ -164,6 +164,38 @@ TEST(Bounds, KeepSpreadLightOffWhatIsSureToBeDark) {
         sum_kept += static_cast<double>(kept.data()[i].r);
     }
     EXPECT_NEAR(sum_kept, sum, 1e-4 * sum);
+}
+
+/// Spikes at the edge of things that stand before nothing: no glow around them, and no light lost.
+TEST(Bounds, WhatSeesNothingIsBlack) {
+    GradientImages images = even_images();
+    images.patch = 1;
+    BrightestSamples& b = images.brightest;
+    b.samples = 8;
+    b.primal = RgbImage(width, height, Rgb(1.5f));
+    b.dx = b.dy = RgbImage(width, height, Rgb(0));
+    images.guides = {RgbImage(width, height, Rgb(0.5f)), Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)),
+                     Image<float>(width, height, 1.0f), Image<float>(width, height, 1.0f)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 20; x < width; ++x) {
+            images.primal(x, y) = b.primal(x, y) = Rgb(0);
+            images.guides.nearness(x, y) = 0;
+        }
+    images.primal(18, 10) = Rgb(5);
+    b.primal(18, 10) = Rgb(33);
+    images.primal(24, 5) = b.primal(24, 5) = Rgb(0.5f); // no look has led there, but a sample has
+    double sum = 0, sum_found = 0;
+    for (const Norm norm : {Norm::none, Norm::weighted}) {
+        const RgbImage picture = reconstruct(images, {.norm = norm}).image;
+        for (int y = 0; y < height; ++y)
+            for (int x = 20; x < width; ++x)
+                EXPECT_EQ(is_black(picture(x, y)), x != 24 || y != 5) << x << ',' << y;
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            sum += static_cast<double>(picture.data()[i].r);
+            sum_found += static_cast<double>(images.primal.data()[i].r);
+        }
+    }
+    EXPECT_NEAR(sum, sum_found, 1e-3 * sum_found);
 }
 
 } // namespace

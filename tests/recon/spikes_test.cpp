@@ -112,7 +112,7 @@ TEST(Spikes, NoLightIsLost) {
     RgbImage picture = limited(images, held, serial_for).primal;
     EXPECT_NEAR(sum_of(picture) + sum_of(held), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     EXPECT_GT(sum_of(held), 0.5 * sum_of(images.primal));
-    LightSpreader(picture, serial_for).spread(held, picture, serial_for);
+    LightSpreader(picture, {}, serial_for).spread(held, picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     float most = 0;
     for (Rgb c : picture)
@@ -128,7 +128,7 @@ TEST(Spikes, AreSpreadByBrightness) {
             picture(x, y) = Rgb(0.1f);
     held(19, 15) = Rgb(100, 200, 0);
     const RgbImage before = picture;
-    LightSpreader(picture, serial_for).spread(held, picture, serial_for);
+    LightSpreader(picture, {}, serial_for).spread(held, picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(before) + 300, 1e-2);
     const auto gain = [&](int x) { return static_cast<double>(picture(x, 15).r - before(x, 15).r); };
     EXPECT_NEAR(gain(24) / gain(15), 0.1, 0.02); // as far from both sides, beyond the blur of brightness
@@ -141,7 +141,7 @@ TEST(Spikes, AreSpreadOnSmallAndBlackPictures) {
         RgbImage picture(5, 3, Rgb(brightness)), held(5, 3, Rgb(0));
         held(1, 1) = Rgb(15);
         const double before = sum_of(picture);
-        LightSpreader(picture, serial_for).spread(held, picture, serial_for);
+        LightSpreader(picture, {}, serial_for).spread(held, picture, serial_for);
         EXPECT_NEAR(sum_of(picture), before + 45, 1e-4 + 1e-6 * before) << brightness;
         EXPECT_TRUE(std::isfinite(picture(4, 2).g));
     }
@@ -164,7 +164,7 @@ TEST(Spikes, OfRareLightAreNotMadeAnew) {
     };
     RgbImage held;
     RgbImage picture = limited(images, held, serial_for).primal;
-    LightSpreader(picture, serial_for).spread(held, picture, serial_for);
+    LightSpreader(picture, {}, serial_for).spread(held, picture, serial_for);
     EXPECT_LT(error_of(picture), 0.1 * error_of(images.primal));
 }
 
