@@ -11,9 +11,9 @@ namespace tessera {
 
 namespace {
 
-/// Pixels that should share where V = l = 1: of 10, 20 and more the best on the Cornell box, kitchen, bathroom and
-/// veach-ajar together.
-constexpr double sharers = 20;
+/// Pixels that should share where V = l = 1: of 5, 10 and 20 the best on kitchen, bathroom, living-room and veach-ajar
+/// together.
+constexpr double sharers = 10;
 
 constexpr double most_paths_alone = 12;
 
