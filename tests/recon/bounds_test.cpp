@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
