@@ -101,7 +101,8 @@ std::optional<Halo> measure_halo(const GradientImages& images, const Reconstruct
             brightest = i;
     if (!(excess(images, brightest) > 0))
         return {};
-    const int width = images.primal.width(), reach = static_cast<int>(std::lround(images.patch));
+    const int width = images.primal.width();
+    const int reach = static_cast<int>(std::lround(images.patch)) + (images.has_gradients() ? 1 : 0);
     Halo halo{{static_cast<int>(brightest) % width, static_cast<int>(brightest) / width}};
     const PixelRect square{halo.spike.x - reach + 1, halo.spike.y - reach + 1, halo.spike.x + reach,
                            halo.spike.y + reach};

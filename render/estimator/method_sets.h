@@ -7,8 +7,7 @@
 namespace tessera {
 
 // The sampling sets T of each method: what makes it that method. Each function puts the pixels of one set after
-// the other into `set`, and has it visited with `inner`: pixels of the set in there get their light from it,
-// others only lend it their base paths. (PT's is the pixel alone.)
+// the other into `set`, and has it visited. (PT's is the pixel alone.)
 
 /// How sets of the method decide on which base paths are shared: G-PT's few share all.
 inline RouletteKind roulette_of(const RenderSettings& settings) {
@@ -49,32 +48,14 @@ void for_each_pr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&
 }
 
 /// G-PT: each gradient of a pixel has a set of its own, the pixel and its neighbour: T = {k, n} [Kettunen 2015].
-/// Calls `visit(inner, gradient)`, where `gradient` is the member of PixelSample that the set is for. Neighbours
-/// outside the image have none.
+/// Calls `visit(all)`, where T is `all`. Neighbours outside the image have none.
 template <class Visit>
 void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
-    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
-    if (p.x + 1 < pass.size.x) {
-        set.assign({p.x, p.y, p.x + 2, p.y + 1});
-        visit(pixel, &PixelSample::dx);
-    }
-    if (p.y + 1 < pass.size.y) {
-        set.assign({p.x, p.y, p.x + 1, p.y + 2});
-        visit(pixel, &PixelSample::dy);
-    }
-}
-
-/// Likewise all sets that a pixel is in, those of its neighbours on the left and above among them, if these are of
-/// its block.
-template <class Visit>
-void for_each_gpt_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
-    const PixelRect block = pass.grid.block_at(p);
-    for (const glm::ivec2 owner : {p - glm::ivec2(0, 1), p - glm::ivec2(1, 0), p})
-        if (block.contains(owner) && owner.x >= 0 && owner.y >= 0)
-            for_each_gpt_set(pass, owner, set, [&](PixelRect, auto) {
-                if (set.contains(p))
-                    visit();
-            });
+    for (const PixelRect all : {PixelRect{p.x, p.y, p.x + 2, p.y + 1}, PixelRect{p.x, p.y, p.x + 1, p.y + 2}})
+        if (all.x1 <= pass.size.x && all.y1 <= pass.size.y) {
+            set.assign(all);
+            visit(all);
+        }
 }
 
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
@@ -90,12 +71,13 @@ void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit
 }
 
 /// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
-/// for each; of PT and G-PT those of the pixel. Pixels that share nothing have sets of their own, one
-/// for each of their paths; and of several samples in a pass each has its sets. The path inspector goes this way.
+/// for each, where `inner` are the pixels of the tile; of PT and G-PT those that the pixel is in. Pixels that
+/// share nothing have sets of their own, one for each of their paths; and of several samples in a pass each has
+/// its sets.
 template <class Visit>
 void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
-    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
-    const int samples = pass.grid.samples(pass.grid.block_at(p));
+    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p), block = pass.grid.block_at(p);
+    const int samples = pass.grid.samples(block);
     const auto visit_samples = [&](PixelRect inner, int paths = 1) {
         for (set.number = 0; set.number < samples * paths; ++set.number)
             visit(inner);
@@ -107,7 +89,12 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
     case Method::pr:
         return for_each_pr_set(pass, tile, set, visit_samples);
     case Method::gpt:
-        return for_each_gpt_set_with(pass, p, set, [&] { visit_samples(pixel); });
+        return for_each_square(block.clipped(pass.size), 1, [&](PixelRect owner) {
+            for_each_gpt_set(pass, {owner.x0, owner.y0}, set, [&](PixelRect all) {
+                if (all.contains(p))
+                    visit_samples(pixel);
+            });
+        });
     case Method::gpr:
         return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
             if (paths_alone == 0)
@@ -118,6 +105,23 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
             });
         });
     }
+}
+
+/// Likewise the sets that a pixel has its light from: of G-PR all of its block that it is in, those of tiles above
+/// and on the left among them. The path inspector goes this way.
+template <class Visit>
+void for_each_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
+    if (pass.settings.method != Method::gpr || pass.grid.paths_alone_at(p) > 0)
+        return for_each_set_of_tile(pass, p, set, [&](PixelRect inner) {
+            if (inner.contains(p) && set.contains(p))
+                visit(inner);
+        });
+    const PixelRect block = pass.grid.block_at(p);
+    for_each_gpr_set(pass, block, set, [&](PixelRect inner, PixelRect all, int paths_alone) {
+        const int samples = paths_alone == 0 && all.contains(p) ? pass.grid.samples(block) : 0;
+        for (set.number = 0; set.number < samples; ++set.number)
+            visit(inner);
+    });
 }
 
 } // namespace tessera

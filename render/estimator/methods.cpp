@@ -1,9 +1,6 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 
-#include <algorithm>
-#include <functional>
-
 #include <glm/vec2.hpp>
 
 // The four methods side by side. Each traces the base paths of a block, lets every sampling set share its light
@@ -13,14 +10,6 @@ namespace tessera {
 
 namespace {
 
-/// Puts differences of parts into `differences`.
-std::span<const Rgb> difference(std::span<const Rgb> to, std::span<const Rgb> from,
-                                std::vector<Rgb>& differences) {
-    differences.resize(to.size());
-    std::transform(to.begin(), to.end(), from.begin(), differences.begin(), std::minus<>());
-    return differences;
-}
-
 /// The parts of what pixel (x, y) gets from its own base path alone; none without such a basis.
 std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
                                const Film& film) {
@@ -28,9 +17,9 @@ std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, 
         return {};
     worker.own.reset(pass.settings.basis, {&albedo, 1});
     worker.reuse.keep(worker.base.at(x, y), 0, worker.own);
-    worker.part_primal.resize(static_cast<std::size_t>(worker.own.parts()));
-    worker.own.expand(0, coefficient, film.projection(x, y), worker.part_primal.data());
-    return worker.part_primal;
+    worker.own_parts.resize(static_cast<std::size_t>(worker.own.parts()));
+    worker.own.expand(0, coefficient, film.projection(x, y), worker.own_parts.data());
+    return worker.own_parts;
 }
 
 /// Path tracing: T = {k}, so R = 1, and c_k has the weights of emitter against BSDF sampling that every base path
@@ -69,65 +58,45 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     });
 }
 
-/// Lets a pixel share with its neighbours on the right and below, and finds its gradients.
-void share_with_neighbors(const Pass& pass, glm::ivec2 p, PixelSample& sample, Worker& worker, const Film& film) {
-    for_each_gpt_set(pass, p, worker.set, [&](PixelRect, Rgb PixelSample::*gradient) {
-        share_light(pass, roulette_of(pass.settings), worker);
-        worker.set.expand(film);
-        worker.set_means.add(worker.set, 0);
-        worker.set_means.add(worker.set, 1);
-        sample.*gradient = worker.set.coefficient(1) - worker.set.coefficient(0);
-        const bool is_dx = gradient == &PixelSample::dx;
-        (is_dx ? sample.parts_dx : sample.parts_dy) =
-            difference(worker.set.parts_of(1), worker.set.parts_of(0), is_dx ? worker.part_dx : worker.part_dy);
-    });
+/// Adds what a pixel got in all sets of the block that it is in, or, for its primal, by its own base path alone.
+void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
+    const BasePath& path = worker.base.at(x, y);
+    const Rgb albedo = pass.albedo_of(path);
+    PixelSample sample{coefficient(path.radiance(), albedo),
+                       Rgb(0),
+                       Rgb(0),
+                       path.very_direct,
+                       albedo,
+                       worker.set_means.reuse(x, y),
+                       worker.reuse.arriving_luminance(path)};
+    if (pass.settings.primal == PrimalSource::reuse && worker.set_means.has(x, y))
+        worker.set_means.take_primal(x, y, sample);
+    else
+        sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
+    worker.set_means.take_gradients(x, y, sample);
+    add_sample(pass, x, y, sample, worker, film);
+}
+
+/// Lets the pixels of worker.set, a rectangle, share.
+void share_in_set(const Pass& pass, PixelRect all, Worker& worker, const Film& film) {
+    share_light(pass, roulette_of(pass.settings), worker);
+    worker.set.expand(film);
+    worker.set_means.add(worker.set, all);
 }
 
 /// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that share the
-/// light of their base paths; the primal is the mean of what the pixel got in all sets that it is in, with the
-/// neighbours on the left and above, too, or path tracing's. Of the shifts, those to the pixel itself are counted.
+/// light of their base paths; the primal is the mean of what the pixel got in all sets that it is in, with each of
+/// its neighbours, or path tracing's. Of the shifts, those to the pixel itself are counted.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
     worker.set_means.begin(area, part_count(pass.settings));
-    for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x) {
-            const BasePath& path = worker.base.at(x, y);
-            const Rgb albedo = pass.albedo_of(path);
-            PixelSample sample{coefficient(path.radiance(), albedo), Rgb(0), Rgb(0), path.very_direct, albedo};
-            share_with_neighbors(pass, {x, y}, sample, worker, film);
-            sample.reuse = worker.set_means.reuse(x, y); // row by row: by now all sets of the pixel have shared
-            sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
-            if (pass.settings.primal == PrimalSource::reuse)
-                worker.set_means.take(x, y, sample, worker.part_primal);
-            add_sample(pass, x, y, sample, worker, film);
-        }
-}
-
-/// Adds what the inner pixels of worker.set got. `all` is the rectangle of the set.
-void add_tile(const Pass& pass, PixelRect inner, PixelRect all, Worker& worker, Film& film) {
-    for (int y = inner.y0; y < inner.y1; ++y)
-        for (int x = inner.x0; x < inner.x1; ++x) {
-            const int i = (y - all.y0) * all.width() + x - all.x0;
-            const Rgb here = worker.set.coefficient(i);
-            const std::span<const Rgb> parts = worker.set.parts_of(i);
-            PixelSample sample = worker.set.sample(i, worker.reuse);
-            sample.parts = parts;
-            if (x + 1 < all.x1) {
-                sample.dx = worker.set.coefficient(i + 1) - here;
-                sample.parts_dx = difference(worker.set.parts_of(i + 1), parts, worker.part_dx);
-            }
-            if (y + 1 < all.y1) {
-                sample.dy = worker.set.coefficient(i + all.width()) - here;
-                sample.parts_dy = difference(worker.set.parts_of(i + all.width()), parts, worker.part_dy);
-            }
-            if (pass.settings.primal == PrimalSource::base) {
-                sample.primal = coefficient(worker.base.at(x, y).radiance(), sample.albedo);
-                sample.parts = own_parts(pass, x, y, sample.primal, sample.albedo, worker, film);
-            }
-            add_sample(pass, x, y, sample, worker, film);
-        }
+    for_each_square(area, 1, [&](PixelRect pixel) {
+        for_each_gpt_set(pass, {pixel.x0, pixel.y0}, worker.set,
+                         [&](PixelRect all) { share_in_set(pass, all, worker, film); });
+    });
+    for_each_square(area, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
 }
 
 /// Where the pixels of worker.set share nothing: finds the means of `count` base paths of each. Beyond the set,
@@ -170,16 +139,18 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
-    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect, int paths_alone) {
-        if (paths_alone > 0)
-            take_means(pass, inner, paths_alone, worker);
-    });
+    worker.set_means.begin(area, part_count(pass.settings));
     for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
         if (paths_alone > 0)
-            return add_alone(pass, inner, all, paths_alone, worker, film);
-        share_light(pass, roulette_of(pass.settings), worker);
-        worker.set.expand(film);
-        add_tile(pass, inner, all, worker, film);
+            take_means(pass, inner, paths_alone, worker);
+        else
+            share_in_set(pass, all, worker, film);
+    });
+    pass.grid.for_each_part(block, [&](PixelRect inner, int paths_alone) {
+        if (paths_alone > 0)
+            add_alone(pass, inner, inner.with_halo(pass.size), paths_alone, worker, film);
+        else
+            for_each_square(inner, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
     });
 }
 

@@ -86,7 +86,7 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
         sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
                               (is_adaptive(settings) ? sizeof(PixelSample) : 0) +
-                              (settings.method == Method::gpt ? SetMeans::bytes(part_count(settings)) : 0);
+                              (has_gradients(settings.method) ? SetMeans::bytes(part_count(settings)) : 0);
     return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex);
 }
 
@@ -287,36 +287,55 @@ void SampleMeans::add(int x, int y, const PixelSample& sample) {
 
 void SetMeans::begin(PixelRect area, int parts) {
     area_ = area;
-    parts_a_pixel_ = static_cast<std::size_t>(parts);
+    part_count_ = static_cast<std::size_t>(parts);
     const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
-    sums_.assign(pixels, {});
-    parts_.assign(pixels * parts_a_pixel_, Rgb(0));
+    pixels_.assign(pixels, {});
+    for (std::vector<Rgb>* sums : {&parts_, &parts_dx_, &parts_dy_})
+        sums->assign(pixels * part_count_, Rgb(0));
 }
 
-void SetMeans::add(const SamplingSet& set, int i) {
-    const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
-    if (!area_.contains(p))
-        return;
-    const std::size_t at = index(p.x, p.y);
-    sums_[at].coefficient += set.coefficient(i);
-    sums_[at].reuse += set.reuse[static_cast<std::size_t>(i)];
-    ++sums_[at].sets;
-    const std::span<const Rgb> parts = set.parts_of(i);
+void SetMeans::add(const SamplingSet& set, PixelRect all) {
+    for (int i = 0; i < set.size(); ++i) {
+        const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
+        if (!area_.contains(p))
+            continue;
+        const std::size_t at = index(p.x, p.y);
+        Pixel& pixel = pixels_[at];
+        pixel.reuse += set.reuse[static_cast<std::size_t>(i)];
+        add(set, -1, i, pixel.primal, parts_at(parts_, at));
+        if (p.x + 1 < all.x1)
+            add(set, i, i + 1, pixel.dx, parts_at(parts_dx_, at));
+        if (p.y + 1 < all.y1)
+            add(set, i, i + all.width(), pixel.dy, parts_at(parts_dy_, at));
+    }
+}
+
+/// Running means: sums of what is as bright as numbers go would be beyond them.
+void SetMeans::add(const SamplingSet& set, int from, int to, Mean& mean, std::span<Rgb> parts) {
+    const auto pixels = static_cast<float>(set.size());
+    mean.pixels += pixels;
+    const float share = pixels / mean.pixels;
+    const auto move = [share](Rgb& value, Rgb here, Rgb there) {
+        value = value * (1 - share) + (there - here) * share;
+    };
+    move(mean.value, from < 0 ? Rgb(0) : set.coefficient(from), set.coefficient(to));
     for (std::size_t l = 0; l < parts.size(); ++l)
-        parts_[at * parts_a_pixel_ + l] += parts[l];
+        move(parts[l], from < 0 ? Rgb(0) : set.parts_of(from)[l], set.parts_of(to)[l]);
 }
 
-void SetMeans::take(int x, int y, PixelSample& sample, std::vector<Rgb>& parts) const {
+void SetMeans::take_primal(int x, int y, PixelSample& sample) const {
     const std::size_t at = index(x, y);
-    const Sum& sum = sums_[at];
-    if (sum.sets == 0)
-        return;
-    const float share = 1 / static_cast<float>(sum.sets);
-    sample.primal = sum.coefficient * share;
-    parts.resize(parts_a_pixel_);
-    for (std::size_t l = 0; l < parts_a_pixel_; ++l)
-        parts[l] = parts_[at * parts_a_pixel_ + l] * share;
-    sample.parts = parts;
+    sample.primal = pixels_[at].primal.value;
+    sample.parts = parts_at(parts_, at);
+}
+
+void SetMeans::take_gradients(int x, int y, PixelSample& sample) const {
+    const std::size_t at = index(x, y);
+    const Pixel& pixel = pixels_[at];
+    sample.dx = pixel.dx.value;
+    sample.dy = pixel.dy.value;
+    sample.parts_dx = parts_at(parts_dx_, at);
+    sample.parts_dy = parts_at(parts_dy_, at);
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {

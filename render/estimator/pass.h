@@ -181,36 +181,54 @@ private:
     std::vector<PixelSample> means_;
 };
 
-/// What the pixels of a block get in the sets of G-PT. Each is in up to four, with its neighbours on all sides;
-/// beyond the block these have base paths that begin elsewhere in their pixels, and so sets of their own.
+/// What the pixels of a block get in the sampling sets of G-PT and G-PR that are in it: means over all sets that a
+/// pixel is in, and of gradients over those that both pixels are in, each with the weight of its pixels, as so
+/// many base paths stand behind it. In a set that takes a pixel for its halo it shares like any other, so that
+/// this costs nothing.
 class SetMeans {
 public:
     /// @param parts  of the basis; 0: none
     void begin(PixelRect area, int parts);
-    /// Adds what entry i of a set got, if that pixel is in the block.
-    void add(const SamplingSet& set, int i);
+    /// Adds what the pixels of a set got, of those in the block. `all` is the rectangle of the set, row by row.
+    void add(const SamplingSet& set, PixelRect all);
     /// How the shifts to a pixel ended.
-    const ReuseCounts& reuse(int x, int y) const { return sums_[index(x, y)].reuse; }
-    /// Puts means over a pixel's sets into a sample, which stays as it is where there is no set.
-    /// @param parts  memory for those of the sample; none without a basis
-    void take(int x, int y, PixelSample& sample, std::vector<Rgb>& parts) const;
+    const ReuseCounts& reuse(int x, int y) const { return pixels_[index(x, y)].reuse; }
+    /// Whether a pixel is in any set.
+    bool has(int x, int y) const { return pixels_[index(x, y)].primal.pixels > 0; }
+    /// Puts the primal into a sample; and the gradients, 0 where there is none. Parts are in memory of this until
+    /// the next begin().
+    void take_primal(int x, int y, PixelSample& sample) const;
+    void take_gradients(int x, int y, PixelSample& sample) const;
     /// The memory that a pixel takes.
-    static std::size_t bytes(int parts) { return sizeof(Sum) + static_cast<std::size_t>(parts) * sizeof(Rgb); }
+    static std::size_t bytes(int parts) {
+        return sizeof(Pixel) + 3 * static_cast<std::size_t>(parts) * sizeof(Rgb);
+    }
 
 private:
-    struct Sum {
-        Rgb coefficient{0};
+    struct Mean {
+        Rgb value{0};
+        float pixels = 0; ///< of all sets
+    };
+    struct Pixel {
+        Mean primal, dx, dy;
         ReuseCounts reuse{};
-        int sets = 0;
     };
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
     }
+    std::span<Rgb> parts_at(std::vector<Rgb>& parts, std::size_t pixel) {
+        return {parts.data() + pixel * part_count_, part_count_};
+    }
+    std::span<const Rgb> parts_at(const std::vector<Rgb>& parts, std::size_t pixel) const {
+        return {parts.data() + pixel * part_count_, part_count_};
+    }
+    /// Adds what entry `to` got, less what entry `from` got; below 0: less nothing.
+    static void add(const SamplingSet& set, int from, int to, Mean& mean, std::span<Rgb> parts);
 
     PixelRect area_{0, 0, 0, 0};
-    std::size_t parts_a_pixel_ = 0;
-    std::vector<Sum> sums_;
-    std::vector<Rgb> parts_;
+    std::size_t part_count_ = 0;
+    std::vector<Pixel> pixels_;
+    std::vector<Rgb> parts_, parts_dx_, parts_dy_;
 };
 
 /// What a worker carries from block to block: memory and counts.
@@ -238,12 +256,12 @@ struct Worker {
     BaseBlock base;
     BasePath path;
     SamplingSet set;
-    int number = 0;                                 ///< of the sample that is taken, of so many:
-    int samples = 1;                                ///< that the pixels of the block at hand take in this pass
-    SampleMeans means;                              ///< if these are several
-    SetMeans set_means;                             ///< of the sample that is taken
-    ArrivingLight own;                              ///< of one base path
-    std::vector<Rgb> part_primal, part_dx, part_dy; ///< of one sample
+    int number = 0;             ///< of the sample that is taken, of so many:
+    int samples = 1;            ///< that the pixels of the block at hand take in this pass
+    SampleMeans means;          ///< if these are several
+    SetMeans set_means;         ///< of the sample that is taken
+    ArrivingLight own;          ///< of one base path
+    std::vector<Rgb> own_parts; ///< of it
 };
 
 /// Cuts the image of this pass into blocks for the workers. Tiles stay whole, so blocks may reach beyond the

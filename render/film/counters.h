@@ -126,7 +126,7 @@ struct ReuseMaps {
 
     bool empty() const { return counts.empty(); }
 
-    Image<float> reused() const; ///< base paths of other pixels that brought light here, a pass
+    Image<float> reused() const; ///< base paths of other pixels that brought light here, a pass, once in each set
     /// Share of the shifts to here that ended so, in [0, 1]; 0 without any.
     Image<float> share(ShiftOutcome outcome) const;
     Image<float> failed() const; ///< share of the shifts to here that brought no light, likewise

@@ -44,8 +44,8 @@ bool has_own_primal(const RenderSettings& s) {
 
 /// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
 bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
-    // The image's last pixel has no neighbours: with base paths as the primal, nothing is made of what it got.
-    if (settings.method == Method::gpr && has_own_primal(settings) && pixel == set.pixels.back())
+    // A set's last pixel has no neighbours in it: with base paths as the primal, nothing is made of what it got.
+    if (has_gradients(settings.method) && has_own_primal(settings) && pixel == set.pixels.back())
         return false;
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
@@ -105,9 +105,12 @@ Rgb Inspection::shared_radiance() const {
     if (sets.empty())
         return radiance;
     Rgb sum(0);
-    for (const InspectedSet& set : sets)
-        sum += set.radiance(pixel) / static_cast<float>(sets.size());
-    return sum;
+    float pixels = 0;
+    for (const InspectedSet& set : sets) {
+        sum += set.radiance(pixel) * static_cast<float>(set.size());
+        pixels += static_cast<float>(set.size());
+    }
+    return sum / pixels;
 }
 
 int InspectedSet::index_of(glm::ivec2 pixel) const {
@@ -171,10 +174,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
             result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + worker.path.very_direct);
     }
     worker.tracer.hits = nullptr;
-    for_each_set_of_tile(pass, pixel, worker.set, [&](PixelRect inner) {
-        if (inner.contains(pixel) && worker.set.contains(pixel))
-            result.sets.push_back(inspect_set(pass, inner, pixel, worker));
-    });
+    for_each_set_with(pass, pixel, worker.set,
+                      [&](PixelRect inner) { result.sets.push_back(inspect_set(pass, inner, pixel, worker)); });
     if (paths_alone > 0)
         result.is_refused = result.is_refused || is_mean_refused(pass, pixel, worker);
     for (const InspectedSet& set : result.sets)
@@ -235,12 +236,15 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
             found.push_back(pilot.explore(plan.cell(i), worker));
         plan.learn(found);
     }
-    const PixelRect tile = TileGrid(size, settings, plan, pass).tile_at(pixel);
-    std::set<int> cells; // that it reaches into
-    for (const int x : {tile.x0, tile.x1 - 1})
-        for (const int y : {tile.y0, tile.y1 - 1})
-            if (cuts)
-                cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
+    const TileGrid grid(size, settings, plan, pass);
+    std::set<int> cells; // that the tiles reach into whose pixels share with this one
+    for (const glm::ivec2 beside : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+        const PixelRect tile = grid.tile_at(pixel - beside);
+        for (const int x : {tile.x0, tile.x1 - 1})
+            for (const int y : {tile.y0, tile.y1 - 1})
+                if (cuts)
+                    cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
+    }
     GuidingLearner guiding;
     for (int i = 0; i < pass && !stop.stop_requested() && (cuts || settings.path_guiding); ++i) {
         Worker worker(scene, camera, size, settings, plan.guiding());

@@ -88,7 +88,7 @@ struct InspectedBase {
 /// How the light of a sampling set was shared out. Lists have one entry a pixel.
 struct InspectedSet {
     std::vector<glm::ivec2> pixels;
-    std::vector<char> is_border; ///< 1: the pixel only lends its path, and gets its light in another set
+    std::vector<char> is_border; ///< 1: the pixel is not of the tile that the set is of, but beside it
     std::vector<Rgb> albedo;     ///< what the pixel's light is divided by (Pass::albedo_of)
     std::vector<InspectedBase> bases;
     std::vector<InspectedShift> shifts; ///< of base k to pixel m: [k * pixels.size() + m]; k = m: its own
@@ -121,7 +121,7 @@ struct Inspection {
     /// whose mean it takes.
     std::vector<InspectedSet> sets;
 
-    /// What the pixel gets from its sets: their mean.
+    /// What the pixel gets from its sets: their mean, by their pixels.
     Rgb shared_radiance() const;
 };
 
@@ -137,7 +137,7 @@ struct TileInspection {
 };
 
 /// Takes the sample of a pass at one pixel again, with the passes' own code, and looks at it. Quick: no more than
-/// the pixel's tile is traced.
+/// the pixel's tile and those that take it into their sets are traced.
 /// @param plan  the one that this pass had
 /// @param pass  counts from 0
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
@@ -147,11 +147,12 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
                             const RenderSettings& settings, const ReusePlan& plan, int pass, glm::ivec2 pixel);
 
-/// The plan that a pass of a render had, as far as the tile of one pixel goes: bit for bit, and good for no other
-/// tile. It is learnt again from the base paths of the passes before, of the few pixels that decide on that tile;
-/// this costs as much as path tracing some 16 x 16 pixels as often, or where a tile lies between several cells of
-/// the plan, up to four times that; and of G-PR as a sample of path tracing of the whole picture, on one thread.
-/// Of adaptive renders it lacks how many samples the pass took, which all passes before decide on: it has one.
+/// The plan that a pass of a render had, as far as the sets of one pixel go: bit for bit, and good for no other
+/// pixel. It is learnt again from the base paths of the passes before, of the few pixels that decide on these
+/// tiles; this costs as much as path tracing some 16 x 16 pixels as often, or where tiles lie between several
+/// cells of the plan, a few times that; and of G-PR as a sample of path tracing of the whole picture, on one
+/// thread. Of adaptive renders it lacks how many samples the pass took, which all passes before decide on: it has
+/// one.
 /// @param pass  counts from 0
 /// @param stop  ends it early: it has then learnt less, and is good for nothing
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,

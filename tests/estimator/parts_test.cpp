@@ -227,7 +227,7 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
 
 class PartsOfScene : public testing::TestWithParam<std::string> {};
 TEST_P(PartsOfScene, AreThoseOfTheJudge) {
-    expect_parts_of_the_judge(GetParam(), 60, 40'000);
+    expect_parts_of_the_judge(GetParam(), 120, 80'000);
 }
 INSTANTIATE_TEST_SUITE_P(scenes, PartsOfScene,
                          testing::Values("texture_edges", "black_texels", "glossy", "mirror"),

@@ -73,8 +73,8 @@ TEST(Survival, AddsUpToTheCounters) {
     }
 }
 
-/// Over many passes, of pixels alike, the share is that of the counters; of the border's paths each pixel counts
-/// those of its own tile alone.
+/// Over many passes, of pixels alike, the share is that of the counters; each pixel counts its path once in each
+/// set.
 TEST(Survival, IsTheShareOfThePathsWithLight) {
     for (const Method method : {Method::pr, Method::gpr}) {
         RenderSettings settings = settings_of(method, RouletteKind::absolute);
@@ -132,7 +132,7 @@ TEST(ShiftOutcomes, AreAllSeen) {
         EXPECT_GT(sums[i], 0u) << to_string(static_cast<ShiftOutcome>(i));
 }
 
-/// Shifts to the border are nobody's in G-PR, and of the two that measure a gradient of G-PT one is the pixel's.
+/// Of shifts to pixels of other blocks nobody counts any.
 TEST(ShiftOutcomes, OfGradientMethodsArePartOfTheCounters) {
     for (const Method method : {Method::gpr, Method::gpt}) {
         const Outcome o = render(settings_of(method, RouletteKind::none), 2, full_of_obstacles());
@@ -141,8 +141,7 @@ TEST(ShiftOutcomes, OfGradientMethodsArePartOfTheCounters) {
             EXPECT_LE(sums[i], o.counters.shifts[i]);
         const double share = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0})) /
                              static_cast<double>(o.counters.shift_attempts());
-        EXPECT_GT(share, 0.4);
-        EXPECT_LT(share, 0.9);
+        EXPECT_GT(share, 0.9); // all but those to pixels of other blocks
     }
 }
 

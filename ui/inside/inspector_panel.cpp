@@ -14,17 +14,36 @@ namespace tessera {
 
 namespace {
 
-std::string set_text(const InspectedSet& set, glm::ivec2 pixel) {
+/// How many of the other base paths of a set bring a pixel light.
+long count_arrived(const InspectedSet& set, glm::ivec2 pixel) {
     const std::vector<const InspectedShift*> arriving = set.to(pixel);
-    const auto bring = std::count_if(arriving.begin(), arriving.end(), [](const InspectedShift* s) {
-        return s->from != s->to && !is_black(s->value);
-    });
-    const ReuseDecision& own = set.base(set.index_of(pixel)).reuse;
-    return "   |   " + std::to_string(bring) + " of " + std::to_string(set.size() - 1) +
-           " other base paths reach it: it gets " + short_text(set.radiance(pixel)) + ", its own path " +
-           (own.is_dark()    ? "is dark"
-            : own.survives() ? "is reused x " + short_text(own.scale)
-                             : "is not reused (q = " + short_text(own.survival) + ")");
+    return std::count_if(arriving.begin(), arriving.end(),
+                         [](const InspectedShift* s) { return s->from != s->to && !is_black(s->value); });
+}
+
+std::string reuse_text(const ReuseDecision& own) {
+    return std::string(", its own path ") + (own.is_dark() ? "is dark"
+                                             : own.survives()
+                                                 ? "is reused x " + short_text(own.scale)
+                                                 : "is not reused (q = " + short_text(own.survival) + ")");
+}
+
+std::string sets_text(const Inspection& i) {
+    long arrived = 0, others = 0;
+    for (const InspectedSet& set : i.sets) {
+        arrived += count_arrived(set, i.pixel);
+        others += set.size() - 1;
+    }
+    const std::string gets = "it gets " + short_text(i.shared_radiance());
+    if (others == 0)
+        return i.sets.size() > 1 ? "shares nothing, and takes the mean of " + std::to_string(i.sets.size()) +
+                                       " paths of its own: " + gets
+                                 : "shares nothing: " + gets;
+    const std::string text =
+        std::to_string(arrived) + " of " + std::to_string(others) + " other base paths reach it: " + gets;
+    if (i.sets.size() > 1)
+        return "in " + std::to_string(i.sets.size()) + " sets " + text + " in the mean of these";
+    return text + reuse_text(i.sets[0].base(i.sets[0].index_of(i.pixel)).reuse);
 }
 
 std::string headline(const Inspection& i) {
@@ -32,12 +51,8 @@ std::string headline(const Inspection& i) {
                        std::to_string(i.pass) + "   own path " + short_text(i.radiance);
     if (!is_black(i.very_direct))
         line += " and lamps seen " + short_text(i.very_direct);
-    if (reuses_paths(i.method) && i.sets.size() > 1)
-        line += "   |   shares nothing, and takes the mean of " + std::to_string(i.sets.size()) +
-                " paths of its own: it gets " + short_text(i.shared_radiance());
-    else
-        for (const InspectedSet& set : i.sets)
-            line += set_text(set, i.pixel);
+    if (!i.sets.empty() && i.method != Method::pt)
+        line += "   |   " + sets_text(i);
     return line + (i.is_refused ? "   REFUSED: not finite" : "");
 }
 

@@ -67,7 +67,8 @@ constexpr Column shift_columns[] = {
     {"ratio", "r_m of the light path that brings most: density of the shifted path over the base's, with the "
               "Jacobian (no unit) [Bekaert 2002, Bauszat 2017]."},
     {"weight", "1/R of that light path over the probability of survival (no unit)."},
-    {"value", "What the pixel gets of all light paths: luminance of the radiance."},
+    {"value",
+     "What the pixel gets of all light paths in that set, of several the mean counts: luminance of the radiance."},
 };
 
 template <std::size_t count>

@@ -47,7 +47,7 @@ private:
         for (int m = 0; m < of.size(); ++m) {
             const bool border = of.is_border[static_cast<std::size_t>(m)] != 0;
             if (border && bases < 0)
-                continue; // it is another set's
+                continue; // it is another tile's
             const Rgb c = displayed(of.radiance(m, count), tone_) * (border ? 0.45f : 1.0f);
             drawing_.fill(of.pixels[static_cast<std::size_t>(m)],
                           ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
@@ -164,7 +164,7 @@ std::vector<float> slow_motion_luminances(const SlowMotion& slow) {
     std::vector<float> luminances;
     for (const InspectedSet& set : slow.tile->sets)
         for (int m = 0; m < set.size(); ++m)
-            if (!set.is_border[static_cast<std::size_t>(m)]) // those are another set's
+            if (!set.is_border[static_cast<std::size_t>(m)]) // those are another tile's
                 luminances.push_back(luminance(set.radiance(m, set.size())));
     return luminances;
 }

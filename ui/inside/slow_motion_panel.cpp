@@ -139,7 +139,7 @@ void draw_story(const ViewerState& state, Controls& controls) {
     ImGui::TextUnformatted(tile_text(slow).c_str());
     controls.place("slow.tile_text",
                    "Which pixels share their base paths. White: the tile; turquoise: the pixels that "
-                   "get their light here; orange: a border that only lends its paths.");
+                   "get their light here; orange: a border, which shares as well, and is another tile's.");
     ImGui::TextUnformatted(base_text(slow).c_str());
     controls.place("slow.base_text",
                    "The base path at hand: its pixel has a white frame; orange and crossed out: the "

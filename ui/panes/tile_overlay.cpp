@@ -22,7 +22,7 @@ constexpr float least_pattern = 10; // edge of a pixel whose pattern can be told
 constexpr ImU32 tile_colour = IM_COL32(255, 255, 255, 90), part_colour = IM_COL32(255, 255, 255, 45);
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 70);
 constexpr ImU32 set_colour = IM_COL32(64, 196, 178, 70), set_edge_colour = IM_COL32(64, 196, 178, 255);
-constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90);
+constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90), halo_edge_colour = IM_COL32(255, 168, 51, 255);
 constexpr ImU32 alone_colour = IM_COL32(51, 102, 255, 60); // pixels that share nothing
 
 class TileDrawing {
@@ -125,7 +125,7 @@ private:
         }
     }
 
-    /// The sampling set that a pixel has its light from.
+    /// The sampling sets that a pixel has its light from.
     void draw_set(glm::ivec2 p) {
         const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
         if (settings_.method == Method::gpt) {
@@ -149,6 +149,10 @@ private:
                 const PixelRect all = part.with_halo(size_);
                 drawing_.fill(PixelRect{part.x1, all.y0, all.x1, all.y1}, halo_colour);
                 drawing_.fill(PixelRect{all.x0, part.y1, part.x1, all.y1}, halo_colour);
+                grid_.for_each_part(grid_.block_at(p), [&](PixelRect other, int paths_alone) {
+                    if (paths_alone == 0 && !other.contains(p) && other.with_halo(size_).contains(p))
+                        outline(other.with_halo(size_), halo_edge_colour);
+                });
             }
         }
         outline(pixel, IM_COL32(255, 255, 255, 220));

@@ -178,7 +178,7 @@ constexpr Action table[] = {
     {"View", "Tiles",
      "Draws over the pictures which pixels share their paths in the newest pass, and marks those of the pixel "
      "under "
-     "the mouse; the border of a G-PR tile is orange.",
+     "the mouse; the border of a G-PR tile is orange, and so are the outlines of other sets that have the pixel.",
      key(Key::x), no_shortcut, [](State& s) { s.show_tiles = !s.show_tiles; },
      [](const State& s) { return s.show_tiles; }},
     {"View", "Path inspector",

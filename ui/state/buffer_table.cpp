@@ -23,7 +23,8 @@ constexpr BufferInfo table[] = {
      "albedo. Measured by G-PT and G-PR.",
      Family::gradient, ColourMap::signed_difference, "", 1},
     {Buffer::reused, "reused", "Reuse count",
-     "How many base paths of other pixels brought light to a pixel, the mean of all passes. Not for PT.",
+     "How many base paths of other pixels brought light to a pixel, once in each set, the mean of all passes. Not "
+     "for PT.",
      Family::reuse, ColourMap::false_colour, "paths a pass", 1},
     {Buffer::outcomes, "outcomes", "Shift outcomes",
      "How the shifts of other pixels' base paths to a pixel ended: the mean of the outcomes' colours, black where "
@@ -111,7 +112,8 @@ constexpr BufferInfo table[] = {
      Family::picture, ColourMap::radiance, "", 1},
     {Buffer::sharers, "sharers", "Sharers",
      "How many pixels share their base paths with a pixel, itself among them, in the next pass: those of its "
-     "tile, of the part that it is cut into, and of G-PR's border. 1: it shares nothing, and takes several paths "
+     "tile, of the part that it is cut into, and of G-PR's border; tiles beside it may share with it as well. 1: "
+     "it shares nothing, and takes several paths "
      "of its own. Of PR and G-PR.",
      Family::reuse, ColourMap::false_colour, "pixels", 1},
     {Buffer::gain, "gain", "Gain of sharing",
