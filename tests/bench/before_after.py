@@ -9,12 +9,13 @@ below 1 where the change pays; and the ratio of the pictures' means, which says 
 reference, and so nothing to wait for. Wants `pip install mitsuba numpy`, to read EXR files.
 """
 
-import argparse
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from two_programs import name_of, parse, parser_of
 
 try:
     import mitsuba as mi
@@ -47,16 +48,10 @@ def without_worst(values):
 
 
 def main():
-    arguments, options = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, options = arguments[:at], arguments[at + 1 :]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--seeds", type=int, default=4)
     parser.add_argument("--size")
-    parser.add_argument("programs", nargs=2, metavar=("BEFORE", "AFTER"))
-    parser.add_argument("scenes", nargs="+", type=Path)
-    given = parser.parse_args(arguments)
+    given, options = parse(parser)
     if given.size:
         options += ["--size", given.size]
     mi.set_variant("scalar_rgb")
@@ -70,9 +65,8 @@ def main():
         (a, b), (s, t) = ([[r[i] for r in run] for run in runs] for i in (0, 1))
         before, after = noise(a), noise(b)
         ratio, cpu = after.mean() / before.mean(), np.sum(t) / np.sum(s)
-        name = scene.parent.name if scene.stem == "scene" else scene.stem
         print(
-            f"{name:22s}{before.mean():9.5f}{after.mean():9.5f}{ratio:7.2f}"
+            f"{name_of(scene):22s}{before.mean():9.5f}{after.mean():9.5f}{ratio:7.2f}"
             f"{without_worst(after) / without_worst(before):7.2f}{np.mean(s):8.3f}{np.mean(t):8.3f}{ratio * cpu:7.2f}"
             f"{np.mean(b) / np.mean(a):8.4f}",
             flush=True,

@@ -8,13 +8,14 @@ the ratios of rounds were within 0.6 % of 1; of runs that took turns, within 7 %
 For each scene: CPU seconds of render by each program, their ratio, those of the rounds, and whether the pictures are
 the same files."""
 
-import argparse
 import filecmp
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from two_programs import name_of, parse, parser_of
 
 
 def render_both(programs, scene, options, cpu, folder):
@@ -35,16 +36,10 @@ def render_both(programs, scene, options, cpu, folder):
 
 
 def main():
-    arguments, options = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, options = arguments[:at], arguments[at + 1 :]
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--cpu", type=int, default=0)
-    parser.add_argument("programs", nargs=2, metavar=("BEFORE", "AFTER"))
-    parser.add_argument("scenes", nargs="+", type=Path)
-    given = parser.parse_args(arguments)
+    given, options = parse(parser)
     print(f"{'scene':22s}{'before':>9s}{'after':>9s}{'ratio':>8s}  rounds")
     for scene in given.scenes:
         with tempfile.TemporaryDirectory() as name:
@@ -53,8 +48,7 @@ def main():
             same = filecmp.cmp(folder / "0.exr", folder / "1.exr", shallow=False)
         before, after = (sum(seconds) for seconds in zip(*rounds))
         ratios = " ".join(f"{b / a:.3f}" for a, b in rounds)
-        label = scene.parent.name if scene.stem == "scene" else scene.stem
-        print(f"{label:22s}{before:9.3f}{after:9.3f}{after / before:8.3f}  {ratios}  "
+        print(f"{name_of(scene):22s}{before:9.3f}{after:9.3f}{after / before:8.3f}  {ratios}  "
               f"{'same picture' if same else 'ANOTHER PICTURE'}", flush=True)
 
 
