@@ -302,7 +302,7 @@ void SetMeans::add(const SamplingSet& set, PixelRect all) {
         const std::size_t at = index(p.x, p.y);
         Pixel& pixel = pixels_[at];
         pixel.reuse += set.reuse[static_cast<std::size_t>(i)];
-        add(set, -1, i, pixel.primal, parts_at(parts_, at));
+        add(set, {}, i, pixel.primal, parts_at(parts_, at));
         if (p.x + 1 < all.x1)
             add(set, i, i + 1, pixel.dx, parts_at(parts_dx_, at));
         if (p.y + 1 < all.y1)
@@ -311,16 +311,16 @@ void SetMeans::add(const SamplingSet& set, PixelRect all) {
 }
 
 /// Running means: sums of what is as bright as numbers go would be beyond them.
-void SetMeans::add(const SamplingSet& set, int from, int to, Mean& mean, std::span<Rgb> parts) {
+void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
     const auto pixels = static_cast<float>(set.size());
     mean.pixels += pixels;
     const float share = pixels / mean.pixels;
     const auto move = [share](Rgb& value, Rgb here, Rgb there) {
         value = value * (1 - share) + (there - here) * share;
     };
-    move(mean.value, from < 0 ? Rgb(0) : set.coefficient(from), set.coefficient(to));
+    move(mean.value, from ? set.coefficient(*from) : Rgb(0), set.coefficient(to));
     for (std::size_t l = 0; l < parts.size(); ++l)
-        move(parts[l], from < 0 ? Rgb(0) : set.parts_of(from)[l], set.parts_of(to)[l]);
+        move(parts[l], from ? set.parts_of(*from)[l] : Rgb(0), set.parts_of(to)[l]);
 }
 
 void SetMeans::take_primal(int x, int y, PixelSample& sample) const {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -222,8 +223,8 @@ private:
     std::span<const Rgb> parts_at(const std::vector<Rgb>& parts, std::size_t pixel) const {
         return {parts.data() + pixel * part_count_, part_count_};
     }
-    /// Adds what entry `to` got, less what entry `from` got; below 0: less nothing.
-    static void add(const SamplingSet& set, int from, int to, Mean& mean, std::span<Rgb> parts);
+    /// Adds what entry `to` got, less what entry `from` got, if there is one.
+    static void add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts);
 
     PixelRect area_{0, 0, 0, 0};
     std::size_t part_count_ = 0;
