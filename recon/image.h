@@ -127,7 +127,7 @@ struct CoefficientPart {
 };
 
 /// Of each pixel the sample that brought most, in primal or gradients: what the others are to be judged without
-/// (recon/spikes.h). All images of one size, or all empty.
+/// (recon/picture/spikes.h). All images of one size, or all empty.
 struct BrightestSamples {
     RgbImage primal, dx, dy; ///< of GradientImages; dx and dy empty where these are
     RgbImage albedo;         ///< what its primal was divided by; empty without Demodulation

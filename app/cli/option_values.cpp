@@ -1,7 +1,7 @@
 #include "app/cli/option_values.h"
 
 #include "app/cli/terminal.h"
-#include "recon/oidn.h"
+#include "recon/picture/oidn.h"
 #include "render/io/files.h"
 #include "render/io/text.h"
 #include "ui/state/inspected.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/load/scene_source.h"
 #include "render/settings/settings_table.h"
 

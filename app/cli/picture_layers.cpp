@@ -1,8 +1,8 @@
 #include "app/cli/picture_layers.h"
 
 #include "app/cli/terminal.h"
-#include "recon/demodulation.h"
-#include "recon/spikes.h"
+#include "recon/picture/demodulation.h"
+#include "recon/picture/spikes.h"
 #include "render/estimator/basis.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"

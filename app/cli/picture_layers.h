@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/film/film.h"
 #include "render/io/exr.h"
 #include "render/run/thread_pool.h"

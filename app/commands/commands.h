@@ -5,7 +5,7 @@
 #include "app/experiment/experiment.h"
 #include "app/experiment/references.h"
 #include "recon/image.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/settings/settings.h"
 #include "ui/jobs/scene_load.h"
 #include "ui/state/document.h"

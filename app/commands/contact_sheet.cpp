@@ -2,7 +2,7 @@
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "app/report/reports.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/io/plain_images.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"

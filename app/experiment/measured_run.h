@@ -4,7 +4,7 @@
 #include "app/experiment/references.h"
 #include "app/experiment/setup.h"
 #include "recon/metrics/metrics.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/film/counters.h"
 #include "render/run/reference_image.h"
 #include "render/run/render.h"

@@ -1,7 +1,7 @@
 // What an experiment varies, and the setups that come of it.
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/settings/setting.h"
 #include "render/settings/settings.h"
 

@@ -1,6 +1,6 @@
 #include "recon/metrics/halo.h"
 
-#include "recon/spikes.h"
+#include "recon/picture/spikes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,11 +11,30 @@ namespace tessera {
 
 namespace {
 
-/// Pixels that should share where V = l = 1: of 5, 10 and 20 the best on kitchen, bathroom, living-room and veach-ajar
-/// together.
+/// Pixels that should share where V = l = 1: of 5, 10 and 20 the best on kitchen, bathroom, living-room and
+/// veach-ajar together.
 constexpr double sharers = 10;
 
 constexpr double most_paths_alone = 12;
+
+/// So many paths that carry light, of which the picture's mean holds, a cell's rho counts with: by fewer of its
+/// own it would be decided by chance. (2 changes little; with 8, cells that should be alone share.)
+constexpr double paths_of_mean = 4;
+
+double rho_of(const PlanEvidence& known) {
+    return known.shared_noise / known.own_noise;
+}
+
+/// The mean of rho by the paths that tell of it, each 1 at most: in a cell that is lit evenly, it may be anything.
+double mean_rho(const std::vector<PlanEvidence>& pilot) {
+    double sum = 0, paths = 0;
+    for (const PlanEvidence& known : pilot)
+        if (known.own_noise > 0) {
+            sum += known.lit * std::min(rho_of(known), 1.0);
+            paths += known.lit;
+        }
+    return paths > 0 ? sum / paths : 1;
+}
 
 } // namespace
 
@@ -82,12 +101,15 @@ double ReusePlan::cost_of_sharing(const PlanEvidence& known) const {
 
 void ReusePlan::learn(const std::vector<PlanEvidence>& pilot) {
     constexpr double least = 1e-6; // where sharing leaves no noise at all
+    const double mean = mean_rho(pilot);
     double costs = 0, sharing = 0;
     for (std::size_t i = 0; i < pilot.size(); ++i) {
         const PlanEvidence& known = cells_.data()[i] += pilot[i];
-        const double cost = cost_of_sharing(known), rho = known.shared_noise / known.own_noise;
-        if (known.own_noise > 0)
+        const double cost = cost_of_sharing(known);
+        if (known.own_noise > 0) {
+            const double rho = (known.lit * rho_of(known) + paths_of_mean * mean) / (known.lit + paths_of_mean);
             gain_.data()[i] = static_cast<float>(1 / std::max(rho * rho * cost, least));
+        }
         const bool shares = !is_alone(static_cast<int>(i));
         costs += shares ? cost : 0;
         sharing += shares;

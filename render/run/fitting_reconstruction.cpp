@@ -1,7 +1,7 @@
 #include "render/run/fitting_reconstruction.h"
 
-#include "recon/demodulation.h"
-#include "recon/spikes.h"
+#include "recon/picture/demodulation.h"
+#include "recon/picture/spikes.h"
 #include "render/io/available_memory.h"
 
 #include <string>

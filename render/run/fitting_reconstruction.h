@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 
 namespace tessera {
 

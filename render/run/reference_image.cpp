@@ -1,6 +1,6 @@
 #include "render/run/reference_image.h"
 
-#include "recon/spikes.h"
+#include "recon/picture/spikes.h"
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 

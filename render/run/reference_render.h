@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/run/picture_identity.h"
 #include "render/run/reference_image.h"
 #include "render/run/render.h"

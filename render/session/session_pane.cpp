@@ -1,6 +1,6 @@
 #include "render/session/session_pane.h"
 
-#include "recon/oidn.h"
+#include "recon/picture/oidn.h"
 #include "render/io/available_memory.h"
 #include "render/run/fitting_reconstruction.h"
 #include "render/run/thread_pool.h"

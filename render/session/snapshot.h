@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/film/counters.h"
 #include "render/film/film.h"
 #include "render/scene/camera.h"

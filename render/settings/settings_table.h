@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/io/files.h"
 #include "render/settings/setting.h"
 #include "render/settings/settings.h"

@@ -1,7 +1,7 @@
 // live_bench SCENE.xml [SECONDS]: how far reconstructions are behind a render of 1280x720 pixels in the viewer's
 // session, on all hardware threads. Wall time: other work on the machine counts.
 
-#include "recon/oidn.h"
+#include "recon/picture/oidn.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"

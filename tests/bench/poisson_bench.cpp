@@ -1,8 +1,8 @@
 // Times of the reconstruction, as CPU time of the whole process. Arguments: width, height, threads (and, for L2,
 // 1000 alpha).
 
+#include "recon/picture/reconstruct.h"
 #include "recon/poisson_direct.h"
-#include "recon/reconstruct.h"
 
 #include <atomic>
 #include <cstdint>

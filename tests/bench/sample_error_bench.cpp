@@ -3,7 +3,7 @@
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/sample_error.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"

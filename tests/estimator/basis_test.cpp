@@ -1,6 +1,6 @@
 // Pictures of the light over the albedo: unbiased by l2 however few samples there are, and as bright as they
 // should be by the others.
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "tests/support/rooms.h"

@@ -1,6 +1,6 @@
 // What reconstructions do to light. L2 redistributes it and keeps its sum: gradients alone cannot change it, as
 // borders are Neumann's. None comes to pixels that see nothing.
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"

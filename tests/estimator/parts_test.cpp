@@ -1,6 +1,6 @@
 // Parts of the light by where it comes from, as Lossless Basis Expansion has them: that they are what they are
 // said to be, whoever shares the light, and that nothing is lost.
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/estimator/basis.h"
 #include "render/run/render.h"
 #include "tests/support/rooms.h"

@@ -39,14 +39,15 @@ TEST(ReusePlan, KnowingNothingTilesAreWhole) {
 
 /// Of a cell whose base paths bring very different light, and take 8 rays: sharing leaves rho of the noise of
 /// gradients, and an offset takes so many rays.
-PlanEvidence found(double rho, double offset_rays) {
+/// @param lit  of a thousand paths, those that carry light
+PlanEvidence found(double rho, double offset_rays, int lit = 1000) {
     PlanEvidence e;
-    for (int i = 0; i < 100; ++i)
-        e.add_path(i == 0);
+    for (int i = 0; i < 1000; ++i)
+        e.add_path(i == 0 ? 1 : i < lit ? 1e-4 : 0);
     e.shared_noise = rho;
     e.own_noise = 1;
-    e.offset_rays = 100 * offset_rays;
-    e.base_rays = 800;
+    e.offset_rays = 1000 * offset_rays;
+    e.base_rays = 8000;
     return e;
 }
 
@@ -73,6 +74,18 @@ TEST(ReusePlan, PixelsThatAreAloneTakeAsManyPathsAsSharingCostsElsewhere) {
     EXPECT_EQ(after_pilot(found(1, 0.5), 0).paths_alone(left), 2);
     EXPECT_EQ(after_pilot(found(1, 0.5), 1).paths_alone(left), 6);
     EXPECT_EQ(after_pilot(found(1, 0.5), 4).paths_alone(left), 12);
+}
+
+/// What two paths tell of a cell may be chance; where all the picture is so, it is not. And no single cell, whose
+/// noise is nothing with or without sharing, speaks for all.
+TEST(ReusePlan, ACellOfWhichFewPathsTellIsLikeTheOthers) {
+    EXPECT_EQ(after_pilot(found(1, 0.5, 2)).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(found(1, 0.5, 20)).paths_alone(left), 4);
+    EXPECT_EQ(after_pilot(found(1, 0.5, 0)).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(found(1e6, 0.5)).paths_alone(right), 0);
+    ReusePlan plan(size, settings_of());
+    plan.learn(std::vector<PlanEvidence>(static_cast<std::size_t>(plan.cell_count()), found(1, 0.5, 2)));
+    EXPECT_GT(plan.paths_alone(left), 0);
 }
 
 TEST(ReusePlan, WhatThePilotFoundStays) {

@@ -1,6 +1,6 @@
 // Pictures of a coefficient: what remodulation leaves as it is, what it corrects, and what it trusts.
-#include "recon/demodulation.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/demodulation.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <cstring>

@@ -1,6 +1,6 @@
 // Tables by position: whether there is an entry for each value is known when the program is compiled.
 #include "recon/enumeration.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 
 #include <gtest/gtest.h>
 

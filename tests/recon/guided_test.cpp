@@ -1,6 +1,6 @@
 // Smoothing by guides: what is noise goes, what is not stays, and nothing crosses what looks different.
-#include "recon/guided.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/guided.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // What reconstructions say they will take, against what they take.
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The denoiser that is looked for at run time: what it does, and what is said where it is not there.
-#include "recon/oidn.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/oidn.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "recon/poisson_parts.h"
+#include "recon/picture/parts.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "recon/picture/reconstruct.h"
 #include "recon/poisson_direct.h"
-#include "recon/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The session without Open Image Denoise: a word, another picture, and nobody but a worker waits for the library.
 
-#include "recon/oidn.h"
+#include "recon/picture/oidn.h"
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "tests/load/temporary_folder.h"

@@ -2,7 +2,7 @@
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/sample_error.h"
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -59,8 +59,9 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
             const RgbImage primal = picture(images, Norm::none, Spikes::off);
             const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
             ASSERT_TRUE(estimate) << spp;
-            // Where pixels share, whole tiles err alike: there are fewer errors to take the mean of.
-            EXPECT_NEAR(estimate->relative_mse / error, 1, method == Method::pt ? 0.2 : 0.35)
+            // Where pixels share, whole tiles err alike: there are fewer errors to take the mean of. And of five
+            // samples so much is held back that how bright the picture is where is not well known.
+            EXPECT_NEAR(estimate->relative_mse / error, 1, method == Method::pt && spp > 5 ? 0.2 : 0.4)
                 << spp << " " << short_name(method);
         }
     }

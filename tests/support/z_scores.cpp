@@ -1,6 +1,6 @@
 #include "tests/support/z_scores.h"
 
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 

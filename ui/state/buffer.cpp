@@ -1,7 +1,7 @@
 #include "ui/state/buffer.h"
 
-#include "recon/demodulation.h"
-#include "recon/spikes.h"
+#include "recon/picture/demodulation.h"
+#include "recon/picture/spikes.h"
 #include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"

@@ -2,9 +2,9 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
+#include "recon/picture/reconstruct.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_weighted.h"
-#include "recon/reconstruct.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,14 +1,15 @@
-#include "recon/reconstruct.h"
+#include "recon/picture/reconstruct.h"
 
-#include "recon/bounds.h"
-#include "recon/demodulation.h"
-#include "recon/guided.h"
-#include "recon/oidn.h"
+#include "recon/picture/bounds.h"
+#include "recon/picture/demodulation.h"
+#include "recon/picture/guided.h"
+#include "recon/picture/light_spreader.h"
+#include "recon/picture/oidn.h"
+#include "recon/picture/parts.h"
+#include "recon/picture/spikes.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
-#include "recon/poisson_parts.h"
 #include "recon/poisson_weighted.h"
-#include "recon/spikes.h"
 
 #include <chrono>
 #include <cmath>
@@ -81,20 +82,6 @@ void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& p
     });
 }
 
-/// Gives what spikes hold back, and what the solver has put above the bounds, to the pixels around, and once more
-/// what pixels thereby have above the bounds: no light is lost, and hardly any goes where it is known to be dark.
-/// (Three more times gain nothing.) Without bounds, only the first.
-void spread_within_bounds(const UpperBounds& bounds, RgbImage held, RgbImage& image,
-                          const ParallelFor& parallel_for) {
-    constexpr float reach = 2;
-    if (!bounds.empty())
-        add(held, take_excess(bounds, reach, image, parallel_for));
-    const LightSpreader spreader(image, bounds.black, parallel_for);
-    spreader.spread(held, image, parallel_for);
-    if (!bounds.empty())
-        spreader.spread(take_excess(bounds, reach, image, parallel_for), image, parallel_for);
-}
-
 /// Takes off what smoothing has put above wider bounds, where it gave a dark pixel some of the light beside it.
 /// (Bathroom at 3 samples: relMSE 3.3 without, 1.5 where that is spread about, 0.08 so.)
 void hold_to_bounds(const UpperBounds& bounds, RgbImage& picture, const ParallelFor& parallel_for) {
@@ -132,6 +119,29 @@ struct Reconstructor::Solvers {
     std::optional<PartsSolver> parts;
     bool has_variances = false; ///< the last images that were weighted
 };
+
+/// What single samples are not believed, and what their pixels are.
+struct Reconstructor::Limits {
+    RgbImage held; ///< radiance that spikes hold back
+    AlikePixels alike;
+    UpperBounds bounds;
+
+    void spread(const GuideImages& guides, RgbImage& image, const ParallelFor& parallel_for) const;
+};
+
+/// Gives what spikes hold back, and what the solver has put above the bounds, to pixels that look alike and have
+/// room below theirs; and what is left over to those around, whatever their bounds: no light is lost, but where
+/// all is black, and hardly any goes where it is known to be dark. Without bounds, only what is held.
+void Reconstructor::Limits::spread(const GuideImages& guides, RgbImage& image,
+                                   const ParallelFor& parallel_for) const {
+    constexpr float reach = 2;
+    RgbImage light = held;
+    if (!bounds.empty())
+        add(light, take_excess(bounds, reach, image, parallel_for));
+    const RgbImage room = room_below(bounds, reach, image, parallel_for);
+    spread_to_alike(light, image, alike, guides, room, parallel_for);
+    LightSpreader(image, alike, bounds.black, parallel_for).spread(light, image, parallel_for);
+}
 
 Reconstructor::Reconstructor() = default;
 Reconstructor::~Reconstructor() = default;
@@ -234,9 +244,9 @@ int Reconstructor::solve_weighted(const GradientImages& images, const PoissonPro
 }
 
 /// The noise of a picture that was made by the same equations, radiance: what the halves of the samples make of
-/// it, with what of `held` is in one or the other. Anything: stopped.
+/// it, with what of the light held back is in one or the other. Anything: stopped.
 RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
-                                 const RgbImage& held, const RgbImage& picture, const ParallelFor& parallel_for,
+                                 const Limits* limits, const RgbImage& picture, const ParallelFor& parallel_for,
                                  const SolveWatch& watch) {
     RgbImage noise = images.halves.primal;
     if (images.has_gradients() && settings.norm == Norm::guided) {
@@ -248,11 +258,13 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         solvers_->weights = {};
     }
     multiply_by_known_albedo(images.demodulation, noise, parallel_for);
-    if (!held.empty() && !images.brightest.half.empty()) {
-        RgbImage held_noise = held;
+    if (limits && !images.brightest.half.empty()) {
+        RgbImage held = limits->held;
         for (std::size_t i = 0; i < held.size(); ++i)
-            held_noise.data()[i] *= images.brightest.half.data()[i];
-        LightSpreader(picture, {}, parallel_for).spread(held_noise, noise, parallel_for);
+            held.data()[i] *= images.brightest.half.data()[i];
+        // To pixels that look alike farther away, too, is level.
+        LightSpreader(picture, limits->alike, limits->bounds.black, parallel_for)
+            .spread(held, noise, parallel_for);
     }
     return noise;
 }
@@ -321,19 +333,19 @@ Reconstruction Reconstructor::picture_of(const GradientImages& images, const Rec
 
 /// What is done to a picture without very direct light after it is solved. Empties it: stopped.
 void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
-                           const UpperBounds& bounds, const RgbImage& held, RgbImage& picture,
-                           const ParallelFor& parallel_for, const SolveWatch& watch) {
+                           const Limits* limits, RgbImage& picture, const ParallelFor& parallel_for,
+                           const SolveWatch& watch) {
     if (settings.norm == Norm::oidn)
         picture = denoised_by_oidn(picture, images.guides);
     const bool smooths =
         settings.norm == Norm::smoothed || (settings.norm == Norm::guided && images.has_gradients());
     if (smooths && !images.guides.empty() && !images.halves.empty()) {
         const double light = sum_of(picture);
-        RgbImage noise = noise_of(images, settings, held, picture, parallel_for, watch);
+        RgbImage noise = noise_of(images, settings, limits, picture, parallel_for, watch);
         picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
-        if (!picture.empty())
-            hold_to_bounds(bounds, picture, parallel_for);
-        keep_light(light, picture); // pixels do not get of others what they give them: some tenths of a percent
+        if (limits && !picture.empty())
+            hold_to_bounds(limits->bounds, picture, parallel_for);
+        keep_light(light, picture); // pixels do not get of others what they give them, and bounds take some
     }
     if (watch.is_stopped())
         picture = {};
@@ -347,23 +359,24 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
         solvers_->noise->forget(); // its last noise is long ago
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    RgbImage held;
     // The denoiser has learnt what samples look like, spikes among them.
     const bool takes_samples = settings.norm == Norm::oidn && !images.has_gradients();
-    const bool limits = settings.spikes == Spikes::consistent && can_limit(images) && !takes_samples;
-    const GradientImages limited_images = limits ? limited(images, held, parallel_for) : GradientImages();
-    const GradientImages& counted = limits ? limited_images : images;
+    const bool is_limited = settings.spikes == Spikes::consistent && can_limit(images) && !takes_samples;
+    RgbImage held;
+    const GradientImages limited_images = is_limited ? limited(images, held, parallel_for) : GradientImages();
+    const GradientImages& counted = is_limited ? limited_images : images;
     Reconstruction result = picture_of(counted, settings, parallel_for, watch);
-    UpperBounds bounds;
-    if (limits) {
-        bounds = upper_bounds(counted, images.radiance(), parallel_for);
-        if (!result.image.empty())
-            spread_within_bounds(bounds, held, result.image, parallel_for);
+    std::optional<Limits> limits;
+    if (is_limited && !result.image.empty()) {
+        AlikePixels alike({held.width(), held.height()}, images.guides, parallel_for);
+        UpperBounds bounds = upper_bounds(counted, images.radiance(), alike, parallel_for);
+        limits.emplace(std::move(held), std::move(alike), std::move(bounds));
+        limits->spread(images.guides, result.image, parallel_for);
         const double all = sum_of(images.radiance());
-        result.held_share = all > 0 ? sum_of(held) / all : 0;
+        result.held_share = all > 0 ? sum_of(limits->held) / all : 0;
     }
     if (!result.image.empty())
-        finish(counted, settings, bounds, held, result.image, parallel_for, watch);
+        finish(counted, settings, limits ? &*limits : nullptr, result.image, parallel_for, watch);
     solvers_->weights = {};
     if (!result.image.empty())
         add(result.image, images.very_direct);

@@ -31,26 +31,10 @@ bool can_limit(const GradientImages& images);
 /// @param held  becomes the radiance that is held back; black where there is nothing
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for);
 
-/// Gives light to the pixels around where it is, about 20 pixels wide, by the brightness about each.
-class LightSpreader {
-public:
-    /// By the brightness of `image`, radiance without very direct light.
-    /// @param black  1 where a pixel is given none; empty: nowhere
-    LightSpreader(const RgbImage& image, const Image<std::uint8_t>& black, const ParallelFor& parallel_for);
-
-    /// Adds as much light to the image as there is in `light`, but for rounding, and for what is about black
-    /// pixels alone, which is lost.
-    void spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const;
-
-private:
-    Image<float> brightness_; ///< about each pixel
-    Image<float> around_;     ///< the same, as wide as light is spread
-};
-
 /// The radiance that limited() holds back; black where it is not to be used.
 RgbImage held_light(const GradientImages& images);
 
-/// The memory that limited(), a LightSpreader and upper_bounds() (recon/bounds.h) take, a pixel.
+/// The memory that limited(), a LightSpreader and upper_bounds() (recon/picture/bounds.h) take, a pixel.
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated);
 
 } // namespace tessera

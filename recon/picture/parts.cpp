@@ -1,4 +1,4 @@
-#include "recon/poisson_parts.h"
+#include "recon/picture/parts.h"
 
 #include "recon/poisson_l1.h"
 #include "recon/weighted_rows.h"

@@ -1,4 +1,4 @@
-#include "recon/oidn.h"
+#include "recon/picture/oidn.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,17 +1,16 @@
-#include "recon/guided.h"
+#include "recon/picture/guided.h"
 
+#include "recon/picture/guide_kernel.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <glm/common.hpp>
 
@@ -23,29 +22,13 @@ namespace {
 // more than a few percent when it is halved or doubled, but that of the dark, below which light leaks into black
 // frames.
 constexpr int levels = 6;
-constexpr float albedo_width = 0.5f, normal_width = 0.3f, nearness_width = 0.3f; // of what counts as alike
-constexpr float roughness_width = 0.2f;                                          // in its root
-constexpr float noise_width = 8;      // of brightness, in variances of its noise
-constexpr int noise_radius = 6;       // of the squares that tell noise,
-constexpr int trust_radius = 6;       // and how far a difference is more than that; wider by the level's step
-constexpr float dark = 0.2f;          // of the mean light, that any pixel's brightness counts as more
-constexpr float least_albedo = 0.02f; // darker surfaces have hardly any light to smooth
-
-constexpr float kernel[] = {1 / 16.0f, 1 / 4.0f, 3 / 8.0f, 1 / 4.0f, 1 / 16.0f};
-
-using Plane = Image<float>;
+constexpr float noise_width = 8; // of brightness, in variances of its noise
+constexpr int noise_radius = 6;  // of the squares that tell noise,
+constexpr int trust_radius = 6;  // and how far a difference is more than that; wider by the level's step
+constexpr float dark = 0.2f;     // of the mean light, that any pixel's brightness counts as more
 
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = std::array<Plane, 6>;
-
-/// Two pixels, so many steps apart, which are as like one as the other: of all pixels within two steps of one, in
-/// the 5x5 without its corners, half. (With the corners: hardly better, in twice the time.)
-struct Pair {
-    int i, j;
-    float share() const { return kernel[i + 2] * kernel[j + 2]; }
-};
-constexpr Pair pairs[] = {{1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {-1, 1}};
-using PairWeights = std::array<Plane, std::size(pairs)>; ///< at the first pixel of the two
 
 /// Planes that are used at every level: memory that is new each time costs a quarter of the smoothing.
 struct Scratch {
@@ -53,12 +36,6 @@ struct Scratch {
     PairWeights weights;
     Plane brightness, noise, sizes, rows;
 };
-
-template <std::size_t count>
-void make_planes(std::array<Plane, count>& planes, int width, int height) {
-    for (Plane& plane : planes)
-        plane = Plane(width, height);
-}
 
 Scratch scratch_of(int width, int height) {
     Scratch scratch;
@@ -69,10 +46,6 @@ Scratch scratch_of(int width, int height) {
     return scratch;
 }
 
-Rgb albedo_of(const GuideImages& guides, std::size_t i) {
-    return glm::max(guides.albedo.data()[i], Rgb(least_albedo));
-}
-
 /// The light: radiance over what is seen takes of it.
 Planes light_of(const NoisyPicture& picture, const GuideImages& guides, const ParallelFor& parallel_for) {
     const int width = picture.image.width(), height = picture.image.height();
@@ -80,37 +53,12 @@ Planes light_of(const NoisyPicture& picture, const GuideImages& guides, const Pa
     make_planes(planes, width, height);
     parallel_for(height, [&](int y) {
         for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            const Rgb albedo = albedo_of(guides, i);
+            const Rgb albedo = seen_albedo(guides, i);
             for (std::size_t c = 0; c < planes.size(); ++c) {
                 const RgbImage& image = c < 3 ? picture.image : picture.noise;
                 const auto channel = static_cast<int>(c % 3);
                 planes[c].data()[i] = image.data()[i][channel] / albedo[channel];
             }
-        }
-    });
-    return planes;
-}
-
-/// Guides over the widths of what counts as alike: what is nearer by a third is something else.
-constexpr int guide_count = 8;
-using GuidePlanes = std::array<Plane, guide_count>;
-
-GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for) {
-    const int width = guides.albedo.width(), height = guides.albedo.height();
-    GuidePlanes planes;
-    make_planes(planes, width, height);
-    double sum = 0;
-    for (float nearness : guides.nearness)
-        sum += static_cast<double>(nearness);
-    const float least = sum > 0 ? static_cast<float>(1e-3 * sum / static_cast<double>(guides.nearness.size())) : 1;
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            for (int c = 0; c < 3; ++c) {
-                planes[static_cast<std::size_t>(c)].data()[i] = guides.albedo.data()[i][c] / albedo_width;
-                planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
-            }
-            planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
-            planes[7].data()[i] = std::sqrt(std::max(guides.roughness.data()[i], 0.0f)) / roughness_width;
         }
     });
     return planes;
@@ -130,102 +78,25 @@ void write_brightness(const Planes& planes, float least, const ParallelFor& para
     });
 }
 
-/// What a level is smoothed by.
-struct Level {
-    const GuidePlanes& guides;
-    const Plane &brightness, &noise; ///< logarithm, and the variance of its noise
-    int step;
-
-    /// How much `count` pixels from (to_x, to_y) on are like those from (x, y) on.
-    void weigh(int x, int y, int count, int to_x, int to_y, float* weights) const;
-};
-
-void Level::weigh(int x, int y, int count, int to_x, int to_y, float* weights) const {
-    const float *own = brightness.row(y) + x, *other = brightness.row(to_y) + to_x;
-    const float *own_noise = noise.row(y) + x, *other_noise = noise.row(to_y) + to_x;
-    for (int i = 0; i < count; ++i) {
-        const float d = own[i] - other[i];
-        weights[i] = d * d / (noise_width * (own_noise[i] + other_noise[i]) + 1e-6f);
-    }
-    for (const Plane& guide : guides) {
-        const float *here = guide.row(y) + x, *there = guide.row(to_y) + to_x;
-        for (int i = 0; i < count; ++i)
-            weights[i] += (here[i] - there[i]) * (here[i] - there[i]);
-    }
-    for (int i = 0; i < count; ++i) { // about exp(-unlike), and 0 from 8 on
-        float w = std::max(0.0f, 1 - weights[i] * 0.125f);
-        w *= w;
-        w *= w;
-        weights[i] = w * w;
-    }
-}
-
-/// Columns that are worked on at a time, so that all about them stays at hand.
-constexpr int chunk = 128;
-
-/// How much the two pixels of each pair count for each other.
-void write_weights(const Level& level, const ParallelFor& parallel_for, PairWeights& weights) {
-    const int width = level.noise.width(), height = level.noise.height();
-    parallel_for(height, [&](int y) {
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-            const int shift = pairs[k].i * level.step, row = y + pairs[k].j * level.step;
-            const int end = std::min(width, width - shift);
-            for (int x = std::max(0, -shift); row < height && x < end; x += chunk) {
-                const int count = std::min(chunk, end - x);
-                float* w = weights[k].row(y) + x;
-                level.weigh(x, y, count, x + shift, row, w);
-                for (int i = 0; i < count; ++i)
-                    w[i] *= pairs[k].share();
-            }
+/// How unlike brightnesses are, beside what noise makes of them.
+/// @param brightness, noise  logarithm, and the variance of its noise
+Unlikeness unlike_in(const Plane& brightness, const Plane& noise) {
+    return [&](const PixelRuns& runs, float* unlike) {
+        const float *own = brightness.row(runs.y) + runs.x, *other = brightness.row(runs.to_y) + runs.to_x;
+        const float *own_noise = noise.row(runs.y) + runs.x, *other_noise = noise.row(runs.to_y) + runs.to_x;
+        for (int i = 0; i < runs.count; ++i) {
+            const float d = own[i] - other[i];
+            unlike[i] = d * d / (noise_width * (own_noise[i] + other_noise[i]) + 1e-6f);
         }
-    });
-}
-
-/// Values times weights, and weights, of some columns of a row from `begin` on.
-struct RowSums {
-    int begin, end;
-    float values[6][chunk] = {}, weights[chunk] = {};
-
-    /// Adds what the pixels `shift` columns on in another row give; their weights stand `place` columns on.
-    void add(const Planes& from, int row, int shift, const float* row_weights, int place);
-};
-
-void RowSums::add(const Planes& from, int row, int shift, const float* row_weights, int place) {
-    const int width = from[0].width(), first = std::max(begin, -shift),
-              count = std::min(end, width - shift) - first;
-    if (count <= 0)
-        return;
-    const float* w = row_weights + first + place;
-    for (std::size_t c = 0; c < from.size(); ++c) {
-        const float* value = from[c].row(row) + first + shift;
-        float* sum = values[c] + first - begin;
-        for (int k = 0; k < count; ++k)
-            sum[k] += w[k] * value[k];
-    }
-    float* sum = weights + first - begin;
-    for (int k = 0; k < count; ++k)
-        sum[k] += w[k];
+    };
 }
 
 void smooth(const Planes& from, const PairWeights& weights, int step, const ParallelFor& parallel_for,
             Planes& result) {
-    const int width = from[0].width(), height = from[0].height();
-    const std::vector<float> own(static_cast<std::size_t>(width), Pair{0, 0}.share());
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; x += chunk) {
-            RowSums sums{x, std::min(width, x + chunk)};
-            sums.add(from, y, 0, own.data(), 0);
-            for (std::size_t k = 0; k < weights.size(); ++k) {
-                const int shift = pairs[k].i * step, above = y - pairs[k].j * step, below = y + pairs[k].j * step;
-                if (below < height)
-                    sums.add(from, below, shift, weights[k].row(y), 0);
-                if (above >= 0)
-                    sums.add(from, above, -shift, weights[k].row(above), -shift);
-            }
-            for (std::size_t c = 0; c < from.size(); ++c)
-                for (int i = x; i < sums.end; ++i)
-                    result[c](i, y) = sums.values[c][i - x] / sums.weights[i - x];
-        }
+    for_kernel_sums(from, weights, step, parallel_for, [&](int y, const auto& sums) {
+        for (std::size_t c = 0; c < from.size(); ++c)
+            for (int x = sums.begin; x < sums.end; ++x)
+                result[c](x, y) = sums.values[c][x - sums.begin] / sums.weights[x - sums.begin];
     });
 }
 
@@ -248,7 +119,7 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
         for (int x = 0; x < width; ++x)
             noise(x, y) *= of_gaussian * noise(x, y);
     });
-    write_weights({guides, brightness, noise, step}, parallel_for, scratch.weights);
+    write_pair_weights(guides, unlike_in(brightness, noise), step, parallel_for, scratch.weights);
     smooth(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
@@ -309,7 +180,7 @@ void write_radiance(const std::array<Plane, 3>& differences, const Planes& light
                     RgbImage& image, const ParallelFor& parallel_for) {
     parallel_for(image.height(), [&](int y) {
         for (std::size_t i = static_cast<std::size_t>(y) * image.width(), end = i + image.width(); i < end; ++i) {
-            const Rgb least = glm::min(image.data()[i], Rgb(0)), albedo = albedo_of(guides, i);
+            const Rgb least = glm::min(image.data()[i], Rgb(0)), albedo = seen_albedo(guides, i);
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto channel = static_cast<int>(c);
                 const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
@@ -346,8 +217,8 @@ RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const
 }
 
 std::uint64_t bytes_to_smooth(int width, int height) {
-    constexpr std::uint64_t planes =
-        2 * std::tuple_size_v<Planes> + std::size(pairs) + 4 + guide_count + 3; // levels, scratch, guides, the sum
+    constexpr std::uint64_t planes = 2 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4 +
+                                     guide_count + 3; // levels, scratch, guides, the sum
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 

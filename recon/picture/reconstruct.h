@@ -13,16 +13,14 @@
 
 namespace tessera {
 
-struct UpperBounds;
-
 /// How a picture is made. mixed: L1 of the gradients, L2 of the primal. uniform: averages of neighbours
 /// (average_neighbours; alpha does not matter). weighted: L2, where gradients count the less the noisier they are
 /// (weights_of_gradients). guided: weighted, then smoothed where pixels look alike as far as two halves of the
-/// samples disagree (recon/guided.h). smoothed: the primal, smoothed so. oidn: weighted, then what Open Image
-/// Denoise makes of it (recon/oidn.h). Without gradients, these last two smooth the primal (oidn as it was
-/// sampled, spikes in full), and all others are none. All but oidn and l1 keep the primal's mean (with parts:
-/// nearly), until what l1, mixed, weighted and these leave below black is lifted to it, unless the primal is
-/// below, too.
+/// samples disagree (recon/picture/guided.h). smoothed: the primal, smoothed so. oidn: weighted, then what Open
+/// Image Denoise makes of it (recon/picture/oidn.h). Without gradients, these last two smooth the primal (oidn as
+/// it was sampled, spikes in full), and all others are none. All but oidn and l1 keep the primal's mean (with
+/// parts: nearly), until what l1, mixed, weighted and these leave below black is lifted to it, unless the primal
+/// is below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn };
 
 /// All of them, in the order above.
@@ -47,7 +45,7 @@ bool is_linear(Norm norm);
 /// Whether a coefficient's parts are reconstructed with it, where there are any; else it is, as a whole.
 bool expands(Norm norm);
 
-/// What becomes of samples far above the others of their pixel (recon/spikes.h).
+/// What becomes of samples far above the others of their pixel (recon/picture/spikes.h).
 enum class Spikes {
     off,       ///< they count in full: with a linear norm, the picture is unbiased
     consistent ///< the less they count, the fewer samples there are
@@ -70,7 +68,7 @@ struct Reconstruction {
     double residual = 0; ///< relative residual of the normal equations (L2)
     int iterations = 0;  ///< inner solves, or sweeps of uniform; 1 for L2, 0 for none
     double seconds = 0;  ///< wall time
-    /// Of the light, without very direct light, what was held back and spread (recon/spikes.h).
+    /// Of the light, without very direct light, what was held back and spread (recon/picture/spikes.h).
     double held_share = 0;
 };
 
@@ -97,13 +95,14 @@ public:
 
 private:
     struct Solvers;
-    void finish(const GradientImages& images, const ReconstructionSettings& settings, const UpperBounds& bounds,
-                const RgbImage& held, RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
+    struct Limits;
+    void finish(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
+                RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const ParallelFor& parallel_for, const SolveWatch& watch);
     int solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
                        const ParallelFor& parallel_for, const SolveWatch& watch);
-    RgbImage noise_of(const GradientImages& images, const ReconstructionSettings& settings, const RgbImage& held,
+    RgbImage noise_of(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
                       const RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
                          const ParallelFor& parallel_for, const SolveWatch& watch);

@@ -1,8 +1,9 @@
-#include "recon/spikes.h"
+#include "recon/picture/spikes.h"
+
+#include "recon/picture/light_spreader.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -157,95 +158,13 @@ RgbImage held_light(const GradientImages& images) {
     return held;
 }
 
-namespace {
-
-/// Of the squares over which what is held is spread, in pixels; and of those whose brightness it follows. A
-/// pixel's own brightness would make spikes anew where few samples find light at all.
-constexpr int spread_radius = 6, guide_radius = 1;
-
-/// A row with what is beyond its borders: the picture goes on as in a mirror.
-template <class Pixel>
-void mirror_row(const Pixel* row, int width, int reach, Pixel* out) {
-    for (int i = -reach; i < width + reach; ++i)
-        out[i + reach] = row[i < 0 ? -1 - i : i >= width ? 2 * width - 1 - i : i];
-}
-
-int mirrored(int i, int count) {
-    return i < 0 ? -1 - i : i >= count ? 2 * count - 1 - i : i;
-}
-
-/// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives. Sums
-/// are made anew for each pixel: running ones would leave the rounding of a bright pixel behind it.
-template <class Pixel>
-void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
-    const int width = image.width(), height = image.height();
-    const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
-    Image<Pixel> other(width, height);
-    for (int round = 0; round < 3; ++round) {
-        parallel_for(height, [&](int y) {
-            std::vector<Pixel> padded(static_cast<std::size_t>(width + 2 * r_x));
-            mirror_row(image.row(y), width, r_x, padded.data());
-            Pixel* sums = other.row(y);
-            std::fill_n(sums, width, Pixel(0));
-            for (int i = 0; i <= 2 * r_x; ++i)
-                for (int x = 0; x < width; ++x)
-                    sums[x] += padded[static_cast<std::size_t>(x + i)];
-            for (int x = 0; x < width; ++x)
-                sums[x] /= static_cast<float>(2 * r_x + 1);
-        });
-        parallel_for(height, [&](int y) {
-            Pixel* sums = image.row(y);
-            std::fill_n(sums, width, Pixel(0));
-            for (int j = y - r_y; j <= y + r_y; ++j) {
-                const Pixel* row = other.row(mirrored(j, height));
-                for (int x = 0; x < width; ++x)
-                    sums[x] += row[x];
-            }
-            for (int x = 0; x < width; ++x)
-                sums[x] /= static_cast<float>(2 * r_y + 1);
-        });
-    }
-}
-
-} // namespace
-
-LightSpreader::LightSpreader(const RgbImage& image, const Image<std::uint8_t>& black,
-                             const ParallelFor& parallel_for)
-    : brightness_(image.width(), image.height()) {
-    double sum = 0;
-    for (Rgb c : image)
-        sum += std::max(0.0, static_cast<double>(luminance(c)));
-    // Where a whole neighbourhood is black, light is spread evenly; as in a picture that is black.
-    const auto least = sum > 0 ? static_cast<float>(1e-4 * sum / static_cast<double>(image.size())) : 1.0f;
-    for (std::size_t i = 0; i < image.size(); ++i)
-        brightness_.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
-    blur(brightness_, guide_radius, parallel_for);
-    for (std::size_t i = 0; i < black.size(); ++i)
-        brightness_.data()[i] = black.data()[i] ? 0 : brightness_.data()[i];
-    around_ = brightness_;
-    blur(around_, spread_radius, parallel_for);
-}
-
-/// With brightness s, what a pixel q has goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
-void LightSpreader::spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const {
-    if (std::all_of(light.begin(), light.end(), [](Rgb c) { return c == Rgb(0); }))
-        return;
-    RgbImage ratio = light;
-    for (std::size_t i = 0; i < image.size(); ++i)
-        ratio.data()[i] = around_.data()[i] > 0 ? ratio.data()[i] / around_.data()[i] : Rgb(0);
-    blur(ratio, spread_radius, parallel_for);
-    for (std::size_t i = 0; i < image.size(); ++i)
-        image.data()[i] += brightness_.data()[i] * ratio.data()[i];
-}
-
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
     const std::size_t copies = (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) + sizeof(Rgb) +
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
                                BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
                                GuideImages::bytes_a_pixel;
-    // Two images of light to be spread, one on its way, two of the bounds, and the spreader's own.
-    const std::size_t spreading = 5 * sizeof(Rgb) + 2 * sizeof(float);
-    return copies + spreading;
+    // Two images of light to be spread, and two of the bounds.
+    return copies + 4 * sizeof(Rgb) + bytes_to_spread_a_pixel;
 }
 
 } // namespace tessera

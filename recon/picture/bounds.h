@@ -2,22 +2,24 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
+#include "recon/picture/light_spreader.h"
 
 #include <cstdint>
 
 namespace tessera {
 
 // How bright a pixel may be, as far as its own samples know. A solver gives a dark pixel beside a bright one some
-// of the noise about, and spikes that are held back are given to the pixels around (recon/spikes.h): little for a
-// bright pixel, far too much for the bar of a window in front of the sky. But where pixels share their paths, a
-// dark pixel has seen what its neighbours have seen, and knows that it is dark. So the picture is kept below
+// of the noise about, and spikes that are held back are given to the pixels around (recon/picture/spikes.h):
+// little for a bright pixel, far too much for the bar of a window in front of the sky. But where pixels share
+// their paths, a dark pixel has seen what its neighbours have seen, and knows that it is dark. So the picture is
+// kept below
 //     P + 2 s ,
 // where P is what the primal alone says, and s its standard error; what is above goes to the pixels around. This
 // is consistent, as s goes to 0 with the samples; and the picture is not linear in them.
 //
-// s^2 is the variance of P, or its geometric mean over the 5x5 pixels around, whichever is larger: a dark pixel
-// among dark ones is held to what it knows, one that is dark by chance among bright ones is not. An arithmetic
-// mean would be ruled by one bright pixel.
+// s is the standard error of P, or its mean over the pixels around that look alike, wider than a tile, whichever
+// is larger: the bar of a window among the bar's pixels is held to what it knows, and a tile on a wall that is
+// dark by chance is not. The mean is of roots: others would be ruled by one bright pixel.
 //
 // Where fewer than half the pixels around, in a square wider than a tile, have found any light, whole tiles are
 // dark by chance: there are no bounds. Where each pixel has paths of its own alone, being dark by chance is the
@@ -38,9 +40,15 @@ struct UpperBounds {
     bool empty() const { return light.empty() && black.empty(); }
 };
 /// @param found  radiance without very direct light, of all samples in full
-UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const ParallelFor& parallel_for);
+/// @param alike  by the guides of `images`; without guides all pixels look alike, and a dark bar knows no better
+UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const AlikePixels& alike,
+                         const ParallelFor& parallel_for);
 
 /// Takes what is above P + reach s, and all of a black pixel, from the image, and returns it.
 RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for);
+
+/// How much more light each pixel may have below P + reach s; none where it is black. Empty: any.
+RgbImage room_below(const UpperBounds& bounds, float reach, const RgbImage& image,
+                    const ParallelFor& parallel_for);
 
 } // namespace tessera

@@ -1,10 +1,11 @@
-#include "recon/bounds.h"
+#include "recon/picture/bounds.h"
 
-#include "recon/demodulation.h"
+#include "recon/picture/demodulation.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include <glm/common.hpp>
 
@@ -12,31 +13,29 @@ namespace tessera {
 
 namespace {
 
-constexpr int variance_radius = 2;            // of the squares of pixels whose variances are asked
-constexpr int lit_radius = 6;                 // and of those that are asked for any light: wider than a tile
-constexpr float least_lit = 0.5f;             // share of them
-constexpr float least_share = 1e-6f;          // of the mean around, that a variance counts as at least
-constexpr float most = 1e30f, least = 1e-30f; // of variances: sums of 25 stay finite, and so do logarithms
+constexpr std::size_t wide_levels = 3; // of AlikePixels: pixels within 26
+constexpr int lit_radius = 6;          // of the squares of pixels that are asked for any light: wider than a tile
+constexpr float least_lit = 0.5f;      // share of them
+constexpr float most = 1e30f;          // of variances, so that squares stay finite
 
 /// s^2 of the primal, summed over the channels.
-Image<float> squared_errors(const Image<float>& variances, const ParallelFor& parallel_for) {
+Image<float> squared_errors(const Image<float>& variances, const AlikePixels& alike,
+                            const ParallelFor& parallel_for) {
     const int width = variances.width(), height = variances.height();
-    Image<float> own(width, height);
+    Image<float> roots(width, height); // of s
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
-            own(x, y) = std::min(variances(x, y), most);
+            roots(x, y) = std::sqrt(std::sqrt(std::min(variances(x, y), most)));
     });
-    Image<float> around = square_means(own, variance_radius, 0, 0, parallel_for);
+    alike.take_means(wide_levels, roots, parallel_for);
+    Image<float> squares(width, height);
     parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            around(x, y) = std::log(std::max(own(x, y) + least_share * around(x, y), least));
+        for (int x = 0; x < width; ++x) {
+            const float around = roots(x, y) * roots(x, y);
+            squares(x, y) = std::max(std::min(variances(x, y), most), around * around);
+        }
     });
-    around = square_means(around, variance_radius, 0, 0, parallel_for);
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            own(x, y) = std::max(own(x, y), std::exp(around(x, y)));
-    });
-    return own;
+    return squares;
 }
 
 /// The share of the pixels around of which any sample has found light.
@@ -61,13 +60,14 @@ bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const ParallelFor& parallel_for) {
+UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const AlikePixels& alike,
+                         const ParallelFor& parallel_for) {
     UpperBounds bounds;
     if (!images.guides.empty())
         bounds.black = black_pixels(images.guides, found);
     if (!can_bound(images))
         return bounds;
-    const Image<float> squares = squared_errors(images.primal_variance, parallel_for);
+    const Image<float> squares = squared_errors(images.primal_variance, alike, parallel_for);
     const Image<float> lit = lit_shares(images.radiance(), parallel_for);
     bounds.light = images.primal;
     bounds.error = RgbImage(squares.width(), squares.height());
@@ -97,6 +97,22 @@ RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, co
         }
     });
     return excess;
+}
+
+RgbImage room_below(const UpperBounds& bounds, float reach, const RgbImage& image,
+                    const ParallelFor& parallel_for) {
+    if (bounds.empty())
+        return {};
+    RgbImage room(image.width(), image.height(), Rgb(most));
+    parallel_for(image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x) {
+            if (!bounds.light.empty())
+                room(x, y) = bounds.light(x, y) + reach * bounds.error(x, y) - image(x, y);
+            if (!bounds.black.empty() && bounds.black(x, y))
+                room(x, y) = Rgb(0);
+        }
+    });
+    return room;
 }
 
 } // namespace tessera

@@ -1,4 +1,4 @@
-#include "recon/demodulation.h"
+#include "recon/picture/demodulation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "recon/image.h"
+#include "recon/parallel.h"
+#include "recon/picture/guide_kernel.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace tessera {
+
+// Where light goes that is known to be about, and not where: what spikes hold back (recon/picture/spikes.h), and
+// what a solver has put above the bounds (recon/picture/bounds.h). With K, a symmetric kernel, and S, the
+// brightness that light follows, H becomes
+//     S K(H / K(S)) ,
+// which has the sum of H: what a pixel q has goes to p as S(p) K(p, q) / (sum over the p' of S(p') K(p', q)).
+
+/// Kernels that join pixels which look alike, however far apart: with five steps, each three times as wide as the
+/// last, they reach 240 pixels, and leave none out.
+class AlikePixels {
+public:
+    static constexpr std::array steps = {1, 3, 9, 27, 81};
+
+    /// Empty guides: all pixels look alike.
+    AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for);
+
+    /// Of the pairs steps[level] apart.
+    const PairWeights& weights(std::size_t level) const { return weights_[level]; }
+
+    /// Puts the mean over those of the first levels around each pixel in its place.
+    void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
+
+    static constexpr std::size_t bytes_a_pixel =
+        (steps.size() * kernel_pairs.size() + guide_count) * sizeof(float);
+
+private:
+    std::array<PairWeights, steps.size()> weights_;
+};
+
+/// Spreads over the pixels that look alike, by their brightness and albedo: a spike on a wall is found all over
+/// the wall. Keeps the light's sum, but for rounding.
+/// @param light   radiance to spread; becomes what is left over, and where: what pixels would have had beyond
+///                `room`, or more than a tenth of their brightness, as where few others look alike
+/// @param image   radiance without very direct light, gets the rest
+/// @param guides  for albedos; empty: all are 1
+/// @param room    how much more light each pixel may have, 0 or less: none; empty: any
+void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike, const GuideImages& guides,
+                     const RgbImage& room, const ParallelFor& parallel_for);
+
+/// Gives light to the pixels around where it is, whatever they look like, about 20 pixels wide, by the brightness
+/// about each.
+class LightSpreader {
+public:
+    /// By the brightness of `image`, radiance without very direct light.
+    /// @param black  1 where a pixel is given none; empty: nowhere
+    LightSpreader(const RgbImage& image, const AlikePixels& alike, const Image<std::uint8_t>& black,
+                  const ParallelFor& parallel_for);
+
+    /// Adds as much light to the image as there is in `light`, but for rounding, and for what is about black
+    /// pixels alone, which is lost.
+    void spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const;
+
+private:
+    Image<float> brightness_; ///< about each pixel
+    Image<float> around_;     ///< the same, as wide as light is spread
+};
+
+/// The memory that all of this takes, a pixel: kernels; S, its limits, what is spread and a quotient; or two
+/// images and two of numbers of a LightSpreader, which come after these.
+inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + 12 * sizeof(float);
+
+} // namespace tessera
