@@ -22,10 +22,10 @@ namespace {
 // more than a few percent when it is halved or doubled, but that of the dark, below which light leaks into black
 // frames.
 constexpr int levels = 6;
-constexpr float noise_width = 8; // of brightness, in variances of its noise
-constexpr int noise_radius = 6;  // of the squares that tell noise,
-constexpr int trust_radius = 6;  // and how far a difference is more than that; wider by the level's step
-constexpr float dark = 0.2f;     // of the mean light, that any pixel's brightness counts as more
+constexpr float noise_width = 16; // of brightness, in variances of its noise
+constexpr int noise_radius = 6;   // of the squares that tell noise,
+constexpr int trust_radius = 6;   // and how far a difference is more than that; wider by the level's step
+constexpr float dark = 0.2f;      // of the mean light, that any pixel's brightness counts as more
 
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = std::array<Plane, 6>;
