@@ -190,6 +190,9 @@ struct GradientImages {
     BrightestSamples brightest{};         ///< empty: unknown
     HalfDifferences halves{};
     GuideImages guides{};
+    /// Radiance of each pixel's own paths alone, without very direct light: noise of its own, which denoisers know.
+    /// Empty: unknown, or the primal.
+    RgbImage own{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.

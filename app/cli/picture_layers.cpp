@@ -44,6 +44,7 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_layer(file, "half_primal", std::move(images.halves.primal));
     add_layer(file, "half_dx", std::move(images.halves.dx));
     add_layer(file, "half_dy", std::move(images.halves.dy));
+    add_layer(file, "own", std::move(images.own));
     add_layer(file, "guide_albedo", std::move(images.guides.albedo));
     add_layer(file, "guide_normal", std::move(images.guides.normal));
     add_layer(file, "guide_nearness", grey(images.guides.nearness));
@@ -97,8 +98,8 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t images =
         pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
-                  GuideImages::bytes_a_pixel + (gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) +
-                  (demodulated ? Demodulation::bytes_a_pixel : 0) +
+                  GuideImages::bytes_a_pixel + (gradients ? 4 : 1) * sizeof(Rgb) +
+                  (gradients ? 3 : 1) * sizeof(float) + (demodulated ? Demodulation::bytes_a_pixel : 0) +
                   static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
     const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
     const std::uint64_t limits =

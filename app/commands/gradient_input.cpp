@@ -203,11 +203,13 @@ BrightestSamples read_brightest(const LayerReader& reader, bool has_coefficient,
             reader.numbers("brightest_half"),   samples};
 }
 
-/// What it has of two halves of the samples, and of what pixels look like.
+/// What it has of two halves of the samples, of pixels' own paths, and of what pixels look like.
 void read_guides(const LayerReader& reader, GradientImages& images) {
     if (find_layer(reader.file, "half_primal"))
         images.halves = {reader.image("half_primal"), reader.image("half_dx", 1, 0),
                          reader.image("half_dy", 0, 1)};
+    if (find_layer(reader.file, "own"))
+        images.own = reader.image("own");
     if (!find_layer(reader.file, "guide_albedo"))
         return;
     images.guides = {reader.image("guide_albedo"), reader.image("guide_normal"), reader.numbers("guide_nearness"),

@@ -126,7 +126,7 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
 /// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
 /// roots: in means of squares, the few pixels beside a lamp would decide on all that are near.
 void add_difference(const Planes& finer, int radius, float least, const ParallelFor& parallel_for,
-                    Scratch& scratch, std::array<Plane, 3>& sum) {
+                    Scratch& scratch, Planes& sum) {
     const Planes& coarser = scratch.coarser;
     const Plane& brightness = scratch.brightness;
     Plane &sizes = scratch.sizes, &noise = scratch.noise;
@@ -154,7 +154,7 @@ void add_difference(const Planes& finer, int radius, float least, const Parallel
     });
     take_wide_means(trust, radius / 2, scratch.rows, parallel_for);
     parallel_for(height, [&](int y) {
-        for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t c = 0; c < sum.size(); ++c)
             for (int x = 0; x < width; ++x)
                 sum[c](x, y) += trust(x, y) * (finer[c](x, y) - coarser[c](x, y));
     });
@@ -174,17 +174,22 @@ float least_brightness(const Planes& light) {
     return least < std::numeric_limits<float>::min() ? 0 : least;
 }
 
-/// Radiance of the light that is the sum of both. Where a difference that stays stands on one that goes, a dark
-/// pixel may come out below black: not below what it was.
-void write_radiance(const std::array<Plane, 3>& differences, const Planes& light, const GuideImages& guides,
-                    RgbImage& image, const ParallelFor& parallel_for) {
-    parallel_for(image.height(), [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * image.width(), end = i + image.width(); i < end; ++i) {
-            const Rgb least = glm::min(image.data()[i], Rgb(0)), albedo = seen_albedo(guides, i);
-            for (std::size_t c = 0; c < 3; ++c) {
-                const auto channel = static_cast<int>(c);
+/// Radiance of the light that is the sum of both, and of its noise. Where a difference that stays stands on one
+/// that goes, a dark pixel may come out below black: not below what it was.
+void write_radiance(const Planes& differences, const Planes& light, const GuideImages& guides,
+                    NoisyPicture& picture, const ParallelFor& parallel_for) {
+    const int width = picture.image.width();
+    parallel_for(picture.image.height(), [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
+            Rgb &colour = picture.image.data()[i], &noise = picture.noise.data()[i];
+            const Rgb least = glm::min(colour, Rgb(0)), albedo = seen_albedo(guides, i);
+            for (std::size_t c = 0; c < light.size(); ++c) {
+                const auto channel = static_cast<int>(c % 3);
                 const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
-                image.data()[i][channel] = std::max(radiance, least[channel]);
+                if (c < 3)
+                    colour[channel] = std::max(radiance, least[channel]);
+                else
+                    noise[channel] = radiance;
             }
         }
     });
@@ -192,19 +197,19 @@ void write_radiance(const std::array<Plane, 3>& differences, const Planes& light
 
 } // namespace
 
-RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
-                          const SolveWatch& watch) {
-    RgbImage& image = picture.image;
-    if (!std::ranges::all_of(image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
-        return std::move(image);
+NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
+                              const SolveWatch& watch) {
+    if (!std::ranges::all_of(picture.image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
+        return picture;
     Planes finer = light_of(picture, guides, parallel_for);
     const float least = least_brightness(finer);
     if (least == 0)
-        return std::move(image);
+        return picture;
+    const int width = picture.image.width(), height = picture.image.height();
     const GuidePlanes alike = planes_of(guides, parallel_for);
-    std::array<Plane, 3> differences;
-    make_planes(differences, image.width(), image.height());
-    Scratch scratch = scratch_of(image.width(), image.height());
+    Planes differences;
+    make_planes(differences, width, height);
+    Scratch scratch = scratch_of(width, height);
     for (int l = 0; l < levels; ++l) {
         if (!watch.goes_on(l, levels))
             return {};
@@ -212,13 +217,13 @@ RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const
         add_difference(finer, trust_radius + (1 << l), least, parallel_for, scratch, differences);
         std::swap(finer, scratch.coarser);
     }
-    write_radiance(differences, finer, guides, image, parallel_for);
-    return std::move(image);
+    write_radiance(differences, finer, guides, picture, parallel_for);
+    return picture;
 }
 
 std::uint64_t bytes_to_smooth(int width, int height) {
-    constexpr std::uint64_t planes = 2 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4 +
-                                     guide_count + 3; // levels, scratch, guides, the sum
+    constexpr std::uint64_t planes =
+        3 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4 + guide_count; // levels, sum, scratch
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 

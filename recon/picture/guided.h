@@ -26,9 +26,10 @@ struct NoisyPicture {
 };
 
 /// Smooths radiance without very direct light, over the albedo of its guides: what a texture does to light is
-/// known. Light is not quite kept. Empty: stopped. The same bits for any parallel_for.
-RgbImage smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
-                          const SolveWatch& watch = {});
+/// known. Light is not quite kept. With the noise that is left: what of the noise has gone the same way. Empty:
+/// stopped. The same bits for any parallel_for.
+NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
+                              const SolveWatch& watch = {});
 
 /// The memory that it takes, beside what it is given.
 std::uint64_t bytes_to_smooth(int width, int height);

@@ -6,11 +6,13 @@
 #include "recon/picture/light_spreader.h"
 #include "recon/picture/oidn.h"
 #include "recon/picture/parts.h"
+#include "recon/picture/shrinkage.h"
 #include "recon/picture/spikes.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -38,9 +40,9 @@ void check_sizes(const GradientImages& images) {
         g.albedo.empty() != g.roughness.empty() ||
         (images.has_gradients() && !h.empty() && (h.dx.empty() || h.dy.empty())))
         throw std::invalid_argument("the guides, or the halves' differences, are not complete");
-    for (const RgbImage* image :
-         {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo, &d.sampled_variance,
-          &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
+    for (const RgbImage* image : {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo,
+                                  &d.sampled_albedo, &d.sampled_variance, &d.value_covariance, &b.primal, &b.dx,
+                                  &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal, &images.own})
         check(*image);
     for (const Image<float>* variance :
          {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
@@ -178,61 +180,17 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     case Norm::weighted:
         return image + EdgeWeights::bytes(width, height) +
                (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
-    case Norm::guided: { // the smoothing comes when both are solved
+    case Norm::guided:
+    case Norm::oidn: { // the smoothing comes when both are solved, and the denoiser after it
         const std::uint64_t solver = WeightedSolver::bytes(width, height, threads);
-        return 2 * image + bytes_to_smooth(width, height) + (kept && kept->weighted ? 0 : solver) +
-               (kept && kept->noise ? 0 : solver);
+        const std::uint64_t denoiser = norm == Norm::oidn ? 6 * image + bytes_of_oidn(width, height) : 0;
+        return 2 * image + std::max(bytes_to_smooth(width, height), denoiser) +
+               (kept && kept->weighted ? 0 : solver) + (kept && kept->noise ? 0 : solver);
     }
     case Norm::smoothed:
         return 2 * image + bytes_to_smooth(width, height);
-    case Norm::oidn:
-        return 5 * image + bytes_of_oidn(width, height) +
-               (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
     }
     return 0;
-}
-
-std::string_view to_string(Norm norm) {
-    switch (norm) {
-    case Norm::none:
-        return "none";
-    case Norm::l2:
-        return "l2";
-    case Norm::l1:
-        return "l1";
-    case Norm::mixed:
-        return "mixed";
-    case Norm::uniform:
-        return "uniform";
-    case Norm::weighted:
-        return "weighted";
-    case Norm::guided:
-        return "guided";
-    case Norm::smoothed:
-        return "smoothed";
-    case Norm::oidn:
-        return "oidn";
-    }
-    return "?";
-}
-
-std::string_view to_string(Spikes spikes) {
-    return spikes == Spikes::off ? "off" : "consistent";
-}
-
-std::optional<Norm> norm_from_name(std::string_view name) {
-    for (const Norm norm : all_norms)
-        if (to_string(norm) == name)
-            return norm;
-    return {};
-}
-
-bool expands(Norm norm) {
-    return norm == Norm::l2 || norm == Norm::l1 || norm == Norm::mixed || norm == Norm::weighted;
-}
-
-bool is_linear(Norm norm) {
-    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
 }
 
 int Reconstructor::solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
@@ -250,7 +208,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
                                  const Limits* limits, const RgbImage& picture, const ParallelFor& parallel_for,
                                  const SolveWatch& watch) {
     RgbImage noise = images.halves.primal;
-    if (images.has_gradients() && settings.norm == Norm::guided) {
+    if (images.has_gradients() && settings.norm != Norm::smoothed) {
         const float alpha = alpha_of_patches(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
         // Noise need not be known better than it is alike from one half to another.
@@ -336,17 +294,27 @@ Reconstruction Reconstructor::picture_of(const GradientImages& images, const Rec
 void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
                            const Limits* limits, RgbImage& picture, const ParallelFor& parallel_for,
                            const SolveWatch& watch) {
-    if (settings.norm == Norm::oidn)
-        picture = denoised_by_oidn(picture, images.guides);
-    const bool smooths =
-        settings.norm == Norm::smoothed || (settings.norm == Norm::guided && images.has_gradients());
+    const bool has_gradients = images.has_gradients();
+    const bool smooths = settings.norm == Norm::smoothed ||
+                         (has_gradients && (settings.norm == Norm::guided || settings.norm == Norm::oidn));
+    const double light = sum_of(picture);
+    RgbImage noise;
     if (smooths && !images.guides.empty() && !images.halves.empty()) {
-        const double light = sum_of(picture);
-        RgbImage noise = noise_of(images, settings, limits, picture, parallel_for, watch);
-        picture = smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
+        noise = noise_of(images, settings, limits, picture, parallel_for, watch);
+        NoisyPicture smooth =
+            smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
+        picture = std::move(smooth.image);
+        noise = std::move(smooth.noise);
         if (limits && !picture.empty())
             hold_to_bounds(limits->bounds, picture, parallel_for);
         keep_light(light, picture); // pixels do not get of others what they give them, and bounds take some
+    }
+    if (settings.norm == Norm::oidn && !watch.is_stopped()) {
+        const bool has_own = has_gradients && !images.own.empty();
+        const RgbImage target = denoised_by_oidn(has_own ? images.own : picture, images.guides);
+        picture = shrink_toward(target, {std::move(picture), std::move(noise)}, images.guides, parallel_for);
+        if (has_gradients)
+            keep_light(light, picture);
     }
     if (watch.is_stopped())
         picture = {};
@@ -356,7 +324,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
                                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const auto start = std::chrono::steady_clock::now();
     check_sizes(images);
-    if (settings.norm != Norm::guided && solvers_ && solvers_->noise)
+    if (settings.norm != Norm::guided && settings.norm != Norm::oidn && solvers_ && solvers_->noise)
         solvers_->noise->forget(); // its last noise is long ago
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");

@@ -69,6 +69,7 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
                        albedo,
                        worker.set_means.reuse(x, y),
                        worker.reuse.arriving_luminance(path)};
+    sample.own = path.radiance();
     if (pass.settings.primal == PrimalSource::reuse && worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
@@ -128,6 +129,7 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
             sample.paths = count;
+            sample.own = here.radiance;
             sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
             add_sample(pass, x, y, sample, worker, film);
         }

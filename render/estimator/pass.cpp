@@ -279,6 +279,7 @@ void SampleMeans::add(int x, int y, const PixelSample& sample) {
     mean.dy += sample.dy * share;
     mean.very_direct += sample.very_direct * share;
     mean.albedo += sample.albedo * share;
+    mean.own += sample.own * share;
     mean.beside = radiance - mean.primal * mean.albedo;
     mean.reuse += sample.reuse;
     mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;

@@ -34,8 +34,9 @@ void add_entries(Image<Entry>& into, const Image<Entry>& other) {
 
 std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
     const std::size_t a_pixel =
-        sizeof(Moments) * (buffers.gradients ? 3 : 1) + sizeof(Brightest) + sizeof(Difference) +
-        sizeof(glm::dvec3) + (buffers.albedo ? (buffers.means ? 5 : 4) * sizeof(glm::dvec3) : 0) +
+        sizeof(Moments) * (buffers.gradients ? 3 : 1) + (buffers.gradients ? sizeof(glm::dvec3) : 0) +
+        sizeof(Brightest) + sizeof(Difference) + sizeof(glm::dvec3) +
+        (buffers.albedo ? (buffers.means ? 5 : 4) * sizeof(glm::dvec3) : 0) +
         static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
         (buffers.reuse ? sizeof(ReuseCounts) : 0) + (buffers.means ? sizeof(std::uint32_t) : 0) +
         (buffers.luminance ? sizeof(float) : 0) + (buffers.lamp_edges ? 1 : 0);
@@ -50,6 +51,7 @@ Film::Film(int width, int height, const FilmBuffers& buffers)
     if (buffers.gradients) {
         dx_ = Image<Moments>(width, height);
         dy_ = Image<Moments>(width, height);
+        own_ = Image<glm::dvec3>(width, height);
     }
     if (buffers.albedo) {
         value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = Image<glm::dvec3>(width, height);
@@ -70,7 +72,8 @@ bool Film::is_good(const PixelSample& sample) const {
     const auto all_finite = [](std::span<const Rgb> values) { return std::ranges::all_of(values, is_finite); };
     return is_finite(sample.primal) && is_finite(sample.dx) && is_finite(sample.dy) &&
            is_finite(sample.very_direct) && is_finite(sample.albedo) && is_finite(sample.beside) &&
-           all_finite(sample.parts) && all_finite(sample.parts_dx) && all_finite(sample.parts_dy);
+           is_finite(sample.own) && all_finite(sample.parts) && all_finite(sample.parts_dx) &&
+           all_finite(sample.parts_dy);
 }
 
 void Film::add_parts(int x, int y, const PixelSample& sample) {
@@ -122,6 +125,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     }
     if (dx_.empty())
         return;
+    own_(x, y) += glm::dvec3(sample.own);
     add_parts(x, y, sample);
     // The last column and row have no neighbour: their gradients stay 0.
     if (x + 1 < width()) {
@@ -138,7 +142,7 @@ void Film::add(const Film& other) {
     for (Image<Moments> Film::*sums : {&Film::primal_, &Film::dx_, &Film::dy_})
         add_entries(this->*sums, other.*sums);
     for (Image<glm::dvec3> Film::*sums : {&Film::value_, &Film::sampled_albedo_, &Film::albedo_squares_,
-                                          &Film::albedo_values_, &Film::beside_, &Film::very_direct_})
+                                          &Film::albedo_values_, &Film::beside_, &Film::own_, &Film::very_direct_})
         add_entries(this->*sums, other.*sums);
     add_entries(parts_, other.parts_);
     add_entries(paths_, other.paths_);
@@ -196,6 +200,7 @@ Memory Film::memory() {
                   memory_of(albedo_squares_),
                   memory_of(albedo_values_),
                   memory_of(beside_),
+                  memory_of(own_),
                   memory_of(paths_),
                   memory_of(parts_),
                   memory_of(projections_),

@@ -38,11 +38,12 @@ struct PixelSample {
     /// is not divided by one albedo.
     Rgb beside{0};
     int paths = 1; ///< base paths of its own that it is the mean of
+    Rgb own{0};    ///< the radiance of these alone, without very direct light; where there are gradients
 };
 
 /// What a film keeps beside primal and very direct light.
 struct FilmBuffers {
-    bool gradients = false;
+    bool gradients = false;  ///< and what pixels have of their own paths alone
     bool albedo = false;     ///< what radiance was divided by, and radiance itself
     bool reuse = false;      ///< how sharing went
     bool luminance = false;  ///< for the plan, of the last pass
@@ -172,6 +173,7 @@ private:
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
     Image<std::uint32_t> paths_; // of their own that pixels have taken
     Image<glm::dvec3> beside_;   // what of v is not e a
+    Image<glm::dvec3> own_;
     int parts_a_pixel_;
     Image<Part> parts_;        // those of a pixel side by side
     Image<float> projections_; // likewise

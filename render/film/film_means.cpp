@@ -160,6 +160,7 @@ GradientImages Film::means(int passes) const {
     images.brightest = brightest_samples(passes);
     images.halves = half_differences(passes);
     images.guides = looks_.guides();
+    images.own = means_of(own_, passes, [](const glm::dvec3& sum) { return sum; });
     return images;
 }
 
@@ -185,6 +186,8 @@ GradientImages Film::take_means(int passes) {
     looks_.clear();
     value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = beside_ = {};
     take(primal_, images.primal, images.primal_variance);
+    images.own = means_of(own_, passes, [](const glm::dvec3& sum) { return sum; });
+    own_ = {};
     images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
     return images;
 }

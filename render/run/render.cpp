@@ -59,7 +59,7 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
     // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
     const std::size_t a_pixel =
         sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
-        GuideImages::bytes_a_pixel +
+        sizeof(Rgb) + GuideImages::bytes_a_pixel +
         static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t guiding = settings.path_guiding ? GuidingLearner::bytes(size.x * size.y) : 0;

@@ -69,7 +69,7 @@ public:
 
     /// Settings of the pane's reconstruction; a change ends the one under way and reconstructs the newest snapshot
     /// again, renders nothing. Of Norm::oidn without its library there is a message, and the picture is that of
-    /// Norm::weighted.
+    /// Norm::guided.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
     /// The reconstruction under way in the pane; empty: there is none.

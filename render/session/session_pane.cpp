@@ -144,11 +144,11 @@ ReconstructionSettings Session::possible_reconstruction(Pane& pane) {
     {
         const std::lock_guard lock(mutex_);
         if (pane.reconstruction == settings) { // not chosen anew meanwhile
-            pane.reconstruction.norm = Norm::weighted;
-            messages_.push_back(oidn_problem() + "; the picture is that of weighted");
+            pane.reconstruction.norm = Norm::guided;
+            messages_.push_back(oidn_problem() + "; the picture is that of guided");
         }
     }
-    settings.norm = Norm::weighted;
+    settings.norm = Norm::guided;
     return settings;
 }
 

@@ -15,6 +15,10 @@ namespace tessera::test {
 
 namespace {
 
+RgbImage smoothed(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for = serial_for) {
+    return smooth_by_guides(std::move(picture), guides, parallel_for).image;
+}
+
 constexpr int width = 96, height = 80;
 
 GuideImages even_guides() {
@@ -60,7 +64,7 @@ TEST(Guided, NoiseGoes) {
             return tiles ? noise_in_tiles(seed, 0.3f) : noise(seed, 0.3f);
         };
         const RgbImage picture = plus(truth, make(1));
-        const RgbImage smooth = smooth_by_guides({picture, make(2)}, even_guides(), serial_for);
+        const RgbImage smooth = smoothed({picture, make(2)}, even_guides());
         EXPECT_LT(rms(smooth, Rgb(1)), (tiles ? 0.4 : 0.1) * rms(picture, Rgb(1))) << tiles;
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(mean_color(smooth)[c], mean_color(picture)[c], 0.01) << tiles;
@@ -70,7 +74,7 @@ TEST(Guided, NoiseGoes) {
 /// What both halves agree on is no noise, whatever guides say: a picture without any is kept.
 TEST(Guided, WithoutNoiseNothingChanges) {
     const RgbImage picture = random_image(width, height, 5, 1, 0.2f), none(width, height, Rgb(0));
-    EXPECT_LT(relative_difference(smooth_by_guides({picture, none}, even_guides(), serial_for), picture), 1e-5);
+    EXPECT_LT(relative_difference(smoothed({picture, none}, even_guides()), picture), 1e-5);
 }
 
 /// As samples grow, the picture goes to that of the solver: a hundredth of the noise leaves the edge of a shadow
@@ -83,7 +87,7 @@ TEST(Guided, IsConsistent) {
     double last = 1;
     for (const float deviation : {0.3f, 0.03f, 0.003f}) {
         const RgbImage picture = plus(shadow, noise(1, deviation));
-        const RgbImage smooth = smooth_by_guides({picture, noise(2, deviation)}, even_guides(), serial_for);
+        const RgbImage smooth = smoothed({picture, noise(2, deviation)}, even_guides());
         const double error = relative_rms_difference(smooth, shadow);
         EXPECT_LT(error, relative_rms_difference(picture, shadow)) << deviation;
         EXPECT_LT(error, 0.2 * last) << deviation;
@@ -107,7 +111,7 @@ TEST(Guided, AFewNoisyPixelsLeaveTheOthersAlone) {
         return image;
     };
     const RgbImage picture = plus(truth, noise_with_peaks(1));
-    const RgbImage smooth = smooth_by_guides({picture, noise_with_peaks(2)}, even_guides(), serial_for);
+    const RgbImage smooth = smoothed({picture, noise_with_peaks(2)}, even_guides());
     double squares = 0;
     int count = 0;
     for (int y = 0; y < height; ++y)
@@ -136,7 +140,7 @@ TEST(Guided, GuidesHoldLight) {
                 else
                     guides.normal(x, y) = Rgb(0), guides.nearness(x, y) = 0, guides.albedo(x, y) = Rgb(1);
             }
-        const RgbImage smooth = smooth_by_guides({picture, half}, guides, serial_for);
+        const RgbImage smooth = smoothed({picture, half}, guides);
         for (int y = 0; y < height; ++y)
             for (int x = width / 2; x < width; ++x)
                 ASSERT_NEAR(smooth(x, y).g, 0, 1e-6) << guide << ": " << x << " " << y;
@@ -154,7 +158,7 @@ TEST(Guided, LightIsSmoothedTexturesAreNot) {
             picture(x, y) = truth(x, y) * (1.0f + picture(x, y));
             half(x, y) *= truth(x, y);
         }
-    const RgbImage smooth = smooth_by_guides({picture, half}, guides, serial_for);
+    const RgbImage smooth = smoothed({picture, half}, guides);
     EXPECT_LT(relative_rms_difference(smooth, truth), 0.15 * relative_rms_difference(picture, truth));
 }
 
@@ -206,8 +210,8 @@ TEST(Guided, MirrorsAreAlike) {
                 result(x, y) = image(width - 1 - x, y);
         return result;
     };
-    const RgbImage smooth = smooth_by_guides({picture, half}, even_guides(), serial_for);
-    const RgbImage there = smooth_by_guides({mirrored(picture), mirrored(half)}, even_guides(), serial_for);
+    const RgbImage smooth = smoothed({picture, half}, even_guides());
+    const RgbImage there = smoothed({mirrored(picture), mirrored(half)}, even_guides());
     EXPECT_LT(relative_difference(mirrored(there), smooth), 1e-5);
 }
 
@@ -220,7 +224,7 @@ TEST(Guided, NothingIsBelowBlack) {
             picture(x, y) = x % 16 == 5 ? Rgb(0) : glm::max(picture(x, y), Rgb(0));
             half(x, y) = x % 16 == 5 ? Rgb(0) : half(x, y);
         }
-    for (Rgb c : smooth_by_guides({picture, half}, even_guides(), serial_for))
+    for (Rgb c : smoothed({picture, half}, even_guides()))
         ASSERT_GE(std::min({c.r, c.g, c.b}), 0);
 }
 
@@ -251,8 +255,7 @@ TEST(Guided, TakesAnyPicture) {
     const auto smooth = [](Rgb value, int w, int h) {
         const RgbImage image(w, h, value);
         const Image<float> zero(w, h);
-        return smooth_by_guides({image, image}, {RgbImage(w, h, Rgb(0.5f)), RgbImage(w, h), zero, zero},
-                                serial_for);
+        return smoothed({image, image}, {RgbImage(w, h, Rgb(0.5f)), RgbImage(w, h), zero, zero}, serial_for);
     };
     for (const float value : {0.0f, 3e-39f, 1e-10f, 1.0f, 1e30f, 1e38f, 3e38f})
         for (const auto& [w, h] : {std::pair{1, 1}, {1, 7}, {9, 1}, {10, 10}})

@@ -43,7 +43,7 @@ TEST(Session, OnlyAWorkerWaitsForTheDenoisersLibrary) {
     std::vector<std::string> messages;
     const auto shown = [&] {
         const auto s = session.latest(0);
-        return s && !s->coarse() && s->reconstruction_spp == 2 && s->reconstructed_with.norm == Norm::weighted;
+        return s && !s->coarse() && s->reconstruction_spp == 2 && s->reconstructed_with.norm == Norm::guided;
     };
     for (int i = 0; i < 12000 && !(shown() && !messages.empty()); ++i) {
         if (const int writer = open(pipe.c_str(), O_WRONLY | O_NONBLOCK); writer >= 0) // there is a reader

@@ -1,0 +1,53 @@
+#include "recon/picture/reconstruct.h"
+
+#include <optional>
+#include <string_view>
+
+// The ways to make a picture: their names, and what is true of them.
+
+namespace tessera {
+
+std::string_view to_string(Norm norm) {
+    switch (norm) {
+    case Norm::none:
+        return "none";
+    case Norm::l2:
+        return "l2";
+    case Norm::l1:
+        return "l1";
+    case Norm::mixed:
+        return "mixed";
+    case Norm::uniform:
+        return "uniform";
+    case Norm::weighted:
+        return "weighted";
+    case Norm::guided:
+        return "guided";
+    case Norm::smoothed:
+        return "smoothed";
+    case Norm::oidn:
+        return "oidn";
+    }
+    return "?";
+}
+
+std::string_view to_string(Spikes spikes) {
+    return spikes == Spikes::off ? "off" : "consistent";
+}
+
+std::optional<Norm> norm_from_name(std::string_view name) {
+    for (const Norm norm : all_norms)
+        if (to_string(norm) == name)
+            return norm;
+    return {};
+}
+
+bool expands(Norm norm) {
+    return norm == Norm::l2 || norm == Norm::l1 || norm == Norm::mixed || norm == Norm::weighted;
+}
+
+bool is_linear(Norm norm) {
+    return norm == Norm::none || norm == Norm::l2 || norm == Norm::uniform;
+}
+
+} // namespace tessera
