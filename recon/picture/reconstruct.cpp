@@ -313,6 +313,8 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
         const bool has_own = has_gradients && !images.own.empty();
         const RgbImage target = denoised_by_oidn(has_own ? images.own : picture, images.guides);
         picture = shrink_toward(target, {std::move(picture), std::move(noise)}, images.guides, parallel_for);
+        if (limits)
+            hold_to_bounds(limits->bounds, picture, parallel_for); // of the target's light in the dark, too
         if (has_gradients)
             keep_light(light, picture);
     }

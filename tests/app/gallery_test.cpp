@@ -29,7 +29,7 @@ TEST(Gallery, HasAllScenesOfTheSuite) {
         const auto place = std::ranges::find(entries, title, [](const GalleryEntry& e) { return e.title; });
         return place == entries.end() ? GalleryEntry{} : *place;
     };
-    EXPECT_THAT(entry("glossy").help, testing::HasSubstr("\nglossy-0.01:  pr worse 1.26"));
+    EXPECT_THAT(entry("glossy").help, testing::HasSubstr("\nglossy-0.03:  pr worse 1.49"));
     EXPECT_THAT(entry("glossy").verdict, testing::StartsWith("G-PR ok"));
     EXPECT_FALSE(entry("glossy").is_worse);
     EXPECT_THAT(entry("normal-map").verdict, testing::StartsWith("G-PR worse"));
