@@ -191,7 +191,7 @@ struct GradientImages {
     HalfDifferences halves{};
     GuideImages guides{};
     /// Radiance of each pixel's own paths alone, without very direct light: noise of its own, which denoisers know.
-    /// Empty: unknown, or the primal.
+    /// Empty: unknown; without gradients.
     RgbImage own{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make

@@ -17,10 +17,11 @@ namespace tessera {
 /// (average_neighbours; alpha does not matter). weighted: L2, where gradients count the less the noisier they are
 /// (weights_of_gradients). guided: weighted, then smoothed where pixels look alike as far as two halves of the
 /// samples disagree (recon/picture/guided.h). smoothed: the primal, smoothed so. oidn: guided, shrunk toward what
-/// Open Image Denoise makes of each pixel's own paths (recon/picture/oidn.h, shrinkage.h). Without gradients,
-/// these last two are the primal, smoothed or denoised (as it was sampled, spikes in full), and all others are
-/// none. All but l1, and oidn without gradients, keep the primal's mean (with parts: nearly), until what l1,
-/// mixed, weighted and these leave below black is lifted to it, unless the primal is below, too.
+/// Open Image Denoise makes of each pixel's own paths (recon/picture/oidn.h, shrinkage.h); of one pass, whose
+/// noise nobody knows, that alone. Without gradients, these last two are the primal, smoothed or denoised (as it
+/// was sampled, spikes in full), and all others are none. All but l1, and oidn without gradients, keep the
+/// primal's mean (with parts: nearly), until what l1, mixed, weighted and these leave below black is lifted to it,
+/// unless the primal is below, too.
 enum class Norm { none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn };
 
 /// All of them, in the order above.

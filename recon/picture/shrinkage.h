@@ -8,7 +8,8 @@ namespace tessera {
 
 // Two pictures of the same: one without bias, but noisy; another, smoother, that may be wrong, as a denoiser's.
 // What the two differ by, d, is the noise of the first and the error of the second. Shrunk toward the second
-// [James and Stein 1961], the first has less error in the mean, whatever the second is:
+// [James and Stein 1961], the first has less error in the mean, however wrong the second is, if the errors of both
+// have little in common:
 //     I + w d,   w = min(1/2, mean of noise^2 / mean of d^2) ,
 // means over the pixels around. With ever more samples noise goes to 0, and w with it, where the second is wrong.
 

@@ -159,8 +159,8 @@ RgbImage held_light(const GradientImages& images) {
 }
 
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
-    const std::size_t copies = (has_gradients ? 3 : 1) * (sizeof(Rgb) + sizeof(float)) + sizeof(Rgb) +
-                               (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
+    const std::size_t copies = (has_gradients ? 4 : 1) * sizeof(Rgb) + (has_gradients ? 3 : 1) * sizeof(float) +
+                               sizeof(Rgb) + (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
                                BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
                                GuideImages::bytes_a_pixel;
     // Two images of light to be spread, and two of the bounds.

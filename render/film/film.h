@@ -173,7 +173,7 @@ private:
     Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
     Image<std::uint32_t> paths_; // of their own that pixels have taken
     Image<glm::dvec3> beside_;   // what of v is not e a
-    Image<glm::dvec3> own_;
+    Image<glm::dvec3> own_;      // PixelSample::own
     int parts_a_pixel_;
     Image<Part> parts_;        // those of a pixel side by side
     Image<float> projections_; // likewise

@@ -120,10 +120,9 @@ std::span<const SettingChoice> norm_choices() {
         {to_string(Norm::smoothed), "smoothed",
          "The primal, smoothed as guided is: for methods without gradients, too."},
         {to_string(Norm::oidn), "OIDN",
-         "Intel's Open Image Denoise, where its library is found, on path tracing and reusing: the denoiser that "
-         "most "
-         "would take. With gradients, guided, drawn to what it makes of each pixel's own paths, as far as noise "
-         "goes: the cleanest at few samples."},
+         "Intel's Open Image Denoise, where its library is found: the denoiser that most would take. With "
+         "gradients, guided, drawn to what it makes of each pixel's own paths, as far as noise goes: the cleanest "
+         "at few samples."},
     }};
     return norms;
 }

@@ -28,6 +28,27 @@ TEST(Oidn, SmoothsThePicture) {
               relative_rms_difference(images.primal, truth));
 }
 
+/// With gradients the picture is guided, drawn to what the denoiser makes of own paths; and as bright.
+TEST(Oidn, DrawsGuidedToWhatItMakesOfOwnPaths) {
+    if (!oidn_problem().empty())
+        GTEST_SKIP() << oidn_problem();
+    GradientImages images = noisy_images(96, 80);
+    images.own = noisy_images(96, 80, 1, 11).primal;
+    const RgbImage guided = reconstruct(images, {Norm::guided}).image,
+                   drawn = reconstruct(images, {Norm::oidn}).image;
+    const RgbImage target = denoised_by_oidn(images.own, images.guides);
+    EXPECT_LT(relative_rms_difference(drawn, target), relative_rms_difference(guided, target));
+    EXPECT_GT(relative_rms_difference(drawn, target), 0.4 * relative_rms_difference(guided, target));
+    double sum = 0, sum_drawn = 0;
+    for (std::size_t i = 0; i < guided.size(); ++i) {
+        sum += static_cast<double>(luminance(guided.data()[i]));
+        sum_drawn += static_cast<double>(luminance(drawn.data()[i]));
+    }
+    EXPECT_NEAR(sum_drawn, sum, 1e-3 * sum);
+    images.halves = {}; // a single pass, whose noise nobody knows
+    EXPECT_LT(relative_rms_difference(reconstruct(images, {Norm::oidn}).image, target), 0.03);
+}
+
 TEST(Oidn, SaysWhatIsMissing) {
     if (oidn_problem().empty())
         GTEST_SKIP() << "it is there";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <random>
 #include <thread>
 #include <vector>
@@ -99,6 +100,19 @@ TEST(Shrinkage, TakesAnyPictureWithTheSameBitsByThreads) {
         EXPECT_TRUE(std::all_of(alone.begin(), alone.end(), is_finite)) << scale;
         EXPECT_TRUE(std::equal(alone.begin(), alone.end(), there.begin())) << scale;
     }
+}
+
+/// What is not a number stays where it is.
+TEST(Shrinkage, OnePixelSpoilsNoOthers) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    NoisyPicture picture = noisy(0.1f);
+    picture.noise(20, 20) = Rgb(infinity, 0, -infinity);
+    RgbImage target = with_noise(ramp(), 3, 0.1f);
+    target(50, 30) = Rgb(infinity);
+    target(60, 30) = Rgb(std::numeric_limits<float>::quiet_NaN());
+    const RgbImage result = shrunk(target, picture);
+    EXPECT_TRUE(std::all_of(result.begin(), result.end(), is_finite));
+    EXPECT_LT(error_of(result), error_of(picture.image));
 }
 
 } // namespace
