@@ -22,6 +22,11 @@ inline float luminance(Rgb c) {
     return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b;
 }
 
+/// |c|: luminance, whatever the signs.
+inline float size_of(Rgb c) {
+    return luminance({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+}
+
 inline bool is_finite(Rgb c) {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
@@ -190,8 +195,8 @@ struct GradientImages {
     BrightestSamples brightest{};         ///< empty: unknown
     HalfDifferences halves{};
     GuideImages guides{};
-    /// Radiance of each pixel's own paths alone, without very direct light: noise of its own, which denoisers know.
-    /// Empty: unknown; without gradients.
+    /// Radiance of each pixel's own paths alone, without very direct light: noise of its own, which denoisers
+    /// know. Empty: unknown; without gradients.
     RgbImage own{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make

@@ -63,7 +63,9 @@ struct ViewOptions {
 /// The scene within the program and those that are found (built_in_stability_scenes), with small pictures, what is
 /// known to fail there, and the verdicts of the stability suite as they were measured last (RESULTS.md). Where
 /// they cannot be found, the first alone, and the problem.
-GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes);
+/// @param results  a table as the suite writes it (stability.csv); empty: what was measured last
+GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes,
+                        std::string_view results = {});
 
 /// Opens the viewer and returns when the user quits: an exit code (0; 2: the scene or the picture failed, a
 /// message is on stderr), or one of those above. Where the display is lost, the process ends: display_lost.

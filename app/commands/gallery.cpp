@@ -63,34 +63,31 @@ std::string in_short(const std::string& verdict, const std::string& factor) {
     return verdict.substr(0, verdict.find(' ')) + (number ? fmt::format(" {:.3g}", *number) : "");
 }
 
-/// All of them, of the table that the suite has last written.
-const std::vector<Finding>& findings() {
-    static const std::vector<Finding> all = [] {
-        std::vector<Finding> found;
-        std::istringstream in{std::string(stability_results)};
-        std::string line;
-        std::getline(in, line);
-        const std::vector<std::string> names = cells_of(line);
-        while (std::getline(in, line)) {
-            const std::vector<std::string> cells = cells_of(line);
-            const auto cell = [&](std::string_view name) {
-                const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-                return place < cells.size() ? cells[place] : std::string();
-            };
-            const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
-            found.push_back({cell("scene"),
-                             recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
-                             in_short(verdict, cell("factor")), verdict == "ok"});
-        }
-        return found;
-    }();
-    return all;
+/// All of them, of a table that the suite has written.
+std::vector<Finding> findings_of(std::string_view table) {
+    std::vector<Finding> found;
+    std::istringstream in{std::string(table)};
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> names = cells_of(line);
+    while (std::getline(in, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        const auto cell = [&](std::string_view name) {
+            const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+            return place < cells.size() ? cells[place] : std::string();
+        };
+        const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
+        found.push_back({cell("scene"),
+                         recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
+                         in_short(verdict, cell("factor")), verdict == "ok"});
+    }
+    return found;
 }
 
 /// Adds what the suite has found of a scene, or of the values that it was varied by. `names`: of all scenes.
-void add_verdicts(GalleryEntry& entry, const std::set<std::string>& names) {
+void add_verdicts(GalleryEntry& entry, const std::vector<Finding>& findings, const std::set<std::string>& names) {
     std::string scene;
-    for (const Finding& finding : findings()) {
+    for (const Finding& finding : findings) {
         const bool is_value = finding.scene.starts_with(entry.title + "-") && !names.contains(finding.scene);
         if (!(is_value || finding.scene == entry.title) ||
             std::ranges::find(shown_setups, finding.setup) == std::end(shown_setups))
@@ -108,7 +105,9 @@ void add_verdicts(GalleryEntry& entry, const std::set<std::string>& names) {
 
 } // namespace
 
-GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes) {
+GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()>& find_scenes,
+                        std::string_view results) {
+    const std::vector<Finding> findings = findings_of(results.empty() ? stability_results : results);
     GalleryContents found;
     found.entries.push_back({"cornell-box",
                              "The scene within the program, which the viewer begins with.",
@@ -129,7 +128,7 @@ GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()
         const std::string name = file.stem().string();
         GalleryEntry entry{name, known_failure(file), "", false, file, picture_of(name)};
         entry.help += "\nError at equal time over that of PT, as measured last:";
-        add_verdicts(entry, names);
+        add_verdicts(entry, findings, names);
         found.entries.push_back(std::move(entry));
     }
     return found;

@@ -43,15 +43,13 @@ GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for
     for (float nearness : guides.nearness)
         sum += static_cast<double>(nearness);
     const float least = sum > 0 ? static_cast<float>(1e-3 * sum / static_cast<double>(guides.nearness.size())) : 1;
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            for (int c = 0; c < 3; ++c) {
-                planes[static_cast<std::size_t>(c)].data()[i] = guides.albedo.data()[i][c] / albedo_width;
-                planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
-            }
-            planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
-            planes[7].data()[i] = std::sqrt(std::max(guides.roughness.data()[i], 0.0f)) / roughness_width;
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        for (int c = 0; c < 3; ++c) {
+            planes[static_cast<std::size_t>(c)].data()[i] = guides.albedo.data()[i][c] / albedo_width;
+            planes[static_cast<std::size_t>(c + 3)].data()[i] = guides.normal.data()[i][c] / normal_width;
         }
+        planes[6].data()[i] = std::log(std::max(guides.nearness.data()[i], 0.0f) + least) / nearness_width;
+        planes[7].data()[i] = std::sqrt(std::max(guides.roughness.data()[i], 0.0f)) / roughness_width;
     });
     return planes;
 }

@@ -28,6 +28,15 @@ void make_planes(std::array<Plane, count>& planes, int width, int height) {
         plane = Plane(width, height);
 }
 
+/// Calls visit(i) for all pixels of a picture.
+template <class Visit>
+void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& visit) {
+    parallel_for(height, [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
+            visit(i);
+    });
+}
+
 /// Guides over the widths of what counts as alike. Empty planes: there are none, and all pixels look alike.
 inline constexpr int guide_count = 8;
 using GuidePlanes = std::array<Plane, guide_count>;
@@ -39,6 +48,18 @@ inline Rgb seen_albedo(const GuideImages& guides, std::size_t i) {
     constexpr float least = 0.02f;
     return guides.empty() ? Rgb(1) : glm::max(guides.albedo.data()[i], Rgb(least));
 }
+
+/// The light on what pixel i shows: radiance over albedo.
+inline Rgb light_at(const RgbImage& radiance, const GuideImages& guides, std::size_t i) {
+    return radiance.data()[i] / seen_albedo(guides, i);
+}
+
+/// How bright light is: the mean of its channels, >= 0. What is compared with it counts as brighter by `dark` of
+/// the picture's mean: with a twentieth, light leaks into black frames.
+inline float brightness_of(Rgb light) {
+    return std::max((light.r + light.g + light.b) / 3, 0.0f);
+}
+inline constexpr float dark = 0.2f;
 
 /// A pixel and another, i and j steps on; of a kernel's pixels but the middle one, half: the others are these from
 /// their other end. (With the corners: hardly better, in twice the time.)
@@ -117,6 +138,18 @@ void for_kernel_sums(const std::array<Plane, planes>& from, const PairWeights& w
             }
             visit(y, sums);
         }
+    });
+}
+
+/// The means over the kernels around all pixels, by their weights.
+/// @param means  of the same size, anything
+template <std::size_t planes>
+void write_kernel_means(const std::array<Plane, planes>& from, const PairWeights& weights, int step,
+                        const ParallelFor& parallel_for, std::array<Plane, planes>& means) {
+    for_kernel_sums(from, weights, step, parallel_for, [&](int y, const auto& sums) {
+        for (std::size_t c = 0; c < planes; ++c)
+            for (int x = sums.begin; x < sums.end; ++x)
+                means[c](x, y) = sums.values[c][x - sums.begin] / sums.weights[x - sums.begin];
     });
 }
 

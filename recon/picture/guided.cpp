@@ -19,13 +19,11 @@ namespace tessera {
 namespace {
 
 // Tried on Veach, Ajar, Country Kitchen and Bathroom at 5 and 20 CPU seconds: none of these numbers matters by
-// more than a few percent when it is halved or doubled, but that of the dark, below which light leaks into black
-// frames.
+// more than a few percent when it is halved or doubled.
 constexpr int levels = 6;
 constexpr float noise_width = 16; // of brightness, in variances of its noise
 constexpr int noise_radius = 6;   // of the squares that tell noise,
 constexpr int trust_radius = 6;   // and how far a difference is more than that; wider by the level's step
-constexpr float dark = 0.2f;      // of the mean light, that any pixel's brightness counts as more
 
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = std::array<Plane, 6>;
@@ -51,15 +49,10 @@ Planes light_of(const NoisyPicture& picture, const GuideImages& guides, const Pa
     const int width = picture.image.width(), height = picture.image.height();
     Planes planes;
     make_planes(planes, width, height);
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            const Rgb albedo = seen_albedo(guides, i);
-            for (std::size_t c = 0; c < planes.size(); ++c) {
-                const RgbImage& image = c < 3 ? picture.image : picture.noise;
-                const auto channel = static_cast<int>(c % 3);
-                planes[c].data()[i] = image.data()[i][channel] / albedo[channel];
-            }
-        }
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        const Rgb light[] = {light_at(picture.image, guides, i), light_at(picture.noise, guides, i)};
+        for (std::size_t c = 0; c < planes.size(); ++c)
+            planes[c].data()[i] = light[c / 3][static_cast<int>(c % 3)];
     });
     return planes;
 }
@@ -71,11 +64,8 @@ float mean_of(const Planes& planes, std::size_t first, std::size_t i) {
 
 /// The brightness of each pixel, and a little of the picture's.
 void write_brightness(const Planes& planes, float least, const ParallelFor& parallel_for, Plane& brightness) {
-    const int width = brightness.width();
-    parallel_for(brightness.height(), [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
-            brightness.data()[i] = std::max(mean_of(planes, 0, i), 0.0f) + least;
-    });
+    for_pixels(brightness.width(), brightness.height(), parallel_for,
+               [&](std::size_t i) { brightness.data()[i] = std::max(mean_of(planes, 0, i), 0.0f) + least; });
 }
 
 /// How unlike brightnesses are, beside what noise makes of them.
@@ -91,26 +81,15 @@ Unlikeness unlike_in(const Plane& brightness, const Plane& noise) {
     };
 }
 
-void smooth(const Planes& from, const PairWeights& weights, int step, const ParallelFor& parallel_for,
-            Planes& result) {
-    for_kernel_sums(from, weights, step, parallel_for, [&](int y, const auto& sums) {
-        for (std::size_t c = 0; c < from.size(); ++c)
-            for (int x = sums.begin; x < sums.end; ++x)
-                result[c](x, y) = sums.values[c][x - sums.begin] / sums.weights[x - sums.begin];
-    });
-}
-
 /// Level `step`, 2^l, of what the last one has left, to scratch.coarser.
 void write_next_level(const Planes& from, const GuidePlanes& guides, float least, int step,
                       const ParallelFor& parallel_for, Scratch& scratch) {
     Plane &brightness = scratch.brightness, &noise = scratch.noise;
     const int width = noise.width();
     write_brightness(from, least, parallel_for, brightness);
-    parallel_for(noise.height(), [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            noise.data()[i] = std::abs(mean_of(from, 3, i)) / brightness.data()[i];
-            brightness.data()[i] = std::log(brightness.data()[i]);
-        }
+    for_pixels(noise.width(), noise.height(), parallel_for, [&](std::size_t i) {
+        noise.data()[i] = std::abs(mean_of(from, 3, i)) / brightness.data()[i];
+        brightness.data()[i] = std::log(brightness.data()[i]);
     });
     take_wide_means(noise, noise_radius + step, scratch.rows, parallel_for);
     parallel_for(noise.height(), [&](int y) {
@@ -120,7 +99,7 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
             noise(x, y) *= of_gaussian * noise(x, y);
     });
     write_pair_weights(guides, unlike_in(brightness, noise), step, parallel_for, scratch.weights);
-    smooth(from, scratch.weights, step, parallel_for, scratch.coarser);
+    write_kernel_means(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
 /// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
@@ -132,16 +111,14 @@ void add_difference(const Planes& finer, int radius, float least, const Parallel
     Plane &sizes = scratch.sizes, &noise = scratch.noise;
     const int width = noise.width(), height = noise.height();
     write_brightness(coarser, least, parallel_for, scratch.brightness);
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            float here[2] = {};
-            for (std::size_t c = 0; c < 6; ++c) {
-                const float d = (finer[c].data()[i] - coarser[c].data()[i]) / brightness.data()[i];
-                here[c / 3] += d * d;
-            }
-            sizes.data()[i] = std::sqrt(std::sqrt(here[0]));
-            noise.data()[i] = std::sqrt(std::sqrt(here[1]));
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        float here[2] = {};
+        for (std::size_t c = 0; c < 6; ++c) {
+            const float d = (finer[c].data()[i] - coarser[c].data()[i]) / brightness.data()[i];
+            here[c / 3] += d * d;
         }
+        sizes.data()[i] = std::sqrt(std::sqrt(here[0]));
+        noise.data()[i] = std::sqrt(std::sqrt(here[1]));
     });
     take_wide_means(sizes, radius, scratch.rows, parallel_for);
     take_wide_means(noise, radius, scratch.rows, parallel_for);
@@ -178,19 +155,16 @@ float least_brightness(const Planes& light) {
 /// that goes, a dark pixel may come out below black: not below what it was.
 void write_radiance(const Planes& differences, const Planes& light, const GuideImages& guides,
                     NoisyPicture& picture, const ParallelFor& parallel_for) {
-    const int width = picture.image.width();
-    parallel_for(picture.image.height(), [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            Rgb &colour = picture.image.data()[i], &noise = picture.noise.data()[i];
-            const Rgb least = glm::min(colour, Rgb(0)), albedo = seen_albedo(guides, i);
-            for (std::size_t c = 0; c < light.size(); ++c) {
-                const auto channel = static_cast<int>(c % 3);
-                const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
-                if (c < 3)
-                    colour[channel] = std::max(radiance, least[channel]);
-                else
-                    noise[channel] = radiance;
-            }
+    for_pixels(picture.image.width(), picture.image.height(), parallel_for, [&](std::size_t i) {
+        Rgb &colour = picture.image.data()[i], &noise = picture.noise.data()[i];
+        const Rgb least = glm::min(colour, Rgb(0)), albedo = seen_albedo(guides, i);
+        for (std::size_t c = 0; c < light.size(); ++c) {
+            const auto channel = static_cast<int>(c % 3);
+            const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
+            if (c < 3)
+                colour[channel] = std::max(radiance, least[channel]);
+            else
+                noise[channel] = radiance;
         }
     });
 }

@@ -9,7 +9,6 @@ namespace tessera {
 
 namespace {
 
-constexpr float dark = 0.2f;       // of the mean light, that any pixel counts as brighter by
 constexpr float stands_out = 0.1f; // of a pixel's brightness: more is not given to it
 constexpr float passes_on = 1e-6f; // of its brightness, that a pixel has which is given nothing
 
@@ -24,11 +23,6 @@ void set_colour(Channels& channels, std::size_t i, Rgb colour) {
         channels[c].data()[i] = colour[static_cast<int>(c)];
 }
 
-/// |v|: luminance, whatever the signs.
-float size_of(Rgb v) {
-    return luminance(glm::abs(v));
-}
-
 double sum_of_sizes(const RgbImage& image) {
     double sum = 0;
     for (Rgb c : image)
@@ -36,38 +30,21 @@ double sum_of_sizes(const RgbImage& image) {
     return sum;
 }
 
-/// Calls visit(i) for all pixels.
-template <class Visit>
-void for_pixels(const RgbImage& image, const ParallelFor& parallel_for, Visit&& visit) {
-    const auto width = static_cast<std::size_t>(image.width());
-    parallel_for(image.height(), [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
-            visit(i);
-    });
-}
-
-/// The mean of the channels of the light at each pixel, radiance over albedo.
-Image<float> light_of(const RgbImage& image, const GuideImages& guides, const ParallelFor& parallel_for) {
-    Image<float> light(image.width(), image.height());
-    for_pixels(image, parallel_for, [&](std::size_t i) {
-        const Rgb c = image.data()[i] / seen_albedo(guides, i);
-        light.data()[i] = std::max((c.r + c.g + c.b) / 3, 0.0f);
-    });
-    return light;
-}
-
 /// S: albedo times light, and a little more. As much more as keeps its quotients with what is spread finite.
-Channels brightness_of(const RgbImage& image, const RgbImage& spread, const GuideImages& guides,
-                       const ParallelFor& parallel_for) {
-    const Image<float> light = light_of(image, guides, parallel_for);
+Channels spreading_by(const RgbImage& image, const RgbImage& spread, const GuideImages& guides,
+                      const ParallelFor& parallel_for) {
+    const int width = image.width(), height = image.height();
+    Image<float> light(width, height);
+    for_pixels(width, height, parallel_for,
+               [&](std::size_t i) { light.data()[i] = brightness_of(light_at(image, guides, i)); });
     double sum = 0;
     for (float l : light)
         sum += static_cast<double>(l);
     sum = std::max(dark * sum, 1e-6 * sum_of_sizes(spread));
     const auto more = static_cast<float>(sum / static_cast<double>(image.size()));
     Channels brightness;
-    make_planes(brightness, image.width(), image.height());
-    for_pixels(image, parallel_for, [&](std::size_t i) {
+    make_planes(brightness, width, height);
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
         set_colour(brightness, i, seen_albedo(guides, i) * (light.data()[i] + more));
     });
     return brightness;
@@ -118,10 +95,7 @@ AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const Paral
 void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const {
     std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height())};
     for (std::size_t level = 0; level < levels; ++level) {
-        for_kernel_sums(from, weights_[level], steps[level], parallel_for, [&](int y, const auto& sums) {
-            for (int x = sums.begin; x < sums.end; ++x)
-                to[0](x, y) = sums.values[0][x - sums.begin] / sums.weights[x - sums.begin];
-        });
+        write_kernel_means(from, weights_[level], steps[level], parallel_for, to);
         std::swap(from, to);
     }
     values = std::move(from[0]);
@@ -131,15 +105,16 @@ void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike,
                      const RgbImage& room, const ParallelFor& parallel_for) {
     if (!(sum_of_sizes(light) > 0))
         return;
-    Channels brightness = brightness_of(image, light, guides, parallel_for);
+    const int width = image.width(), height = image.height();
+    Channels brightness = spreading_by(image, light, guides, parallel_for);
     const Channels most = take_limits(room, brightness);
     Channels spread, ratio;
-    make_planes(spread, image.width(), image.height());
-    make_planes(ratio, image.width(), image.height());
-    for_pixels(image, parallel_for, [&](std::size_t i) { set_colour(spread, i, light.data()[i]); });
+    make_planes(spread, width, height);
+    make_planes(ratio, width, height);
+    for_pixels(width, height, parallel_for, [&](std::size_t i) { set_colour(spread, i, light.data()[i]); });
     for (std::size_t level = 0; level < AlikePixels::steps.size(); ++level)
         spread_one_level(brightness, alike.weights(level), AlikePixels::steps[level], parallel_for, spread, ratio);
-    for_pixels(image, parallel_for, [&](std::size_t i) {
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
         const Rgb added = colour_at(spread, i);
         const float size = size_of(added), limit = luminance(colour_at(most, i));
         const float share = size > limit ? limit / size : 1;
@@ -204,41 +179,44 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     }
 }
 
-} // namespace
-
-LightSpreader::LightSpreader(const RgbImage& image, const AlikePixels& alike, const Image<std::uint8_t>& black,
-                             const ParallelFor& parallel_for)
-    : brightness_(image.width(), image.height()) {
+/// The brightness about each pixel; 0 where it is black.
+Plane brightness_about(const RgbImage& image, const AlikePixels& alike, const Image<std::uint8_t>& black,
+                       const ParallelFor& parallel_for) {
     double sum = 0;
     for (Rgb c : image)
         sum += std::max(0.0, static_cast<double>(luminance(c)));
     // Where a whole neighbourhood is black, light is spread evenly; as in a picture that is black.
     const auto least = sum > 0 ? static_cast<float>(1e-4 * sum / static_cast<double>(image.size())) : 1.0f;
+    Plane brightness(image.width(), image.height());
     for (std::size_t i = 0; i < image.size(); ++i)
-        brightness_.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
-    Plane plain = brightness_;
+        brightness.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
+    Plane plain = brightness;
     blur(plain, near_radius, parallel_for);
-    alike.take_means(near_levels, brightness_, parallel_for);
-    for (std::size_t i = 0; i < plain.size(); ++i)
-        brightness_.data()[i] = (1 - of_all) * brightness_.data()[i] + of_all * plain.data()[i];
-    for (std::size_t i = 0; i < black.size(); ++i)
-        brightness_.data()[i] = black.data()[i] ? 0 : brightness_.data()[i];
-    around_ = brightness_;
-    blur(around_, spread_radius, parallel_for);
+    alike.take_means(near_levels, brightness, parallel_for);
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const float both = (1 - of_all) * brightness.data()[i] + of_all * plain.data()[i];
+        brightness.data()[i] = black.empty() || !black.data()[i] ? both : 0;
+    }
+    return brightness;
 }
 
-/// With brightness s, what a pixel q has goes to p by s(p) blur(p, q) / (sum over the p' of s(p') blur(p', q)).
-void LightSpreader::spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const {
+} // namespace
+
+void spread_around(const RgbImage& light, const RgbImage& shown, const AlikePixels& alike,
+                   const Image<std::uint8_t>& black, RgbImage& image, const ParallelFor& parallel_for) {
     const double sum = sum_of_sizes(light);
     if (!(sum > 0))
         return;
     const auto least = static_cast<float>(1e-30 * sum); // so that quotients are finite
+    const Plane brightness = brightness_about(shown, alike, black, parallel_for);
+    Plane around = brightness;
+    blur(around, spread_radius, parallel_for);
     RgbImage ratio = light;
     for (std::size_t i = 0; i < image.size(); ++i)
-        ratio.data()[i] = around_.data()[i] > least ? ratio.data()[i] / around_.data()[i] : Rgb(0);
+        ratio.data()[i] = around.data()[i] > least ? ratio.data()[i] / around.data()[i] : Rgb(0);
     blur(ratio, spread_radius, parallel_for);
     for (std::size_t i = 0; i < image.size(); ++i)
-        image.data()[i] += brightness_.data()[i] * ratio.data()[i];
+        image.data()[i] += brightness.data()[i] * ratio.data()[i];
 }
 
 } // namespace tessera

@@ -48,26 +48,16 @@ private:
 void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike, const GuideImages& guides,
                      const RgbImage& room, const ParallelFor& parallel_for);
 
-/// Gives light to the pixels around where it is, whatever they look like, about 20 pixels wide, by the brightness
-/// about each.
-class LightSpreader {
-public:
-    /// By the brightness of `image`, radiance without very direct light.
-    /// @param black  1 where a pixel is given none; empty: nowhere
-    LightSpreader(const RgbImage& image, const AlikePixels& alike, const Image<std::uint8_t>& black,
-                  const ParallelFor& parallel_for);
+/// Adds to the image as much light as there is in `light`, given to the pixels around where it is, whatever they
+/// look like, about 20 pixels wide, by the brightness about each: but for rounding, and for what is about black
+/// pixels alone, which is lost.
+/// @param shown  the radiance whose brightness it is; may be `image`
+/// @param black  1 where a pixel is given none; empty: nowhere
+void spread_around(const RgbImage& light, const RgbImage& shown, const AlikePixels& alike,
+                   const Image<std::uint8_t>& black, RgbImage& image, const ParallelFor& parallel_for);
 
-    /// Adds as much light to the image as there is in `light`, but for rounding, and for what is about black
-    /// pixels alone, which is lost.
-    void spread(const RgbImage& light, RgbImage& image, const ParallelFor& parallel_for) const;
-
-private:
-    Image<float> brightness_; ///< about each pixel
-    Image<float> around_;     ///< the same, as wide as light is spread
-};
-
-/// The memory that all of this takes, a pixel: kernels; S, its limits, what is spread and a quotient; or two
-/// images and two of numbers of a LightSpreader, which come after these.
+/// The memory that all of this takes, a pixel: kernels; S, its limits, what is spread and a quotient; or what
+/// spread_around() has, two images and three of numbers, when these are gone.
 inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + 12 * sizeof(float);
 
 } // namespace tessera

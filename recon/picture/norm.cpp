@@ -1,9 +1,4 @@
-#include "recon/picture/reconstruct.h"
-
-#include <optional>
-#include <string_view>
-
-// The ways to make a picture: their names, and what is true of them.
+#include "recon/picture/norm.h"
 
 namespace tessera {
 

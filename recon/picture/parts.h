@@ -2,7 +2,7 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
-#include "recon/picture/reconstruct.h"
+#include "recon/picture/norm.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_weighted.h"
 

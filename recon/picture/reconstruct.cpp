@@ -143,7 +143,7 @@ void Reconstructor::Limits::spread(const GuideImages& guides, RgbImage& image,
         add(light, take_excess(bounds, reach, image, parallel_for));
     const RgbImage room = room_below(bounds, reach, image, parallel_for);
     spread_to_alike(light, image, alike, guides, room, parallel_for);
-    LightSpreader(image, alike, bounds.black, parallel_for).spread(light, image, parallel_for);
+    spread_around(light, image, alike, bounds.black, image, parallel_for);
 }
 
 Reconstructor::Reconstructor() = default;
@@ -222,8 +222,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         for (std::size_t i = 0; i < held.size(); ++i)
             held.data()[i] *= images.brightest.half.data()[i];
         // To pixels that look alike farther away, too, is level.
-        LightSpreader(picture, limits->alike, limits->bounds.black, parallel_for)
-            .spread(held, noise, parallel_for);
+        spread_around(held, picture, limits->alike, limits->bounds.black, noise, parallel_for);
     }
     return noise;
 }

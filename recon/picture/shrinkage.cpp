@@ -16,16 +16,7 @@ namespace {
 // Tried on four rooms, 3 to 34 samples: half the radius costs 0.1 to 0.2 dB.
 constexpr int radius = 16;      // of the squares of pixels that tell
 constexpr float most = 0.5f;    // of the way to the target
-constexpr float dark = 0.2f;    // of the mean light, that any pixel's brightness counts as more
 constexpr float largest = 1e6f; // square, so that running sums know others beside it; what is not finite, too
-
-Rgb light_at(const RgbImage& image, const GuideImages& guides, std::size_t i) {
-    return image.data()[i] / seen_albedo(guides, i);
-}
-
-float mean_of(Rgb c) {
-    return (c.r + c.g + c.b) / 3;
-}
 
 /// Squared beside the brightness of both pictures.
 float square_of(Rgb light, float brightness) {
@@ -45,27 +36,23 @@ RgbImage shrink_toward(const RgbImage& target, NoisyPicture picture, const Guide
     double sum = 0;
     for (std::size_t i = 0; i < target.size(); ++i) {
         const Rgb both = light_at(picture.image, guides, i) + light_at(target, guides, i);
-        brightness.data()[i] = is_finite(both) ? std::max(mean_of(both) / 2, 0.0f) : 0;
+        brightness.data()[i] = is_finite(both) ? brightness_of(both) / 2 : 0;
         sum += static_cast<double>(brightness.data()[i]);
     }
     const float least = dark * static_cast<float>(sum / static_cast<double>(target.size()));
     if (!(least > 0))
         return std::move(picture.image);
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i) {
-            const float b = brightness.data()[i] + least;
-            noise.data()[i] = square_of(light_at(picture.noise, guides, i), b);
-            difference.data()[i] = square_of(light_at(target, guides, i) - light_at(picture.image, guides, i), b);
-        }
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        const float b = brightness.data()[i] + least;
+        noise.data()[i] = square_of(light_at(picture.noise, guides, i), b);
+        difference.data()[i] = square_of(light_at(target, guides, i) - light_at(picture.image, guides, i), b);
     });
     take_wide_means(noise, radius, brightness, parallel_for);
     take_wide_means(difference, radius, brightness, parallel_for);
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            const float d = difference(x, y), share = d > 0 ? std::min(noise(x, y) / d, most) : 0;
-            if (is_finite(target(x, y)))
-                picture.image(x, y) += share * (target(x, y) - picture.image(x, y));
-        }
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        const float d = difference.data()[i], share = d > 0 ? std::min(noise.data()[i] / d, most) : 0;
+        if (is_finite(target.data()[i]))
+            picture.image.data()[i] += share * (target.data()[i] - picture.image.data()[i]);
     });
     return std::move(picture.image);
 }

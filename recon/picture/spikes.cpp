@@ -20,11 +20,6 @@ constexpr double share = 0.25, least_factor = 2;
 /// pixel, whose samples agree, are no spikes. In full it would let through what two samples of the pixel found.
 constexpr double own_share = 0.5;
 
-/// |v|: luminance, whatever the signs.
-double size_of(glm::dvec3 v) {
-    return luminance(Rgb(glm::abs(v)));
-}
-
 std::size_t index_of(const Image<float>& image, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(x);
 }
@@ -39,7 +34,7 @@ Image<float> sizes_of_others(const GradientImages& images) {
     Image<float> sizes(images.primal.width(), images.primal.height());
     for (std::size_t i = 0; i < sizes.size(); ++i)
         sizes.data()[i] = static_cast<float>(
-            size_of(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples)));
+            size_of(Rgb(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples))));
     return sizes;
 }
 
@@ -66,13 +61,14 @@ Limits limits_of(const GradientImages& images, const Image<float>& sizes, int x,
         return size > factor * others ? factor * others / size : 1;
     };
     const std::size_t i = index_of(sizes, x, y);
-    double others = size_around(sizes, x, y), size = size_of(b.primal.data()[i]);
+    double others = size_around(sizes, x, y), size = static_cast<double>(size_of(b.primal.data()[i]));
     Limits limits{limit(size, others)};
     if (!images.has_gradients())
         return limits;
     for (const auto& [mean, brightest] : {std::pair(&images.dx, &b.dx), std::pair(&images.dy, &b.dy)}) {
-        others = std::max(others, size_of(mean_of_others(*mean, *brightest, i, b.samples)));
-        size = std::max(size, size_of(brightest->data()[i]));
+        others =
+            std::max(others, static_cast<double>(size_of(Rgb(mean_of_others(*mean, *brightest, i, b.samples)))));
+        size = std::max(size, static_cast<double>(size_of(brightest->data()[i])));
     }
     limits.gradients = limit(size, others);
     return limits;

@@ -93,7 +93,7 @@ void Film::remember_if_brightest(int x, int y, int pass, const PixelSample& samp
         if (found.primal[c] > 0)
             found.albedo[c] += sample.beside[c] / found.primal[c];
     for (Rgb c : {found.primal, found.dx, found.dy})
-        found.size = std::max(found.size, luminance(glm::abs(c)));
+        found.size = std::max(found.size, size_of(c));
     if (Brightest& kept = brightest_(x, y); found.size > kept.size)
         kept = found;
 }

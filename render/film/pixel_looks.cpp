@@ -50,7 +50,7 @@ double PixelLooks::Points::guide_variance() const {
 void PixelLooks::ask_for_more(int passes) {
     // The albedo's relative variance is to be well below that of the light, of which a sample has about 0.1 to 1
     // before the pixels around help. Tried on stability's texture: 0.002 is as good, 0.015 costs a fifth more
-    // time. Guides are to be known well beside what counts as alike (recon/picture/guided.cpp).
+    // time. Guides are to be known well beside what counts as alike (recon/picture/guide_kernel.cpp).
     constexpr double enough_of_one = 0.004, enough_of_guides = 0.003;
     constexpr double most = 1 << 20;
     const auto needed = [](double variance, double enough) { return std::pow(variance / enough, 2 / 3.0); };

@@ -1,4 +1,5 @@
 #include "recon/picture/parts.h"
+#include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>

@@ -122,7 +122,7 @@ TEST(Spikes, NoLightIsLost) {
     RgbImage picture = limited(images, held, serial_for).primal;
     EXPECT_NEAR(sum_of(picture) + sum_of(held), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     EXPECT_GT(sum_of(held), 0.5 * sum_of(images.primal));
-    LightSpreader(picture, anywhere(picture), {}, serial_for).spread(held, picture, serial_for);
+    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     float most = 0;
     for (Rgb c : picture)
@@ -138,7 +138,7 @@ TEST(Spikes, AreSpreadByBrightness) {
             picture(x, y) = Rgb(0.1f);
     held(19, 15) = Rgb(100, 200, 0);
     const RgbImage before = picture;
-    LightSpreader(picture, anywhere(picture), {}, serial_for).spread(held, picture, serial_for);
+    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(before) + 300, 1e-2);
     const auto gain = [&](int x) { return static_cast<double>(picture(x, 15).r - before(x, 15).r); };
     EXPECT_NEAR(gain(24) / gain(15), 0.1, 0.02); // as far from both sides, beyond the blur of brightness
@@ -207,7 +207,7 @@ TEST(Spikes, AreSpreadWithTheSameBitsByThreads) {
             light.data()[i] = Rgb(static_cast<float>(i % 31), 1, 0.3f);
         const AlikePixels alike({width, height}, guides, parallel_for);
         spread_to_alike(light, picture, alike, guides, {}, parallel_for);
-        LightSpreader(picture, alike, {}, parallel_for).spread(light, picture, parallel_for);
+        spread_around(light, picture, alike, {}, picture, parallel_for);
         return picture;
     };
     const RgbImage alone = spread_by(serial_for), together = spread_by(in_threads);
@@ -252,7 +252,7 @@ TEST(Spikes, AreSpreadOnSmallAndBlackPictures) {
         RgbImage alike = picture, left = held;
         spread_to_alike(left, alike, anywhere(picture), {}, {}, serial_for);
         EXPECT_NEAR(sum_of(alike) + sum_of(left), before + 45, 1e-4 + 1e-6 * before) << brightness;
-        LightSpreader(picture, anywhere(picture), {}, serial_for).spread(held, picture, serial_for);
+        spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
         EXPECT_NEAR(sum_of(picture), before + 45, 1e-4 + 1e-6 * before) << brightness;
         EXPECT_TRUE(std::isfinite(picture(4, 2).g));
     }
@@ -266,7 +266,7 @@ TEST(Spikes, LeaveFiniteNumbers) {
             picture(5, 5) = Rgb(2 * brightness);
             held(20, 15) = Rgb(light, 0, -light);
             spread_to_alike(held, picture, anywhere(picture), {}, {}, serial_for);
-            LightSpreader(picture, anywhere(picture), {}, serial_for).spread(held, picture, serial_for);
+            spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
             EXPECT_TRUE(std::all_of(picture.begin(), picture.end(), is_finite)) << brightness << ' ' << light;
         }
 }
@@ -288,7 +288,7 @@ TEST(Spikes, OfRareLightAreNotMadeAnew) {
     };
     RgbImage held;
     RgbImage picture = limited(images, held, serial_for).primal;
-    LightSpreader(picture, anywhere(picture), {}, serial_for).spread(held, picture, serial_for);
+    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
     EXPECT_LT(error_of(picture), 0.1 * error_of(images.primal));
 }
 
