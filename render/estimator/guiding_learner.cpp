@@ -9,47 +9,67 @@ namespace tessera {
 
 namespace {
 
-constexpr int cells_along = 12;     // of the grid's longest side
-constexpr int most_paths = 1 << 20; // of a pass, that are learnt from
-constexpr int halvings = 2;         // of which coarser grids are made, which tell of cells where little was found
-constexpr double least_samples = 8; // of which a map is made
-constexpr float prior_samples = 4;  // that the coarser cell's map, or evenness, counts as
+constexpr int cells_along = 12;      // of the grid's longest side
+constexpr int most_paths = 1 << 20;  // that are learnt from until there are twice as many passes
+constexpr int least_paths = 1 << 10; // of a pass
+constexpr int halvings = 2;          // of which coarser grids are made, which tell of cells where little was found
+constexpr double least_samples = 8;  // of which a map is made, or that tell of shares
+constexpr float prior_samples = 4;   // that the coarser cell's map, or evenness, counts as
 
-/// A square of bins, a power of two along its edge.
-struct Square {
-    int x, y, edge;
+// Of shares: that of a guide of which nothing is known yet, and what the second moment without a guide must be
+// undercut by, as guided paths cost more. (With 1/2, and 32 samples to tell, a mirror beside a rough lobe had
+// twice the variance, and Veach, Ajar gained no more; with 0 it gains less.)
+constexpr float first_share = 0.25f, least_gain = 0.1f;
 
-    Square quarter(int q) const { return {x + q % 2 * (edge / 2), y + q / 2 * (edge / 2), edge / 2}; }
-    float sum(const DirectionMap::Shares& bins) const {
-        float total = 0;
-        for (int j = y; j < y + edge; ++j)
-            for (int i = x; i < x + edge; ++i)
-                total += bins[static_cast<std::size_t>(j * DirectionMap::edge + i)];
-        return total;
+/// Numbers of squares of bins: of the whole, of its quarters, and so on down to single bins.
+class Squares {
+public:
+    static constexpr int levels = std::bit_width(unsigned{DirectionMap::edge});
+
+    float& at(int level, int x, int y) {
+        return numbers_[static_cast<std::size_t>(((1 << 2 * level) - 1) / 3 + (y << level) + x)];
     }
+    float& bin(std::size_t b) { return *(&at(levels - 1, 0, 0) + b); }
+
+    static Squares sums_of(const DirectionMap::Shares& bins) {
+        Squares sums;
+        std::ranges::copy(bins, &sums.bin(0));
+        for (int level = levels - 2; level >= 0; --level)
+            for (int y = 0; y < 1 << level; ++y)
+                for (int x = 0; x < 1 << level; ++x)
+                    sums.at(level, x, y) =
+                        sums.at(level + 1, 2 * x, 2 * y) + sums.at(level + 1, 2 * x + 1, 2 * y) +
+                        sums.at(level + 1, 2 * x, 2 * y + 1) + sums.at(level + 1, 2 * x + 1, 2 * y + 1);
+        return sums;
+    }
+
+private:
+    std::array<float, ((1 << 2 * levels) - 1) / 3> numbers_;
 };
 
-/// Shares a square's mass out among its quarters, and so on: by what was found there as far as that stands on many
+/// Shares 1 out among the quarters of the whole, and so on: by what was found there as far as that stands on many
 /// samples, and by the prior as far as on few.
-struct Sharing {
-    const DirectionMap::Shares &first, &second, &prior;
-    DirectionMap::Shares shares{};
-
-    void share_out(Square square, float mass) {
-        if (square.edge == 1) {
-            shares[static_cast<std::size_t>(square.y * DirectionMap::edge + square.x)] = mass;
-            return;
+DirectionMap::Shares share_out(Squares first, Squares second, Squares prior) {
+    Squares shares;
+    shares.at(0, 0, 0) = 1;
+    for (int level = 0; level + 1 < Squares::levels; ++level)
+        for (int i = 0; i < 1 << 2 * level; ++i) {
+            const int x = i & ((1 << level) - 1), y = i >> level;
+            const float all = first.at(level, x, y), squares = second.at(level, x, y),
+                        prior_all = prior.at(level, x, y), mass = shares.at(level, x, y);
+            const float samples = squares > 0 ? all * (all / squares) : 0;
+            for (int q = 0; q < 4; ++q) {
+                const int at_x = 2 * x + q % 2, at_y = 2 * y + q / 2;
+                const float found = all > 0 ? first.at(level + 1, at_x, at_y) / all : 0.25f;
+                const float expected = prior_all > 0 ? prior.at(level + 1, at_x, at_y) / prior_all : 0.25f;
+                shares.at(level + 1, at_x, at_y) =
+                    mass * (samples * found + prior_samples * expected) / (samples + prior_samples);
+            }
         }
-        const float all = square.sum(first), squares = square.sum(second), prior_all = square.sum(prior);
-        const float samples = squares > 0 ? all * (all / squares) : 0;
-        for (int q = 0; q < 4; ++q) {
-            const Square part = square.quarter(q);
-            const float found = all > 0 ? part.sum(first) / all : 0.25f;
-            const float expected = prior_all > 0 ? part.sum(prior) / prior_all : 0.25f;
-            share_out(part, mass * (samples * found + prior_samples * expected) / (samples + prior_samples));
-        }
-    }
-};
+    DirectionMap::Shares bins;
+    std::copy_n(&shares.bin(0), bins.size(), bins.begin());
+    return bins;
+}
 
 /// Calls visit(cell, side) in the order of a grid's indices.
 template <class Visit>
@@ -63,30 +83,58 @@ void for_each_cell(const GuidingGrid& grid, Visit&& visit) {
 
 } // namespace
 
+void GuidingLearner::Sums::add(const FoundLight& f) {
+    const auto bin = static_cast<std::size_t>(DirectionMap::bin_of(f.direction));
+    first[bin] += f.irradiance;
+    second[bin] += f.irradiance * f.irradiance;
+    if (!std::ranges::all_of(f.squares, [](float s) { return std::isfinite(s); }))
+        return;
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        squares[i] += static_cast<double>(f.squares[i]);
+    fourth += static_cast<double>(f.squares[0]) * static_cast<double>(f.squares[0]);
+}
+
 void GuidingLearner::Sums::add(const Sums& other) {
     for (std::size_t b = 0; b < first.size(); ++b) {
         first[b] += other.first[b];
         second[b] += other.second[b];
     }
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        squares[i] += other.squares[i];
+    fourth += other.fourth;
 }
 
 double GuidingLearner::Sums::samples() const {
     const double all = std::accumulate(first.begin(), first.end(), 0.0);
-    const double squares = std::accumulate(second.begin(), second.end(), 0.0);
-    return squares > 0 ? all * all / squares : 0;
+    const double all_squares = std::accumulate(second.begin(), second.end(), 0.0);
+    return all_squares > 0 ? all * all / all_squares : 0;
+}
+
+float GuidingLearner::Sums::best_share(float unknown) const {
+    if (!(squares[0] * squares[0] >= least_samples * fourth) || fourth == 0)
+        return unknown;
+    const auto best = std::ranges::min_element(squares);
+    const bool pays = *best < (1 - least_gain) * squares[0];
+    return pays ? tried_shares[static_cast<std::size_t>(best - squares.begin())] : 0;
 }
 
 float GuidingLearner::share_of_paths(int pixels, int index) {
-    constexpr float most = most_paths;
+    const auto share = [pixels](int paths) {
+        return std::min(1.0f, static_cast<float>(paths) / static_cast<float>(pixels));
+    };
     const auto passes = static_cast<float>(std::bit_floor(static_cast<unsigned>(std::max(index, 1))));
-    return std::min(most / (static_cast<float>(pixels) * passes), 1.0f);
+    return std::max(share(most_paths) / passes, share(least_paths));
 }
 
-std::uint64_t GuidingLearner::bytes(int pixels) {
+std::uint64_t GuidingLearner::bytes_of_found(int pixels) {
     constexpr std::uint64_t vertices = 4; // of a path that finds light, as they mostly are
+    return static_cast<std::uint64_t>(std::min(pixels, most_paths)) * vertices * sizeof(FoundLight);
+}
+
+std::uint64_t GuidingLearner::bytes_of_learnt() {
+    // Beside the cells and their guides, the coarser ones, and the guides that are still drawn from.
     constexpr std::uint64_t cells = std::uint64_t{cells_along} * cells_along * cells_along * GuidingGrid::sides;
-    const auto paths = static_cast<std::uint64_t>(std::min(pixels, most_paths));
-    return paths * vertices * sizeof(FoundLight) + 2 * cells * (sizeof(Sums) + sizeof(DirectionMap));
+    return 2 * cells * (sizeof(Sums) + sizeof(DirectionGuide));
 }
 
 /// Around nearly all places: a few may be far away, seen through a window. None: there is no grid yet.
@@ -123,9 +171,7 @@ void GuidingLearner::add(const FoundLight& f) {
     std::unique_ptr<Sums>& sums = cells_[static_cast<std::size_t>(grid_.cell_of(f.position, f.normal))];
     if (!sums)
         sums = std::make_unique<Sums>();
-    const auto bin = static_cast<std::size_t>(DirectionMap::bin_of(f.direction));
-    sums->first[bin] += f.irradiance;
-    sums->second[bin] += f.irradiance * f.irradiance;
+    sums->add(f);
 }
 
 GuidingGrid GuidingLearner::coarser(int times) const {
@@ -149,37 +195,37 @@ GuidingLearner::Cells GuidingLearner::merged(int times) const {
     return cells;
 }
 
-DirectionMap GuidingLearner::map_of(const Sums& sums, const DirectionMap* prior) {
+DirectionGuide GuidingLearner::guide_of(const Sums& sums, const DirectionGuide* prior) {
     DirectionMap::Shares expected;
     for (int b = 0; b < DirectionMap::bins; ++b)
-        expected[static_cast<std::size_t>(b)] = prior ? prior->share(b) : 1.0f / DirectionMap::bins;
-    Sharing sharing{sums.first, sums.second, expected};
-    sharing.share_out({0, 0, DirectionMap::edge}, 1);
-    return DirectionMap(sharing.shares);
+        expected[static_cast<std::size_t>(b)] = prior ? prior->map.share(b) : 1.0f / DirectionMap::bins;
+    const DirectionMap::Shares shares =
+        share_out(Squares::sums_of(sums.first), Squares::sums_of(sums.second), Squares::sums_of(expected));
+    return {DirectionMap(shares), sums.best_share(prior ? prior->share : first_share)};
 }
 
 std::shared_ptr<const PathGuiding> GuidingLearner::guiding() const {
     if (cells_.empty())
         return {};
-    std::vector<DirectionMap> maps;
-    std::vector<int> above; // of the coarser grid, which map a cell has
+    std::vector<DirectionGuide> guides;
+    std::vector<int> above; // of the coarser grid, which guide a cell has
     for (int times = halvings; times >= 0; --times) {
         const GuidingGrid grid = coarser(times), coarse = coarser(times + 1);
         const Cells cells = merged(times);
-        std::vector<int> map_of_cell(cells.size(), -1);
+        std::vector<int> guide_of_cell(cells.size(), -1);
         for_each_cell(grid, [&](glm::ivec3 cell, int side) {
             const auto i = static_cast<std::size_t>(grid.index(cell, side));
             if (!above.empty())
-                map_of_cell[i] = above[static_cast<std::size_t>(coarse.index(cell >> 1, side))];
+                guide_of_cell[i] = above[static_cast<std::size_t>(coarse.index(cell >> 1, side))];
             const double samples = cells[i] ? cells[i]->samples() : 0;
             if (!(samples >= least_samples)) // nor where sums have become too large for floats
                 return;
-            const int prior = std::exchange(map_of_cell[i], static_cast<int>(maps.size()));
-            maps.push_back(map_of(*cells[i], prior < 0 ? nullptr : &maps[static_cast<std::size_t>(prior)]));
+            const int prior = std::exchange(guide_of_cell[i], static_cast<int>(guides.size()));
+            guides.push_back(guide_of(*cells[i], prior < 0 ? nullptr : &guides[static_cast<std::size_t>(prior)]));
         });
-        above = std::move(map_of_cell);
+        above = std::move(guide_of_cell);
     }
-    return std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(maps));
+    return std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(guides));
 }
 
 } // namespace tessera

@@ -18,21 +18,29 @@ public:
     /// What is known by now; null: nothing was found.
     std::shared_ptr<const PathGuiding> guiding() const;
 
-    /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: at most
-    /// about a million of them until there are twice as many passes, whatever the size, so that learning never
-    /// takes longer than rendering.
+    /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: as many as
+    /// there are in one pass, but at most about a million, until there are twice as many passes; and a thousand of
+    /// each pass. Of all paths, no more is learnt that helps, and where they are cheap it takes a tenth of the
+    /// time.
     static float share_of_paths(int pixels, int index);
 
-    /// About the memory that guiding takes: what a pass finds, what is learnt from it, and the maps made of that.
-    static std::uint64_t bytes(int pixels);
+    /// About the memory that it takes to guide paths: for what a pass finds, until that is learnt,
+    static std::uint64_t bytes_of_found(int pixels);
+    /// and for what is learnt, and the guides made of it.
+    static std::uint64_t bytes_of_learnt();
 
 private:
-    /// Of one cell, by bins: sums of irradiance, and of its squares, which tell how many samples these stand on.
+    /// Of one cell, by bins: sums of irradiance, and of its squares, which tell how many samples these stand on;
+    /// and likewise of FoundLight::squares, by shares.
     struct Sums {
         std::array<float, DirectionMap::bins> first{}, second{};
+        std::array<double, tried_shares.size()> squares{};
+        double fourth = 0; ///< of the squares without a guide
 
+        void add(const FoundLight& found);
         void add(const Sums& other);
-        double samples() const; ///< (sum w)^2 / sum w^2, of all bins
+        double samples() const;                ///< (sum w)^2 / sum w^2, of all bins
+        float best_share(float unknown) const; ///< of few samples, it is what it was
     };
     using Cells = std::vector<std::unique_ptr<Sums>>; ///< null: nothing was found there
 
@@ -40,7 +48,7 @@ private:
     void add(const FoundLight& found);
     GuidingGrid coarser(int halvings) const;
     Cells merged(int halvings) const;
-    static DirectionMap map_of(const Sums& sums, const DirectionMap* prior);
+    static DirectionGuide guide_of(const Sums& sums, const DirectionGuide* prior);
 
     GuidingGrid grid_;
     Cells cells_;

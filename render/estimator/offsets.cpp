@@ -95,7 +95,7 @@ void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, 
         return;
     const float guided = x.guided_pdf_w(0, x.to_world(to_next)); // from wherever it is seen
     for (int m = 0; m < padded(count); ++m)
-        values.pdf_w[m] = (1 - PathGuiding::share) * values.pdf_w[m] + guided;
+        values.pdf_w[m] = (1 - x.guide->share) * values.pdf_w[m] + guided;
 }
 
 FirstScatter& OffsetPaths::add_first_scatter(int first_slot, int end_slot) {

@@ -204,20 +204,30 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const Cam
     path.reset(path.random, path.light_samples());
 }
 
-void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found) {
-    if (!pass.settings.path_guiding)
-        return;
-    const float share = GuidingLearner::share_of_paths(pass.size.x * pass.size.y, pass.index);
-    if (path.random.draw(0, Draw::path_survival) >= share)
+bool tells_of_light(const Pass& pass, const Random& random) {
+    return pass.settings.path_guiding && random.draw(0, Draw::path_survival) <
+                                             GuidingLearner::share_of_paths(pass.size.x * pass.size.y, pass.index);
+}
+
+void note_light(const Pass& pass, const PathGuiding* guiding, const BasePath& path,
+                std::vector<FoundLight>& found) {
+    if (!tells_of_light(pass, path.random))
         return;
     for (int i = 0; i < path.size(); ++i) {
         const BaseVertex& v = path[i];
-        if ((i + 1 == path.size() && !v.escapes) || v.is_delta ||
-            v.vertex.bsdf.roughness() < PathGuiding::least_roughness)
+        const Vertex& x = v.vertex;
+        if ((i + 1 == path.size() && !v.escapes) || x.bsdf.roughness() < PathGuiding::least_roughness)
             continue;
-        const float irradiance = luminance(v.hit_brings + v.arriving) * std::abs(v.to_next.z) / v.pdf_w;
-        if (irradiance > 0 && std::isfinite(irradiance))
-            found.push_back({v.vertex.position, v.vertex.frame.normal, v.vertex.to_world(v.to_next), irradiance});
+        const Rgb beyond = (v.hit_brings + v.arriving) / (v.pdf_w * v.survival);
+        if (!(luminance(beyond) > 0) || !is_finite(beyond))
+            continue;
+        FoundLight f{x.position, x.frame.normal, x.to_world(v.to_next), 0};
+        if (!v.is_delta)
+            f.irradiance = luminance(beyond) * std::abs(v.to_next.z);
+        if (const DirectionGuide* known = guiding ? guiding->known_at(f.position, f.normal) : nullptr)
+            f.squares = squares_by_share(luminance(v.f_cos * beyond), v.pdf_w,
+                                         v.is_delta ? 0 : known->map.pdf_w(f.direction), known->share);
+        found.push_back(f);
     }
 }
 

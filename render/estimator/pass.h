@@ -286,8 +286,13 @@ Image<float> sharers_of(const Pass& pass);
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number = 0);
 
-/// Notes what light the base path of a pixel has found, if later passes are to be guided by it.
-void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
+/// Whether later passes are to be guided by what the base path with these random numbers finds.
+bool tells_of_light(const Pass& pass, const Random& random);
+
+/// Notes what light the base path of a pixel has found, if it is to tell of it.
+/// @param guiding  of this pass; null: none
+void note_light(const Pass& pass, const PathGuiding* guiding, const BasePath& path,
+                std::vector<FoundLight>& found);
 
 /// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
 /// it blurs is seen through some of its points only.

@@ -82,11 +82,31 @@ private:
     std::array<Slot, bins> slots_;
 };
 
+/// What directions at a place are drawn from.
+struct DirectionGuide {
+    DirectionMap map;
+    float share; ///< of the directions; the BSDF has the others, so that no light is ever missed
+};
+
+/// The shares that are tried: multiples of a quarter, so that random numbers below 1 stay so when one is stretched
+/// over its part.
+inline constexpr std::array<float, 4> tried_shares = {0, 0.25f, 0.5f, 0.75f};
+using TriedShares = std::array<float, tried_shares.size()>;
+
+/// What the square of a sample would have been with each share, times how much more often it would have been
+/// drawn: in the mean over all samples, the second moment with that share.
+/// @param value          of the sample: what was found, over pdf_w
+/// @param pdf_w, guided  of its direction: as it was drawn, with the share `used`, and by the guide alone; of a
+///                       delta scatter its probability, and 0
+TriedShares squares_by_share(float value, float pdf_w, float guided, float used);
+
 /// Light that a base path found beyond one of its vertices.
 struct FoundLight {
     glm::vec3 position, normal; ///< of the vertex; unit, of shading
     glm::vec3 direction;        ///< unit, world
-    float irradiance;           ///< luminance times cosine, over the pdf of the direction
+    float irradiance; ///< luminance times cosine, over the pdf of the direction; 0: a delta scatter's, which no
+                      ///< guide draws, but which is drawn less often where there is one
+    TriedShares squares{}; ///< squares_by_share() of what the vertex sends on of it; 0: nothing was known there
 };
 
 /// A grid over the places that paths come to, and the side to which surfaces there look.
@@ -115,25 +135,35 @@ struct GuidingGrid {
 /// same distribution at the same place.
 class PathGuiding {
 public:
-    /// @param map_of_cell  of each cell of the grid, which of the maps; -1: none
-    PathGuiding(const GuidingGrid& grid, std::vector<int> map_of_cell, std::vector<DirectionMap> maps)
-        : grid_(grid), map_of_cell_(std::move(map_of_cell)), maps_(std::move(maps)) {}
+    /// @param known  of each cell of the grid, which of the guides; -1: none
+    PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides)
+        : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)) {
+        for (int& guide : drawn_from_)
+            if (guide >= 0 && guides_[static_cast<std::size_t>(guide)].share == 0)
+                guide = -1;
+    }
 
-    /// Of directions that are drawn; the BSDF has the others, so that no light is ever missed.
-    static constexpr float share = 0.5f;
     /// Below this roughness, the BSDF alone knows best.
     static constexpr float least_roughness = 0.11f;
 
-    /// Null: nothing is known there.
-    const DirectionMap* at(glm::vec3 position, glm::vec3 normal) const {
-        const int map = map_of_cell_[static_cast<std::size_t>(grid_.cell_of(position, normal))];
-        return map < 0 ? nullptr : &maps_[static_cast<std::size_t>(map)];
+    /// What is known of a place; null: nothing.
+    const DirectionGuide* known_at(glm::vec3 position, glm::vec3 normal) const {
+        return guide(known_, position, normal);
+    }
+    /// What is drawn from there; null: the BSDF has all directions.
+    const DirectionGuide* at(glm::vec3 position, glm::vec3 normal) const {
+        return guide(drawn_from_, position, normal);
     }
 
 private:
+    const DirectionGuide* guide(const std::vector<int>& of_cell, glm::vec3 position, glm::vec3 normal) const {
+        const int guide = of_cell[static_cast<std::size_t>(grid_.cell_of(position, normal))];
+        return guide < 0 ? nullptr : &guides_[static_cast<std::size_t>(guide)];
+    }
+
     GuidingGrid grid_;
-    std::vector<int> map_of_cell_;
-    std::vector<DirectionMap> maps_;
+    std::vector<int> known_, drawn_from_;
+    std::vector<DirectionGuide> guides_;
 };
 
 } // namespace tessera

@@ -124,14 +124,14 @@ LightPoint Vertex::light_toward(glm::vec3 direction) const {
 }
 
 std::optional<BsdfSample> Vertex::sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
-    constexpr float share = PathGuiding::share;
+    const float share = guide->share;
     if (lobe >= share) {
         auto s = bsdf.sample(to_viewer, (lobe - share) / (1 - share), u);
         if (s)
             s->pdf_w = s->is_delta ? (1 - share) * s->pdf_w : guided_pdf_w(s->pdf_w, to_world(s->to_next));
         return s;
     }
-    const DirectionMap::Sample drawn = guide->sample(lobe / share, u);
+    const DirectionMap::Sample drawn = guide->map.sample(lobe / share, u);
     const glm::vec3 to_next = to_local(drawn.direction);
     const BsdfValue v = bsdf.evaluate(to_viewer, to_next);
     if (is_black(v.f_cos))

@@ -25,10 +25,10 @@ struct Vertex {
     glm::vec3 geometric_normal; ///< unit, of the triangle, on its front side
     Frame frame;                ///< of shading; on a two-sided material on the side of to_previous
     Bsdf bsdf;
-    glm::vec3 to_previous;               ///< unit, in `frame`
-    Rgb emitted{0};                      ///< radiance given off on the front side; black: no light
-    float emitter_pdf_a = 0;             ///< density of emitter sampling here, per area; 0: no light
-    const DirectionMap* guide = nullptr; ///< where to draw a share of the directions from; null: the BSDF has all
+    glm::vec3 to_previous;                 ///< unit, in `frame`
+    Rgb emitted{0};                        ///< radiance given off on the front side; black: no light
+    float emitter_pdf_a = 0;               ///< density of emitter sampling here, per area; 0: no light
+    const DirectionGuide* guide = nullptr; ///< what a share of the directions is drawn from; null: none
 
     glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
     glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
@@ -44,7 +44,7 @@ struct Vertex {
     }
     DeltaValue evaluate_delta(Scatter scatter) const {
         DeltaValue v = bsdf.evaluate_delta(to_previous, scatter);
-        v.probability *= guide ? 1 - PathGuiding::share : 1;
+        v.probability *= guide ? 1 - guide->share : 1;
         return v;
     }
     std::optional<BsdfSample> sample(float lobe, glm::vec2 u) const { return sample_from(to_previous, lobe, u); }
@@ -54,7 +54,7 @@ struct Vertex {
     }
     /// Of a direction (unit, world), where there is a guide, by what the BSDF alone has.
     float guided_pdf_w(float bsdf_pdf_w, glm::vec3 direction) const {
-        return (1 - PathGuiding::share) * bsdf_pdf_w + PathGuiding::share * guide->pdf_w(direction);
+        return (1 - guide->share) * bsdf_pdf_w + guide->share * guide->map.pdf_w(direction);
     }
 
     /// The light of this vertex toward a unit direction (world, away from the surface); black from behind.

@@ -215,8 +215,10 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
         if (stop.stop_requested())
             continue;
         for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
+            if (!tells_of_light(pass, pass.random(p.x0, p.y0)))
+                return;
             trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.camera_sample({p.x0, p.y0}), worker.path);
-            note_light(pass, worker.path, found.back());
+            note_light(pass, worker.tracer.guiding, worker.path, found.back());
         });
     }
     return found;
@@ -246,10 +248,12 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
                     cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
     }
     GuidingLearner guiding;
-    for (int i = 0; i < pass && !stop.stop_requested() && (cuts || settings.path_guiding); ++i) {
+    const int guides_from =
+        settings.path_guiding ? static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))) : 0;
+    for (int i = 0; i < (cuts ? pass : guides_from) && !stop.stop_requested(); ++i) {
         Worker worker(scene, camera, size, settings, plan.guiding());
         const Pass replayed(scene, camera, size, settings, plan, i);
-        if (settings.path_guiding)
+        if (i < guides_from)
             guiding.learn(light_found_in(replayed, worker, stop));
         for (const int cell : cells)
             learn_luminance(replayed, plan.cell(cell), worker, plan);

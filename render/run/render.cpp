@@ -62,9 +62,10 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
         sizeof(Rgb) + GuideImages::bytes_a_pixel +
         static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::uint64_t guiding = settings.path_guiding ? GuidingLearner::bytes(size.x * size.y) : 0;
-    return Film::bytes(size.x, size.y, buffers_of(settings)) +
-           std::max(means, bytes_of_threads(threads, settings) + guiding);
+    const std::uint64_t found = settings.path_guiding ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
+    const std::uint64_t learnt = settings.path_guiding ? GuidingLearner::bytes_of_learnt() : 0;
+    return Film::bytes(size.x, size.y, buffers_of(settings)) + learnt +
+           std::max(means, bytes_of_threads(threads, settings) + found);
 }
 
 /// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,

@@ -224,8 +224,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "What of a texture a path looks up: colours of surfaces, and with PT of lamps that the camera sees.",
          one_of(texture_filters, s.filter_textures), true, true},
         {"path_guiding", "Path guiding",
-         "Draws half of the directions at rough surfaces from where earlier passes found light to come from, by "
-         "place in the scene, and the others by the BSDF.",
+         "Draws some of the directions at rough surfaces from where earlier passes found light to come from, by "
+         "place in the scene: as many as have paid there. The BSDF has the others.",
          Setting::Switch{&s.path_guiding}, true, true},
         {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
          Setting::Whole{&s.light_samples, 1, 16}, true, true},

@@ -1,5 +1,12 @@
 #include "render/estimator/guiding_learner.h"
+#include "render/estimator/offsets.h"
+#include "render/run/render.h"
+#include "render/run/thread_pool.h"
+#include "tests/support/rooms.h"
+#include "tests/surface/bsdf_cases.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +14,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
@@ -28,6 +36,11 @@ DirectionMap::Shares uneven_shares() {
     return shares;
 }
 
+glm::vec3 on_sphere(float z, float phi) {
+    const float r = std::sqrt(1 - z * z);
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
 Random numbers(int i) {
     return Random(1, static_cast<std::uint32_t>(i), 0);
 }
@@ -42,8 +55,7 @@ TEST(DirectionMap, PdfIntegratesToOneOverTheSphere) {
         for (int step = 0; step < steps; ++step) {
             const float z = 2 * (static_cast<float>(ring) + 0.5f) / rings - 1;
             const float phi = 2 * pi * (static_cast<float>(step) + 0.5f) / steps;
-            const float r = std::sqrt(1 - z * z);
-            sum += static_cast<double>(map.pdf_w({r * std::cos(phi), r * std::sin(phi), z}));
+            sum += static_cast<double>(map.pdf_w(on_sphere(z, phi)));
         }
     EXPECT_NEAR(sum * 4 * static_cast<double>(pi) / (rings * steps), 1, 2e-3);
 }
@@ -70,6 +82,65 @@ TEST(DirectionMap, SamplesComeAsOftenAsTheirSharesSayAndKnowTheirPdf) {
     }
 }
 
+/// What a vertex draws, by the pdf that it gives each direction: with every share of a guide the BSDF integrates
+/// to the same, and all who ask for a pdf are told the one that directions are drawn by.
+TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
+    const auto diffuse = shared(DiffuseMaterial{Texture(Rgb(0.7f))}), mirror = shared(copper(0));
+    const Bsdf bsdfs[] = {resolved(DiffuseMaterial{Texture(Rgb(0.7f))}), resolved(copper(0.3f)),
+                          resolved(blend(diffuse, mirror, 0.4f))};
+    constexpr int samples = 400000;
+    const DirectionMap map(uneven_shares());
+    for (const Bsdf& bsdf : bsdfs) {
+        double unguided = 0;
+        for (const float share : tried_shares) {
+            const DirectionGuide guide{map, share};
+            Vertex x;
+            x.frame = Frame(glm::normalize(glm::vec3(0.3f, 0.5f, 0.8f)));
+            x.bsdf = bsdf;
+            x.to_previous = glm::normalize(glm::vec3(0.4f, -0.2f, 0.9f));
+            x.guide = share > 0 ? &guide : nullptr;
+            double sum = 0;
+            int moved = 0;
+            for (int i = 0; i < samples; ++i) {
+                const auto s = x.sample(numbers(i).draw(0, Draw::lobe), numbers(i).draw_2d(0, Draw::direction));
+                if (!s)
+                    continue;
+                sum += static_cast<double>(s->f_cos.g / s->pdf_w) / samples;
+                const float told =
+                    s->is_delta ? x.evaluate_delta(s->scatter).probability : x.evaluate(s->to_next).pdf_w;
+                moved += std::abs(told - s->pdf_w) > 2e-3f * s->pdf_w;
+            }
+            EXPECT_LE(moved, samples / 1000) << share; // at a bin's edge, rounding may move one to the next bin
+            unguided = share > 0 ? unguided : sum;
+            EXPECT_NEAR(sum / unguided, 1, 0.01) << share;
+
+            OffsetVertices y;
+            y.reset(1);
+            y.set(0, x);
+            const glm::vec3 to_next = glm::normalize(glm::vec3(-0.2f, 0.4f, 0.7f));
+            Vec3Lanes direction, from;
+            direction.set(0, x.to_world(to_next));
+            from.set(0, x.to_previous);
+            LaneMask asked;
+            asked[0] = -1;
+            BsdfLanes as_offset, from_elsewhere;
+            y.evaluate(direction, asked, as_offset);
+            evaluate(x, from, to_next, asked, 1, from_elsewhere);
+            const float pdf_w = x.evaluate(to_next).pdf_w;
+            EXPECT_NEAR(as_offset.pdf_w[0] / pdf_w, 1, 1e-4) << share;
+            EXPECT_NEAR(from_elsewhere.pdf_w[0] / pdf_w, 1, 1e-4) << share;
+        }
+    }
+}
+
+TEST(TriedShares, OfDeltaScattersGrowAsTheyAreDrawnLessOften) {
+    const float chance = 0.4f, used = 0.5f;
+    const TriedShares squares = squares_by_share(3, (1 - used) * chance, 0, used);
+    for (std::size_t s = 0; s < tried_shares.size();
+         ++s) // a value is 3 (1 - used) / (1 - share), as often as drawn
+        EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - tried_shares[s]), 1e-4) << tried_shares[s];
+}
+
 TEST(GuidingLearner, DrawsFromWhereLightWasFoundAndOnlyThere) {
     GuidingLearner learner;
     EXPECT_EQ(learner.guiding(), nullptr);
@@ -83,11 +154,89 @@ TEST(GuidingLearner, DrawsFromWhereLightWasFoundAndOnlyThere) {
     learner.learn(found);
     const std::shared_ptr<const PathGuiding> guiding = learner.guiding();
     ASSERT_TRUE(guiding);
-    const DirectionMap *at_here = guiding->at(here, up), *at_there = guiding->at(there, up);
+    const DirectionGuide *at_here = guiding->at(here, up), *at_there = guiding->at(there, up);
     ASSERT_TRUE(at_here && at_there);
-    EXPECT_GT(at_here->pdf_w(from), 10 * at_here->pdf_w(other));
-    EXPECT_GT(at_there->pdf_w(other), 10 * at_there->pdf_w(from));
+    EXPECT_GT(at_here->map.pdf_w(from), 10 * at_here->map.pdf_w(other));
+    EXPECT_GT(at_there->map.pdf_w(other), 10 * at_there->map.pdf_w(from));
     EXPECT_EQ(guiding->at(here, -up), nullptr);
+}
+
+TEST(TriedShares, TellTheSecondMomentsOfOtherShares) {
+    const DirectionMap map(uneven_shares());
+    const auto pdf_with = [&](float share, glm::vec3 d) { return (1 - share) / (4 * pi) + share * map.pdf_w(d); };
+    const auto found_at = [](glm::vec3 d) { return 0.2f + std::max(d.z, 0.0f) * std::max(d.x, 0.0f); };
+    const auto drawn_with = [&](float share, int i) {
+        const Random random = numbers(i);
+        const float lobe = random.draw(0, Draw::lobe);
+        const glm::vec2 u = random.draw_2d(0, Draw::direction);
+        return lobe < share ? map.sample(lobe / share, u).direction : on_sphere(2 * u.x - 1, 2 * pi * u.y);
+    };
+    constexpr int samples = 200000;
+    for (const float used : {0.0f, 0.5f, 0.75f}) {
+        std::array<double, tried_shares.size()> told{};
+        for (int i = 0; i < samples; ++i) {
+            const glm::vec3 d = drawn_with(used, i);
+            const float pdf_w = pdf_with(used, d);
+            const TriedShares squares = squares_by_share(found_at(d) / pdf_w, pdf_w, map.pdf_w(d), used);
+            for (std::size_t s = 0; s < squares.size(); ++s)
+                told[s] += static_cast<double>(squares[s]) / samples;
+        }
+        for (std::size_t s = 0; s < tried_shares.size(); ++s) {
+            double moment = 0;
+            for (int i = 0; i < samples; ++i) {
+                const glm::vec3 d = drawn_with(tried_shares[s], samples + i);
+                moment += std::pow(static_cast<double>(found_at(d) / pdf_with(tried_shares[s], d)), 2) / samples;
+            }
+            EXPECT_NEAR(told[s] / moment, 1, 0.05) << "share " << tried_shares[s] << " by " << used;
+        }
+    }
+}
+
+/// Where half of the light goes on as in a mirror, guided directions take paths away from that.
+TEST(PathGuiding, LeavesMirrorsBesideRoughLobesTheirPaths) {
+    SceneBuilder b;
+    const int wall = b.diffuse(white), half = b.blend(wall, b.mirror(), 0.5f), lamp = b.light(Rgb(5, 4, 3));
+    b.room({half, wall, half, wall, wall});
+    b.quad({-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, wall, lamp);
+    b.camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    const auto scene = b.build();
+    ThreadPool pool(1);
+    double variance[2] = {};
+    for (const bool is_guided : {false, true}) {
+        RenderSettings settings;
+        settings.method = Method::pt;
+        settings.max_depth = 6;
+        settings.very_direct_grid = 1;
+        settings.path_guiding = is_guided;
+        Render render(scene, scene->camera(), {96, 72}, settings);
+        for (int i = 0; i < 32; ++i)
+            render.pass(pool);
+        for (const float v : render.images().primal_variance)
+            variance[is_guided] += static_cast<double>(v);
+    }
+    EXPECT_LT(variance[1], 1.2 * variance[0]);
+}
+
+TEST(GuidingLearner, DrawsAsManyAsPayAndNoneWhereNoneDo) {
+    const glm::vec3 up(0, 1, 0), pays(0), costs(9, 0, 3), few(0.8f, 0, 0), from(0, 1, 0);
+    GuidingLearner learner;
+    std::vector<std::vector<FoundLight>> found(1);
+    for (int i = 0; i < 500; ++i) {
+        found[0].push_back({pays, up, from, 2, {1, 0.8f, 0.9f, 1.2f}});
+        found[0].push_back({costs, up, from, 2, {1, 0.99f, 0.98f, 0.97f}});
+        if (i < 6)
+            found[0].push_back({few, up, from, 2, {1, 2, 3, 4}});
+    }
+    learner.learn(found);
+    const std::shared_ptr<const PathGuiding> guiding = learner.guiding();
+    ASSERT_TRUE(guiding && guiding->at(pays, up));
+    EXPECT_EQ(guiding->at(pays, up)->share, 0.25f);
+    EXPECT_EQ(guiding->at(costs, up), nullptr);
+    ASSERT_TRUE(guiding->known_at(costs, up)) << "it is gone on telling";
+    EXPECT_EQ(guiding->known_at(costs, up)->share, 0);
+    // Too few samples of its own: what is known of all around.
+    ASSERT_NE(guiding->at(few, up), guiding->at(pays, up)) << "another cell";
+    EXPECT_EQ(guiding->at(few, up)->share, 0.25f);
 }
 
 } // namespace tessera::test
