@@ -91,8 +91,9 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 /// does to light [as in Georgiev 2012's SmallVCM], not all before it: what becomes of a suffix must not depend on
 /// the pixel, or those who share it would not agree on which light paths it has. Where light is bent, radiance is
 /// squeezed into another solid angle, and spread again where it comes back: that is no loss. Nor is it one where a
-/// guide has drawn more directions than light is scattered to: there, the albedo tells. (Not of delta scatters,
-/// which no guide draws: a mirror beside a rough lobe would lose half its paths.)
+/// guide has drawn more directions than light is scattered to: there, the albedo tells. (Not of delta scatters:
+/// no guide draws them, and their pdf is less by as much as fewer are drawn, so that as many go on as without
+/// one.)
 float path_survival(const PathSettings& settings, int index, const Vertex& x, const BsdfSample& s) {
     if (settings.roulette_depth == 0 || index < settings.roulette_depth)
         return 1;

@@ -40,7 +40,7 @@ private:
         void add(const FoundLight& found);
         void add(const Sums& other);
         double samples() const;                ///< (sum w)^2 / sum w^2, of all bins
-        float best_share(float unknown) const; ///< of few samples, it is what it was
+        float best_share(float unknown) const; ///< `unknown`, where too few samples tell
     };
     using Cells = std::vector<std::unique_ptr<Sums>>; ///< null: nothing was found there
 
