@@ -26,14 +26,13 @@ class Squares {
 public:
     static constexpr int levels = std::bit_width(unsigned{DirectionMap::edge});
 
-    float& at(int level, int x, int y) {
-        return numbers_[static_cast<std::size_t>(((1 << 2 * level) - 1) / 3 + (y << level) + x)];
-    }
-    float& bin(std::size_t b) { return *(&at(levels - 1, 0, 0) + b); }
+    float& at(int level, int x, int y) { return numbers_[place(level, x, y)]; }
+    float at(int level, int x, int y) const { return numbers_[place(level, x, y)]; }
+    float* bins() { return &at(levels - 1, 0, 0); } ///< row by row
 
     static Squares sums_of(const DirectionMap::Shares& bins) {
         Squares sums;
-        std::ranges::copy(bins, &sums.bin(0));
+        std::ranges::copy(bins, sums.bins());
         for (int level = levels - 2; level >= 0; --level)
             for (int y = 0; y < 1 << level; ++y)
                 for (int x = 0; x < 1 << level; ++x)
@@ -44,12 +43,16 @@ public:
     }
 
 private:
+    static constexpr std::size_t place(int level, int x, int y) {
+        return static_cast<std::size_t>(((1 << 2 * level) - 1) / 3 + (y << level) + x);
+    }
+
     std::array<float, ((1 << 2 * levels) - 1) / 3> numbers_;
 };
 
 /// Shares 1 out among the quarters of the whole, and so on: by what was found there as far as that stands on many
 /// samples, and by the prior as far as on few.
-DirectionMap::Shares share_out(Squares first, Squares second, Squares prior) {
+DirectionMap::Shares share_out(const Squares& first, const Squares& second, const Squares& prior) {
     Squares shares;
     shares.at(0, 0, 0) = 1;
     for (int level = 0; level + 1 < Squares::levels; ++level)
@@ -67,7 +70,7 @@ DirectionMap::Shares share_out(Squares first, Squares second, Squares prior) {
             }
         }
     DirectionMap::Shares bins;
-    std::copy_n(&shares.bin(0), bins.size(), bins.begin());
+    std::copy_n(shares.bins(), bins.size(), bins.begin());
     return bins;
 }
 

@@ -136,8 +136,8 @@ TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
 TEST(TriedShares, OfDeltaScattersGrowAsTheyAreDrawnLessOften) {
     const float chance = 0.4f, used = 0.5f;
     const TriedShares squares = squares_by_share(3, (1 - used) * chance, 0, used);
-    for (std::size_t s = 0; s < tried_shares.size();
-         ++s) // a value is 3 (1 - used) / (1 - share), as often as drawn
+    // A value is 3 (1 - used) / (1 - share), and as much less often drawn.
+    for (std::size_t s = 0; s < tried_shares.size(); ++s)
         EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - tried_shares[s]), 1e-4) << tried_shares[s];
 }
 
@@ -222,7 +222,7 @@ TEST(GuidingLearner, DrawsAsManyAsPayAndNoneWhereNoneDo) {
     GuidingLearner learner;
     std::vector<std::vector<FoundLight>> found(1);
     for (int i = 0; i < 500; ++i) {
-        found[0].push_back({pays, up, from, 2, {1, 0.8f, 0.9f, 1.2f}});
+        found[0].push_back({pays, up, from, 2, {1, 0.9f, 0.8f, 1.2f}});
         found[0].push_back({costs, up, from, 2, {1, 0.99f, 0.98f, 0.97f}});
         if (i < 6)
             found[0].push_back({few, up, from, 2, {1, 2, 3, 4}});
@@ -230,13 +230,13 @@ TEST(GuidingLearner, DrawsAsManyAsPayAndNoneWhereNoneDo) {
     learner.learn(found);
     const std::shared_ptr<const PathGuiding> guiding = learner.guiding();
     ASSERT_TRUE(guiding && guiding->at(pays, up));
-    EXPECT_EQ(guiding->at(pays, up)->share, 0.25f);
+    EXPECT_EQ(guiding->at(pays, up)->share, 0.5f);
     EXPECT_EQ(guiding->at(costs, up), nullptr);
     ASSERT_TRUE(guiding->known_at(costs, up)) << "it is gone on telling";
     EXPECT_EQ(guiding->known_at(costs, up)->share, 0);
     // Too few samples of its own: what is known of all around.
     ASSERT_NE(guiding->at(few, up), guiding->at(pays, up)) << "another cell";
-    EXPECT_EQ(guiding->at(few, up)->share, 0.25f);
+    EXPECT_EQ(guiding->at(few, up)->share, 0.5f);
 }
 
 } // namespace tessera::test
