@@ -4,6 +4,7 @@
 #include "app/cli/option_values.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
+#include "app/experiment/plan.h"
 #include "render/io/exr.h"
 #include "render/io/files.h"
 #include "render/scene/scene.h"
@@ -63,7 +64,7 @@ Experiment::Experiment(const ExperimentOptions& options)
     make_folder(options.output / "jobs");
     if (options.keeps_images)
         make_folder(options.output / "images");
-    check_writable(options.output / "jobs" / worker_name());
+    check_writable(plan_file(options.output)); // a name that all have: what is left of one that is killed goes
     list_jobs();
     recall();
 }

@@ -93,7 +93,8 @@ TEST_F(SharedFolder, ManyFindWhatOneFinds) {
     for (const pid_t worker : workers)
         EXPECT_EQ(code_of(worker), 0) << text("log.txt");
     EXPECT_EQ(rows("many"), rows("one"));
-    EXPECT_EQ(job_files("many").size(), 18u + 1) << "each has its file, and the report is marked as written";
+    EXPECT_EQ(job_files("many").size(), 18u + 1)
+        << "each has its file, and the report is marked as written: " << testing::PrintToString(job_files("many"));
     const std::string log = text("log.txt");
     std::size_t references = 0;
     for (std::size_t at = 0; (at = log.find("is missing: rendering it", at)) != log.npos; ++at)
@@ -112,7 +113,7 @@ TEST_F(SharedFolder, TheOthersGoOnWithoutOneThatIsKilled) {
     EXPECT_EQ(code_of(second), 0);
     EXPECT_EQ(code_of(third), 0);
     EXPECT_EQ(rows("many"), rows("one"));
-    EXPECT_EQ(job_files("many").size(), 18u + 1);
+    EXPECT_EQ(job_files("many").size(), 18u + 1) << testing::PrintToString(job_files("many"));
 }
 
 TEST_F(SharedFolder, AJobArrayDoesAllAndTheLastReports) {
