@@ -1,7 +1,10 @@
 #pragma once
 
 #include "render/estimator/path_guiding.h"
+#include "render/settings/settings.h"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -11,18 +14,25 @@ namespace tessera {
 /// Learns from the light that base paths find where to guide those of later passes.
 class GuidingLearner {
 public:
-    /// Adds what the paths of a pass have found, by blocks, whose order the bits depend on. The first that find
-    /// anything decide on the grid.
+    /// Adds what the paths of a pass have found, by blocks, whose order the bits depend on. They tell of shares by
+    /// the guiding that was made last, which they are to have been drawn with. The first that find anything decide
+    /// on the grid, and each half of them tells by what the other would make.
     void learn(std::span<const std::vector<FoundLight>> found);
 
-    /// What is known by now; null: nothing was found.
-    std::shared_ptr<const PathGuiding> guiding() const;
+    /// Makes anew what is known by now; null: nothing was found. Where it does not pay, all is known, so that
+    /// samples go on telling, and nothing drawn from it.
+    std::shared_ptr<const PathGuiding> make_guiding(Guiding when);
 
-    /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: as many as
-    /// there are in one pass, but at most about a million, until there are twice as many passes; and a thousand of
-    /// each pass. Of all paths, no more is learnt that helps, and where they are cheap it takes a tenth of the
-    /// time.
-    static float share_of_paths(int pixels, int index);
+    /// What the best shares leave of the second moment without a guide, (0, 1]: the geometric mean over the cells
+    /// that tell, by their numbers of samples, so that no few bright samples decide. 1: none tell yet.
+    double left_of_squares() const;
+
+    /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: of the first
+    /// pass 64 thousand paths; then as many as there are in one pass, but at most a quarter of a million, until
+    /// there are twice as many passes, or a quarter of these while nothing is drawn; and a thousand of each pass.
+    /// Of all paths, no more is learnt that helps.
+    /// @param draws  guides are drawn from in this pass
+    static float share_of_paths(int pixels, int index, bool draws);
 
     /// About the memory that it takes to guide paths: for what a pass finds, until that is learnt,
     static std::uint64_t bytes_of_found(int pixels);
@@ -31,27 +41,31 @@ public:
 
 private:
     /// Of one cell, by bins: sums of irradiance, and of its squares, which tell how many samples these stand on;
-    /// and likewise of FoundLight::squares, by shares.
+    /// and likewise of squares_by_share(), by shares.
     struct Sums {
         std::array<float, DirectionMap::bins> first{}, second{};
         std::array<double, tried_shares.size()> squares{};
         double fourth = 0; ///< of the squares without a guide
 
-        void add(const FoundLight& found);
+        void add(const FoundLight& found, const DirectionGuide* known);
         void add(const Sums& other);
-        double samples() const;                ///< (sum w)^2 / sum w^2, of all bins
-        float best_share(float unknown) const; ///< `unknown`, where too few samples tell
+        double samples() const;         ///< (sum w)^2 / sum w^2, of all bins
+        double told() const;            ///< likewise, the number of samples that tell of shares; 0: too few
+        std::size_t best_tried() const; ///< of tried_shares; 0: none pays
     };
     using Cells = std::vector<std::unique_ptr<Sums>>; ///< null: nothing was found there
 
     void lay_grid(std::span<const std::vector<FoundLight>> found);
-    void add(const FoundLight& found);
+    void learn_by_halves(std::span<const std::vector<FoundLight>> found);
+    void add(const FoundLight& found, const PathGuiding* drawn_with);
     GuidingGrid coarser(int halvings) const;
     Cells merged(int halvings) const;
     static DirectionGuide guide_of(const Sums& sums, const DirectionGuide* prior);
+    bool draws(Guiding when) const;
 
     GuidingGrid grid_;
     Cells cells_;
+    std::shared_ptr<const PathGuiding> guiding_; ///< that was made last
 };
 
 } // namespace tessera

@@ -31,7 +31,7 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, from, worker.path, worker.number);
             if (worker.number == 0)
-                note_light(pass, worker.tracer.guiding, worker.path, worker.found);
+                note_light(pass, worker.path, worker.found);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
@@ -42,7 +42,7 @@ void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, W
     worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0}, worker.number);
     if (worker.number == 0)
         for_each_square(area, 1, [&](PixelRect p) {
-            note_light(pass, worker.tracer.guiding, worker.base.at(p.x0, p.y0), worker.found);
+            note_light(pass, worker.base.at(p.x0, p.y0), worker.found);
         });
 }
 

@@ -90,11 +90,20 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex);
 }
 
+namespace {
+float telling_share_of(glm::ivec2 size, const RenderSettings& settings, const PathGuiding* guiding, int index) {
+    if (settings.path_guiding == Guiding::off)
+        return 0;
+    return GuidingLearner::share_of_paths(size.x * size.y, index, guiding && guiding->draws());
+}
+} // namespace
+
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const ReusePlan& plan, int index_)
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
-      projection_(camera, size_), has_lens_(camera.aperture_radius > 0),
-      subpixel_(subpixel_of(settings_.seed, index_)), lens_(lens_of(settings_.seed, index_)) {}
+      telling_share(telling_share_of(size_, settings_, plan.guiding(), index_)), projection_(camera, size_),
+      has_lens_(camera.aperture_radius > 0), subpixel_(subpixel_of(settings_.seed, index_)),
+      lens_(lens_of(settings_.seed, index_)) {}
 
 glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
     // Of the four numbers of the R4 sequence, two for the column and two for the row.
@@ -205,12 +214,10 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const Cam
 }
 
 bool tells_of_light(const Pass& pass, const Random& random) {
-    return pass.settings.path_guiding && random.draw(0, Draw::path_survival) <
-                                             GuidingLearner::share_of_paths(pass.size.x * pass.size.y, pass.index);
+    return pass.telling_share > 0 && random.draw(0, Draw::path_survival) < pass.telling_share;
 }
 
-void note_light(const Pass& pass, const PathGuiding* guiding, const BasePath& path,
-                std::vector<FoundLight>& found) {
+void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found) {
     if (!tells_of_light(pass, path.random))
         return;
     for (int i = 0; i < path.size(); ++i) {
@@ -221,13 +228,9 @@ void note_light(const Pass& pass, const PathGuiding* guiding, const BasePath& pa
         const Rgb beyond = (v.hit_brings + v.arriving) / (v.pdf_w * v.survival);
         if (!(luminance(beyond) > 0) || !is_finite(beyond))
             continue;
-        FoundLight f{x.position, x.frame.normal, x.to_world(v.to_next), 0};
-        if (!v.is_delta)
-            f.irradiance = luminance(beyond) * std::abs(v.to_next.z);
-        if (const DirectionGuide* known = guiding ? guiding->known_at(f.position, f.normal) : nullptr)
-            f.squares = squares_by_share(luminance(v.f_cos * beyond), v.pdf_w,
-                                         v.is_delta ? 0 : known->map.pdf_w(f.direction), known->share);
-        found.push_back(f);
+        const float irradiance = v.is_delta ? 0 : luminance(beyond) * std::abs(v.to_next.z);
+        found.push_back(
+            {x.position, x.frame.normal, x.to_world(v.to_next), irradiance, luminance(v.f_cos * beyond), v.pdf_w});
     }
 }
 

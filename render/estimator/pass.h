@@ -84,6 +84,7 @@ public:
     const glm::ivec2 size;
     const int index;
     const TileGrid grid;
+    const float telling_share; ///< of the base paths: what they find is learnt, to guide later passes
 
     /// Where within their pixels and on the lens all base paths begin whose light is shared within the block that
     /// a pixel is in, those of the block's border among them: so the values of the box filter cancel in gradients
@@ -235,13 +236,14 @@ private:
 /// What a worker carries from block to block: memory and counts.
 struct Worker {
     /// Keeps references to all but the camera.
+    /// @param guiding  of this pass; null: none
     Worker(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
            const PathGuiding* guiding)
         : tracer{scene,
                  counters,
                  settings,
                  {settings.filter_textures, is_demodulated(settings), camera, size},
-                 guiding},
+                 guiding && guiding->draws() ? guiding : nullptr},
           reuse(tracer, settings, settings.weight_threshold) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -286,13 +288,11 @@ Image<float> sharers_of(const Pass& pass);
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number = 0);
 
-/// Whether later passes are to be guided by what the base path with these random numbers finds.
+/// Whether later passes are to learn from what the base path with these random numbers finds.
 bool tells_of_light(const Pass& pass, const Random& random);
 
 /// Notes what light the base path of a pixel has found, if it is to tell of it.
-/// @param guiding  of this pass; null: none
-void note_light(const Pass& pass, const PathGuiding* guiding, const BasePath& path,
-                std::vector<FoundLight>& found);
+void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
 
 /// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
 /// it blurs is seen through some of its points only.

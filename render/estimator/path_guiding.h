@@ -104,9 +104,10 @@ TriedShares squares_by_share(float value, float pdf_w, float guided, float used)
 struct FoundLight {
     glm::vec3 position, normal; ///< of the vertex; unit, of shading
     glm::vec3 direction;        ///< unit, world
-    float irradiance; ///< luminance times cosine, over the pdf of the direction; 0: a delta scatter's, which no
-                      ///< guide draws, but which is drawn less often where there is one
-    TriedShares squares{}; ///< squares_by_share() of what the vertex sends on of it; 0: nothing was known there
+    float irradiance; ///< luminance times cosine, over pdf_w and the survival of the roulette; 0: a delta scatter's,
+                      ///< which no guide draws, but which is drawn less often where there is one
+    float value, pdf_w; ///< luminance of what the vertex sends on of it, over the same; the pdf of the direction as
+                        ///< it was drawn, or a delta scatter's probability
 };
 
 /// A grid over the places that paths come to, and the side to which surfaces there look.
@@ -141,7 +142,11 @@ public:
         for (int& guide : drawn_from_)
             if (guide >= 0 && guides_[static_cast<std::size_t>(guide)].share == 0)
                 guide = -1;
+        draws_ = std::ranges::any_of(drawn_from_, [](int guide) { return guide >= 0; });
     }
+
+    /// Whether anything is drawn from it, at any place.
+    bool draws() const { return draws_; }
 
     /// Below this roughness, the BSDF alone knows best.
     static constexpr float least_roughness = 0.11f;
@@ -164,6 +169,7 @@ private:
     GuidingGrid grid_;
     std::vector<int> known_, drawn_from_;
     std::vector<DirectionGuide> guides_;
+    bool draws_;
 };
 
 } // namespace tessera

@@ -218,7 +218,7 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
             if (!tells_of_light(pass, pass.random(p.x0, p.y0)))
                 return;
             trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.camera_sample({p.x0, p.y0}), worker.path);
-            note_light(pass, worker.tracer.guiding, worker.path, found.back());
+            note_light(pass, worker.path, found.back());
         });
     }
     return found;
@@ -249,7 +249,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
     }
     GuidingLearner guiding;
     const int guides_from =
-        settings.path_guiding ? static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))) : 0;
+        settings.path_guiding != Guiding::off ? static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))) : 0;
     for (int i = 0; i < (cuts ? pass : guides_from) && !stop.stop_requested(); ++i) {
         Worker worker(scene, camera, size, settings, plan.guiding());
         const Pass replayed(scene, camera, size, settings, plan, i);
@@ -258,7 +258,7 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
         for (const int cell : cells)
             learn_luminance(replayed, plan.cell(cell), worker, plan);
         if (std::has_single_bit(static_cast<unsigned>(i + 1)))
-            plan.set_guiding(guiding.guiding());
+            plan.set_guiding(guiding.make_guiding(settings.path_guiding));
     }
     return plan;
 }

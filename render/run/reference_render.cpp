@@ -89,6 +89,7 @@ RenderSettings reference_settings() {
     settings.method = Method::gpr;
     settings.tile = 8;
     settings.seed = first_reference_seed;
+    settings.path_guiding = Guiding::off; // two halves that learn are not twice what one is
     return settings;
 }
 
@@ -119,8 +120,8 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
       pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
       identity_(share_identity(subject_, recipe)),
       wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
-    if (recipe.settings.path_guiding)
-        throw std::invalid_argument("path_guiding is on: references are made without it, as what they would have "
+    if (recipe.settings.path_guiding != Guiding::off)
+        throw std::invalid_argument("path guiding is not off: references are made without it, as what they would have "
                                     "learnt is not in their checkpoints");
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();

@@ -62,8 +62,9 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
         sizeof(Rgb) + GuideImages::bytes_a_pixel +
         static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    const std::uint64_t found = settings.path_guiding ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
-    const std::uint64_t learnt = settings.path_guiding ? GuidingLearner::bytes_of_learnt() : 0;
+    const bool learns = settings.path_guiding != Guiding::off;
+    const std::uint64_t found = learns ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
+    const std::uint64_t learnt = learns ? GuidingLearner::bytes_of_learnt() : 0;
     return Film::bytes(size.x, size.y, buffers_of(settings)) + learnt +
            std::max(means, bytes_of_threads(threads, settings) + found);
 }
@@ -225,7 +226,7 @@ void Render::learn_from_pass() {
     film_.finish(first_pass_ + spp_);
     ++spp_;
     if (std::has_single_bit(unsigned(spp_))) {
-        plan_.set_guiding(guiding_.guiding());
+        plan_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
         film_.ask_for_looks(first_pass_ + 2 * spp_);
         if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first)
             plan_.learn_noise(film_.noise(spp_));

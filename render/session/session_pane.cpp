@@ -30,10 +30,13 @@ void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t ge
     const Clock::time_point start = Clock::now();
     const int divisor = pane.previews.divisor(generation, request.size);
     const glm::ivec2 size = (request.size + divisor - 1) / divisor;
-    Render coarse(request.scene, request.camera, size, request.settings);
+    RenderSettings settings = request.settings;
+    settings.path_guiding = Guiding::off; // a first pass is not guided, and there is no second one to learn for
+    Render coarse(request.scene, request.camera, size, settings);
     if (!coarse.pass(pool_, stop, &pane.pass_share))
         return;
     const auto snapshot = snapshot_of(coarse, generation, divisor);
+    snapshot->settings = request.settings;
     snapshot->reconstructed_with = possible_reconstruction(pane);
     auto made = std::make_shared<Reconstruction>(
         reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.loops(), stop));

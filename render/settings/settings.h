@@ -19,13 +19,20 @@ enum class TextureFilter : std::uint8_t {
     path    ///< the same, but in mirrors and through glass what it covers there
 };
 
+/// Whether directions are also drawn from where earlier passes found light.
+enum class Guiding : std::uint8_t {
+    off,
+    where_it_pays, ///< in scenes where samples tell that it brings more than it costs
+    on             ///< in every scene, where a place's own samples do not tell otherwise
+};
+
 /// What decides how far base paths go and what they look for.
 struct PathSettings {
     int max_depth = 8;      ///< edges of a light path; 1: emission only
     int light_samples = 1;  ///< points on lights drawn at every vertex
     int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
     TextureFilter filter_textures = TextureFilter::off;
-    bool path_guiding = false; ///< directions are also drawn from where earlier passes found light
+    Guiding path_guiding = Guiding::where_it_pays;
 
     bool operator==(const PathSettings&) const = default;
 };

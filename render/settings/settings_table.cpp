@@ -57,6 +57,13 @@ constexpr SettingChoice texture_filters[] = {
      "much of a texture is in a pixel. Softer by less than a pixel."},
     {"path", "by path", "The same, but in mirrors and through glass what a pixel covers there [Suykens 2001]."},
 };
+constexpr SettingChoice guidings[] = {
+    {"off", "off", "Lights and BSDFs have all directions."},
+    {"auto", "where it pays",
+     "In scenes where passes tell that less noise makes up for the time that it takes; the others have the same "
+     "bits as without."},
+    {"on", "on", "In every scene, at places where samples do not tell that it is of no use."},
+};
 constexpr SettingChoice roulette_kinds[] = {
     {"relative", "relative", "Against the noise of the tile: the unit of light does not matter."},
     {"absolute", "absolute", "Against RR delta, a radiance [Bauszat 2017, 3.3]."},
@@ -226,7 +233,7 @@ std::vector<Setting> settings_of(RenderSettings& s) {
         {"path_guiding", "Path guiding",
          "Draws some of the directions at rough surfaces from where earlier passes found light to come from, by "
          "place in the scene: as many as have paid there. The BSDF has the others.",
-         Setting::Switch{&s.path_guiding}, true, true},
+         one_of(guidings, s.path_guiding), true, true},
         {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
          Setting::Whole{&s.light_samples, 1, 16}, true, true},
         {"very_direct_grid", "Lamp grid",

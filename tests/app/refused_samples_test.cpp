@@ -119,8 +119,8 @@ TEST_F(RefusedSamples, OfARenderOpenInTheViewer) {
 TEST_F(RefusedSamples, OfReferencesAndBenchmarksAreToldLikewise) {
     const Outcome reference = tessera("reference" + std::string(options) + "--spp 2 -o ref.exr");
     for (const char* seed : {"1001", "1002"}) // of each half
-        EXPECT_THAT(reference.output,
-                    HasSubstr("--tile 5 --max-depth 4 --seed " + std::string(seed) + " --inspect "));
+        EXPECT_THAT(reference.output, HasSubstr("--tile 5 --max-depth 4 --path-guiding off --seed " +
+                                                std::string(seed) + " --inspect "));
     const Outcome bench =
         tessera("bench 'too bright.xml' --size 24x16 --max-depth 4 --spp 2 --methods pt --seeds 1 "
                 "--reference refs --reference-spp 2 -o out");

@@ -1,10 +1,10 @@
 // What path guiding does to a method's noise and cost: renders with and without it take turns, seed by seed.
 //
-//     guiding_bench SCENE.xml [METHOD [SEEDS [SPP]]]
+//     guiding_bench SCENE.xml [METHOD [SEEDS [SPP [auto]]]]
 //
 // For 8, 32, ... samples a pixel, in 320x180: CPU seconds, and the variance of the primal from seed to seed over
 // the squared mean of all, in the mean over the pixels and without the worst thousandth; and how many times less
-// variance times CPU seconds there is with it.
+// variance times CPU seconds there is with it. "auto": with it where it pays.
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "render/run/thread_pool.h"
@@ -69,11 +69,13 @@ std::array<double, 2> variance(const Measured& m, const std::vector<double>& squ
     return {mean_of(pixels.size()), mean_of(pixels.size() - pixels.size() / 1000)};
 }
 
+/// @param settings  with guiding as it is to be measured
 void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings, int seeds, int spp) {
+    const Guiding guided = settings.path_guiding;
     std::map<int, ByGuiding> found; // by samples a pixel
     ThreadPool pool(1);
     for (int i = 0; i < 2 * seeds; ++i) {
-        settings.path_guiding = i % 2 == 1;
+        settings.path_guiding = i % 2 == 1 ? guided : Guiding::off;
         settings.seed = std::uint64_t(i / 2);
         Render render(scene, scene->camera(), size, settings);
         for (int samples = 8; samples <= spp; samples *= 4) {
@@ -101,11 +103,12 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
 
 int main(int count, char** arguments) {
     if (count < 2) {
-        fmt::print("usage: guiding_bench SCENE.xml [METHOD [SEEDS [SPP]]]\n");
+        fmt::print("usage: guiding_bench SCENE.xml [METHOD [SEEDS [SPP [auto]]]]\n");
         return 2;
     }
     tessera::RenderSettings settings;
     settings.method = tessera::method_from_name(count > 2 ? arguments[2] : "pt").value();
+    settings.path_guiding = count > 5 ? tessera::Guiding::where_it_pays : tessera::Guiding::on;
     const auto scene = std::make_shared<const tessera::Scene>(tessera::load_mitsuba_xml(arguments[1]).description);
     tessera::measure(scene, settings, count > 3 ? std::stoi(arguments[3]) : 3,
                      count > 4 ? std::stoi(arguments[4]) : 128);

@@ -36,6 +36,7 @@ RenderSettings path_tracing(int max_depth) {
     RenderSettings settings;
     settings.method = Method::pt;
     settings.max_depth = max_depth;
+    settings.path_guiding = Guiding::off;
     return settings;
 }
 

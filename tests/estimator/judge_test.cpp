@@ -37,6 +37,7 @@ Variant variant(std::string name, Method method, int tile,
     s.method = method;
     s.tile = tile;
     s.seed = 1000 * static_cast<std::uint64_t>(tile) + 17;
+    s.path_guiding = Guiding::off; // so that each variant is of one thing, whatever passes find
     if (change)
         change(s);
     return {std::move(name), s};
@@ -51,15 +52,15 @@ std::vector<Variant> all_variants() {
                 [](S& s) { s.light_samples = 3, s.roulette_depth = 2; }),
         variant("pt, adaptive", Method::pt, 1, [](S& s) { s.adaptive = true; }),
         variant("pt, path guiding, RR depth 1", Method::pt, 1,
-                [](S& s) { s.path_guiding = true, s.roulette_depth = 1; }),
-        variant("pr, path guiding", Method::pr, 4, [](S& s) { s.path_guiding = true; }),
-        variant("gpt, path guiding", Method::gpt, 1, [](S& s) { s.path_guiding = true; }),
+                [](S& s) { s.path_guiding = Guiding::on, s.roulette_depth = 1; }),
+        variant("pr, path guiding", Method::pr, 4, [](S& s) { s.path_guiding = Guiding::on; }),
+        variant("gpt, path guiding", Method::gpt, 1, [](S& s) { s.path_guiding = Guiding::on; }),
         variant("gpr, path guiding, 2 light samples", Method::gpr, 6,
-                [](S& s) { s.path_guiding = true, s.light_samples = 2; }),
+                [](S& s) { s.path_guiding = Guiding::on, s.light_samples = 2; }),
         variant("gpr, path guiding, replay", Method::gpr, 3,
-                [](S& s) { s.path_guiding = true, s.shift = ShiftKind::replay; }),
+                [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay; }),
         variant("gpr, path guiding, replay-reconnection", Method::gpr, 4,
-                [](S& s) { s.path_guiding = true, s.shift = ShiftKind::replay_reconnection; }),
+                [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay_reconnection; }),
         variant("pr, adaptive", Method::pr, 4, [](S& s) { s.adaptive = true; }),
         variant("gpt, adaptive", Method::gpt, 1, [](S& s) { s.adaptive = true; }),
         variant("gpr, adaptive", Method::gpr, 3, [](S& s) { s.adaptive = true; }),

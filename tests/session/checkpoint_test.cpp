@@ -33,6 +33,7 @@ Render new_render(const std::shared_ptr<const Scene>& scene, Method method) {
     RenderSettings settings;
     settings.method = method;
     settings.tile = 5;
+    settings.path_guiding = Guiding::off; // what is learnt of guides is in no checkpoint
     return Render(scene, scene->camera(), {37, 29}, settings);
 }
 

@@ -70,8 +70,8 @@ std::vector<Variant> variants() {
     add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
     add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
     add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
-    add("path_guiding", Method::gpr, [](S& s) { s.path_guiding = true; });
-    add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = true, s.adaptive = true; });
+    add("path_guiding", Method::gpr, [](S& s) { s.path_guiding = Guiding::on; });
+    add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on, s.adaptive = true; });
     add("adaptive", Method::gpr, [](S& s) { s.adaptive = true; });
     add("adaptive_pairs", Method::gpt, [](S& s) { s.adaptive = true; });
     add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });

@@ -67,7 +67,8 @@ TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
             otherwise += sample(ReusePlan(size, settings)) != own;
         }
     }
-    EXPECT_EQ(otherwise > 0, (settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding);
+    EXPECT_EQ(otherwise > 0,
+              (settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding == Guiding::on);
 }
 
 RenderSettings settings_of(Method method, int tile = 6) {
@@ -76,6 +77,7 @@ RenderSettings settings_of(Method method, int tile = 6) {
     settings.tile = tile;
     settings.max_depth = 5;
     settings.seed = 21;
+    settings.path_guiding = Guiding::off;
     return settings;
 }
 
@@ -92,9 +94,9 @@ RenderSettings reconnection() {
     return settings;
 }
 
-RenderSettings guided(Method method) {
+RenderSettings guided(Method method, Guiding when = Guiding::on) {
     RenderSettings settings = settings_of(method);
-    settings.path_guiding = true;
+    settings.path_guiding = when;
     return settings;
 }
 
@@ -130,7 +132,8 @@ TEST(PlanReplayOfNothing, IsThereAtOnce) {
 INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,
                          testing::Values(settings_of(Method::pt), settings_of(Method::pr),
                                          settings_of(Method::gpt), settings_of(Method::gpr), rooks(),
-                                         reconnection(), guided(Method::pt), guided(Method::gpr)));
+                                         reconnection(), guided(Method::pt), guided(Method::gpr),
+                                         guided(Method::gpr, Guiding::where_it_pays)));
 
 } // namespace
 

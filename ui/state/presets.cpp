@@ -15,6 +15,7 @@ PaneSettings plain() {
     s.render.shift_distance = 0;
     s.render.weight_threshold = 0;
     s.render.roulette_depth = 0;
+    s.render.path_guiding = Guiding::off;
     s.reconstruction.spikes = Spikes::off;
     return s;
 }
