@@ -11,14 +11,14 @@ namespace tessera {
 
 namespace {
 
-constexpr int cells_along = 12;      // of the grid's longest side
-constexpr int first_paths = 1 << 16; // that are learnt from, of the first pass,
-constexpr int most_paths = 1 << 18;  // and of others until there are twice as many,
-constexpr float undrawn = 0.25f;     // or such a part of them, while nothing is drawn from guides
-constexpr int least_paths = 1 << 10; // of a pass
-constexpr int halvings = 2;          // of which coarser grids are made, which tell of cells where little was found
-constexpr double least_samples = 8;  // of which a map is made, or that tell of shares
-constexpr float prior_samples = 4;   // that the coarser cell's map, or evenness, counts as
+constexpr int cells_along = 12; // of the grid's longest side
+// How many paths are learnt from: of the first pass; of later ones, until there are twice as many; of each of
+// these at least; and such a part of them while nothing is drawn from guides.
+constexpr int first_paths = 1 << 16, most_paths = 1 << 18, least_paths = 1 << 10;
+constexpr float undrawn = 0.25f;
+constexpr int halvings = 2;         // of which coarser grids are made, which tell of cells where little was found
+constexpr double least_samples = 8; // of which a map is made, or that tell of shares
+constexpr float prior_samples = 4;  // that the coarser cell's map, or evenness, counts as
 
 // Of shares: that of a guide of which nothing is known yet, and what the second moment without a guide must be
 // undercut by, as guided paths cost more. (With 1/2, and 32 samples to tell, a mirror beside a rough lobe had
@@ -142,7 +142,7 @@ float GuidingLearner::share_of_paths(int pixels, int index, bool draws) {
     if (index == 0)
         return share(first_paths);
     const auto passes = static_cast<float>(std::bit_floor(static_cast<unsigned>(index)));
-    return std::max(share(most_paths) * (draws ? 1 : undrawn) / passes, share(least_paths));
+    return std::max(share(most_paths) / passes, share(least_paths)) * (draws ? 1 : undrawn);
 }
 
 std::uint64_t GuidingLearner::bytes_of_found(int pixels) {

@@ -29,8 +29,8 @@ public:
 
     /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: of the first
     /// pass 64 thousand paths; then as many as there are in one pass, but at most a quarter of a million, until
-    /// there are twice as many passes, or a quarter of these while nothing is drawn; and a thousand of each pass.
-    /// Of all paths, no more is learnt that helps.
+    /// there are twice as many passes, and a thousand of each pass; a quarter of that while nothing is drawn. Of
+    /// all paths, no more is learnt that helps.
     /// @param draws  guides are drawn from in this pass
     static float share_of_paths(int pixels, int index, bool draws);
 

@@ -89,7 +89,7 @@ RenderSettings reference_settings() {
     settings.method = Method::gpr;
     settings.tile = 8;
     settings.seed = first_reference_seed;
-    settings.path_guiding = Guiding::off; // two halves that learn are not twice what one is
+    settings.path_guiding = Guiding::off; // what it learns is in no checkpoint
     return settings;
 }
 

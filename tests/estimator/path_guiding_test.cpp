@@ -353,6 +353,7 @@ TEST(GuidingLearner, LearnsOfTheFirstPassesMost) {
     };
     EXPECT_EQ(paths(1000, 0, false), 1000);
     EXPECT_EQ(paths(1000, 7, true), 1000);
+    EXPECT_EQ(paths(1000, 7, false), 250);
     constexpr int pixels = 1 << 20;
     double drawn = 0, undrawn = 0;
     for (int index = 16; index < 32; ++index) {
@@ -363,6 +364,7 @@ TEST(GuidingLearner, LearnsOfTheFirstPassesMost) {
     EXPECT_NEAR(paths(pixels, 1, true), 1 << 18, 1);
     EXPECT_NEAR(drawn, 1 << 18, 16);
     EXPECT_NEAR(undrawn, 1 << 16, 16);
+    EXPECT_NEAR(paths(pixels, 1 << 20, true), 1 << 10, 1);
 }
 
 } // namespace tessera::test
