@@ -270,6 +270,7 @@ TEST(GuidingLearner, DrawsAsManyAsPayAndNoneWhereNoneDo) {
         if (i < 6)
             found[0].push_back(light(few, up));
     }
+    found[0].push_back({pays, up, up, 1, 1e30f, 1 / (4 * pi)}); // its square is no number, and tells nothing
     learner.learn(found);
     const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::on);
     ASSERT_TRUE(guiding && guiding->at(pays, up));
