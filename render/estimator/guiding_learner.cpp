@@ -24,8 +24,8 @@ constexpr float prior_samples = 4;  // that the coarser cell's map, or evenness,
 // undercut by, as guided paths cost more. (With 1/2, and 32 samples to tell, a mirror beside a rough lobe had
 // twice the variance, and Veach, Ajar gained no more; with 0 it gains less.)
 constexpr float first_share = 0.25f, least_gain = 0.1f;
-// And of a scene, where guiding is to draw only where it pays: unguided paths tell of 0.75 to 0.83 in Veach, Ajar,
-// guided ones of less; of 0.88 to 0.98 where the time it takes is about as much as it saves.
+// And of a scene, where guiding is to draw only where it pays: unguided paths tell of 0.79 in Veach, Ajar, guided
+// ones of less; of 0.94 and more in rooms where the time it takes is about as much as it saves.
 constexpr double most_left = 0.85;
 
 /// Numbers of squares of bins: of the whole, of its quarters, and so on down to single bins.
@@ -262,10 +262,6 @@ double GuidingLearner::left_of_squares() const {
     return all > 0 ? std::exp(logs / all) : 1;
 }
 
-bool GuidingLearner::draws(Guiding when) const {
-    return when == Guiding::on || (when == Guiding::where_it_pays && left_of_squares() < most_left);
-}
-
 std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
     if (cells_.empty())
         return {};
@@ -287,10 +283,11 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
         });
         above = std::move(guide_of_cell);
     }
-    if (!draws(when))
+    const double left = left_of_squares();
+    if (when == Guiding::off || (when == Guiding::where_it_pays && left >= most_left))
         for (DirectionGuide& guide : guides)
             guide.share = 0;
-    guiding_ = std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(guides));
+    guiding_ = std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(guides), left);
     return guiding_;
 }
 

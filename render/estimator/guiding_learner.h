@@ -23,10 +23,6 @@ public:
     /// samples go on telling, and nothing drawn from it.
     std::shared_ptr<const PathGuiding> make_guiding(Guiding when);
 
-    /// What the best shares leave of the second moment without a guide, (0, 1]: the geometric mean over the cells
-    /// that tell, by their numbers of samples, so that no few bright samples decide. 1: none tell yet.
-    double left_of_squares() const;
-
     /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: of the first
     /// pass 64 thousand paths; then as many as there are in one pass, but at most a quarter of a million, until
     /// there are twice as many passes, and a thousand of each pass; a quarter of that while nothing is drawn. Of
@@ -61,7 +57,7 @@ private:
     GuidingGrid coarser(int halvings) const;
     Cells merged(int halvings) const;
     static DirectionGuide guide_of(const Sums& sums, const DirectionGuide* prior);
-    bool draws(Guiding when) const;
+    double left_of_squares() const; ///< as in PathGuiding
 
     GuidingGrid grid_;
     Cells cells_;

@@ -104,10 +104,10 @@ TriedShares squares_by_share(float value, float pdf_w, float guided, float used)
 struct FoundLight {
     glm::vec3 position, normal; ///< of the vertex; unit, of shading
     glm::vec3 direction;        ///< unit, world
-    float irradiance; ///< luminance times cosine, over pdf_w and the survival of the roulette; 0: a delta scatter's,
-                      ///< which no guide draws, but which is drawn less often where there is one
-    float value, pdf_w; ///< luminance of what the vertex sends on of it, over the same; the pdf of the direction as
-                        ///< it was drawn, or a delta scatter's probability
+    float irradiance; ///< luminance times cosine, over pdf_w and the survival of the roulette; 0: a delta
+                      ///< scatter's, which no guide draws, but which is drawn less often where there is one
+    float value, pdf_w; ///< luminance of what the vertex sends on of it, over the same; the pdf of the direction
+                        ///< as it was drawn, or a delta scatter's probability
 };
 
 /// A grid over the places that paths come to, and the side to which surfaces there look.
@@ -137,8 +137,10 @@ struct GuidingGrid {
 class PathGuiding {
 public:
     /// @param known  of each cell of the grid, which of the guides; -1: none
-    PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides)
-        : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)) {
+    PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides,
+                double left_of_squares)
+        : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)),
+          left_of_squares_(left_of_squares) {
         for (int& guide : drawn_from_)
             if (guide >= 0 && guides_[static_cast<std::size_t>(guide)].share == 0)
                 guide = -1;
@@ -147,6 +149,10 @@ public:
 
     /// Whether anything is drawn from it, at any place.
     bool draws() const { return draws_; }
+
+    /// What the best shares leave of the second moment without a guide, (0, 1]: the geometric mean over the cells
+    /// that tell, by their numbers of samples, so that no few bright samples decide. 1: none tell yet.
+    double left_of_squares() const { return left_of_squares_; }
 
     /// Below this roughness, the BSDF alone knows best.
     static constexpr float least_roughness = 0.11f;
@@ -167,8 +173,10 @@ private:
     }
 
     GuidingGrid grid_;
-    std::vector<int> known_, drawn_from_;
+    std::vector<int> known_;
+    std::vector<int> drawn_from_; ///< -1 where nothing is drawn, so that no path has to look into the guide there
     std::vector<DirectionGuide> guides_;
+    double left_of_squares_;
     bool draws_;
 };
 

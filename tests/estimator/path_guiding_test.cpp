@@ -1,5 +1,6 @@
-#include "render/estimator/guiding_learner.h"
+#include "render/estimator/base_path.h"
 #include "render/estimator/offsets.h"
+#include "render/estimator/path_guiding.h"
 #include "render/run/render.h"
 #include "render/run/thread_pool.h"
 #include "tests/support/rooms.h"
@@ -39,17 +40,6 @@ DirectionMap::Shares uneven_shares() {
 glm::vec3 on_sphere(float z, float phi) {
     const float r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
-glm::vec3 on_sphere(glm::vec2 u) {
-    return on_sphere(2 * u.x - 1, 2 * pi * u.y);
-}
-
-constexpr glm::vec3 up(0, 1, 0);
-
-/// Light that is found at a place that looks up, where all directions are drawn as often.
-FoundLight light(glm::vec3 at, glm::vec3 direction, float value = 1) {
-    return {at, up, direction, value, value, 1 / (4 * pi)};
 }
 
 Random numbers(int i) {
@@ -144,32 +134,45 @@ TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
     }
 }
 
+/// Fewer of a mirror's directions are drawn where there is a guide; of these more go on, as far as there are more.
+TEST(GuidedVertex, MirrorsBesideRoughLobesGoOnAsOftenAsWithoutAGuide) {
+    SceneBuilder b;
+    const int wall = b.diffuse(white), half = b.blend(wall, b.mirror(), 0.5f);
+    b.room({half, half, half, half, half});
+    b.camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    const auto scene = b.build();
+    constexpr float share = 0.5f;
+    const PathGuiding everywhere({glm::ivec3(1), glm::vec3(0), 1}, std::vector<int>(GuidingGrid::sides, 0),
+                                 {{DirectionMap(uneven_shares()), share}}, 1);
+    const Projection projection(scene->camera(), {64, 64});
+    const auto survivals = [&](const PathGuiding* guiding) { // of mirrored paths at x_2
+        Counters counters;
+        PathSettings settings;
+        settings.roulette_depth = 1;
+        const Tracer tracer{
+            *scene, counters, settings, {TextureFilter::off, false, scene->camera(), {64, 64}}, guiding};
+        std::vector<float> found;
+        BasePath path;
+        for (int i = 0; i < 2000; ++i) {
+            trace_base_path(tracer, projection.ray({i % 64, i / 64}), projection.pixel_width(), numbers(i), path);
+            if (path.size() > 2 && path[1].is_delta)
+                found.push_back(path[1].survival);
+        }
+        return found;
+    };
+    const std::vector<float> without = survivals(nullptr), with = survivals(&everywhere);
+    ASSERT_GT(without.size(), 100u);
+    ASSERT_GT(with.size(), 50u);
+    for (const float survival : with)
+        EXPECT_NEAR(survival, std::min(without.front() / (1 - share), 0.95f), 1e-5);
+}
+
 TEST(TriedShares, OfDeltaScattersGrowAsTheyAreDrawnLessOften) {
     const float chance = 0.4f, used = 0.5f;
     const TriedShares squares = squares_by_share(3, (1 - used) * chance, 0, used);
     // A value is 3 (1 - used) / (1 - share), and as much less often drawn.
     for (std::size_t s = 0; s < tried_shares.size(); ++s)
         EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - tried_shares[s]), 1e-4) << tried_shares[s];
-}
-
-TEST(GuidingLearner, DrawsFromWhereLightWasFoundAndOnlyThere) {
-    GuidingLearner learner;
-    EXPECT_EQ(learner.make_guiding(Guiding::on), nullptr);
-    const glm::vec3 here(0), there(9, 0, 3), from = glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f)),
-                                             other = glm::normalize(glm::vec3(-0.3f, 0.8f, -0.5f));
-    std::vector<std::vector<FoundLight>> found(2);
-    for (int i = 0; i < 500; ++i) {
-        found[0].push_back(light(here, from));
-        found[1].push_back(light(there, other));
-    }
-    learner.learn(found);
-    const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::on);
-    ASSERT_TRUE(guiding);
-    const DirectionGuide *at_here = guiding->at(here, up), *at_there = guiding->at(there, up);
-    ASSERT_TRUE(at_here && at_there);
-    EXPECT_GT(at_here->map.pdf_w(from), 10 * at_here->map.pdf_w(other));
-    EXPECT_GT(at_there->map.pdf_w(other), 10 * at_there->map.pdf_w(from));
-    EXPECT_EQ(guiding->at(here, -up), nullptr);
 }
 
 TEST(TriedShares, TellTheSecondMomentsOfOtherShares) {
@@ -180,7 +183,7 @@ TEST(TriedShares, TellTheSecondMomentsOfOtherShares) {
         const Random random = numbers(i);
         const float lobe = random.draw(0, Draw::lobe);
         const glm::vec2 u = random.draw_2d(0, Draw::direction);
-        return lobe < share ? map.sample(lobe / share, u).direction : on_sphere(u);
+        return lobe < share ? map.sample(lobe / share, u).direction : on_sphere(2 * u.x - 1, 2 * pi * u.y);
     };
     constexpr int samples = 200000;
     for (const float used : {0.0f, 0.5f, 0.75f}) {
@@ -226,146 +229,6 @@ TEST(PathGuiding, LeavesMirrorsBesideRoughLobesTheirPaths) {
             variance[is_guided] += static_cast<double>(v);
     }
     EXPECT_LT(variance[1], 1.2 * variance[0]);
-}
-
-/// A room that a lamp lights, or one that looks up, so that all comes from a patch of the ceiling.
-TEST(PathGuiding, IsThereByItselfWhereItPaysAndElsewhereChangesNothing) {
-    const auto picture = [](const std::shared_ptr<const Scene>& scene, Guiding when) {
-        RenderSettings settings;
-        settings.method = Method::pt;
-        settings.path_guiding = when;
-        ThreadPool pool(2);
-        Render render(scene, scene->camera(), {160, 120}, settings);
-        for (int i = 0; i < 5; ++i)
-            render.pass(pool);
-        return render.images().primal;
-    };
-    const auto same = [](const RgbImage& a, const RgbImage& b) { return std::ranges::equal(a, b); };
-    for (const bool is_hidden : {false, true}) {
-        SceneBuilder b;
-        const int wall = b.diffuse(white), lamp = b.light(Rgb(50, 40, 30));
-        b.room({wall, wall, wall, wall, wall});
-        const float y = is_hidden ? 0.75f : 0.98f;
-        if (is_hidden) // it looks up
-            b.quad({-0.05f, y, -0.05f}, {0, 0, 0.1f}, {0.1f, 0, 0}, wall, lamp);
-        else
-            b.quad({-0.05f, y, -0.05f}, {0.1f, 0, 0}, {0, 0, 0.1f}, wall, lamp);
-        b.camera({0, 0, 2.6f}, {0, -0.9f, -0.6f}, 16);
-        const auto scene = b.build();
-        const RgbImage by_itself = picture(scene, Guiding::where_it_pays);
-        EXPECT_EQ(same(by_itself, picture(scene, Guiding::on)), is_hidden);
-        EXPECT_EQ(same(by_itself, picture(scene, Guiding::off)), !is_hidden);
-    }
-}
-
-TEST(GuidingLearner, DrawsAsManyAsPayAndNoneWhereNoneDo) {
-    const glm::vec3 pays(0), costs(9, 0, 3), few(0.8f, 0, 0);
-    GuidingLearner learner;
-    std::vector<std::vector<FoundLight>> found(1);
-    for (int i = 0; i < 400; ++i) {
-        found[0].push_back(light(pays, up));
-        found[0].push_back(light(costs, on_sphere(numbers(i).draw_2d(0, Draw::direction))));
-        if (i % 50 == 0) // a mirror's, of which more than half of the directions would take away too many
-            found[0].push_back({pays, up, up, 0, 0.32f, 0.5f});
-        if (i < 6)
-            found[0].push_back(light(few, up));
-    }
-    found[0].push_back({pays, up, up, 1, 1e30f, 1 / (4 * pi)}); // its square is no number, and tells nothing
-    learner.learn(found);
-    const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::on);
-    ASSERT_TRUE(guiding && guiding->at(pays, up));
-    EXPECT_TRUE(guiding->draws());
-    EXPECT_EQ(guiding->at(pays, up)->share, 0.5f);
-    EXPECT_EQ(guiding->at(costs, up), nullptr) << "a guide that its own samples are told by would seem to pay";
-    ASSERT_TRUE(guiding->known_at(costs, up)) << "it is gone on telling";
-    EXPECT_EQ(guiding->known_at(costs, up)->share, 0);
-    // Too few samples of its own: what is known of all around.
-    ASSERT_NE(guiding->at(few, up), guiding->at(pays, up)) << "another cell";
-    EXPECT_EQ(guiding->at(few, up)->share, 0.5f);
-}
-
-/// Light from everywhere finds no use in a guide, and light from above nearly all.
-TEST(GuidingLearner, DrawsInAWholeSceneWhereItPays) {
-    const glm::vec3 pays(0), costs(9, 0, 3), bright(0, 0, 3);
-    for (const int times : {1, 60}) {
-        GuidingLearner learner;
-        EXPECT_EQ(learner.left_of_squares(), 1);
-        std::vector<std::vector<FoundLight>> found(1);
-        for (int i = 0; i < 100; ++i) {
-            found[0].push_back(light(pays, up));
-            for (int k = 0; k < times; ++k)
-                found[0].push_back(light(costs, on_sphere(numbers(times * i + k).draw_2d(0, Draw::direction))));
-            if (i % 5 == 0) // rare, and so bright that it would have all to say by its squares
-                found[0].push_back(light(bright, on_sphere(numbers(-i).draw_2d(0, Draw::direction)), 1000));
-        }
-        learner.learn(found);
-        EXPECT_LT(learner.left_of_squares(), times == 1 ? 0.3 : 0.98);
-        EXPECT_GT(learner.left_of_squares(), times == 1 ? 0.05 : 0.9);
-        const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::where_it_pays);
-        ASSERT_TRUE(guiding && guiding->known_at(pays, up)) << "it is gone on telling";
-        EXPECT_EQ(guiding->draws(), times == 1);
-        EXPECT_TRUE(learner.make_guiding(Guiding::on)->draws());
-        EXPECT_EQ(guiding->at(pays, up) != nullptr, times == 1);
-        EXPECT_EQ(guiding->at(costs, up), nullptr);
-    }
-}
-
-/// What paths tell is by the guide that they were drawn with, whatever that draws.
-TEST(GuidingLearner, TellsByTheGuideThatPathsWereDrawnWith) {
-    GuidingLearner learner;
-    const glm::vec3 here(0), there(9, 0, 3);
-    enum class From { above, everywhere };
-    const auto pass = [&](const DirectionGuide* guide, From from, float brightness) {
-        std::vector<std::vector<FoundLight>> found(1);
-        const float even = 1 / (4 * pi), share = guide ? guide->share : 0;
-        for (int i = 0; i < 400; ++i) {
-            const glm::vec2 u = numbers(i).draw_2d(0, Draw::direction);
-            const float lobe = numbers(i).draw(0, Draw::lobe);
-            const glm::vec3 d = from == From::above ? up
-                                : lobe < share      ? guide->map.sample(lobe / share, u).direction
-                                                    : on_sphere(u);
-            const float pdf_w = (1 - share) * even + (guide ? share * guide->map.pdf_w(d) : 0);
-            const float value = brightness * even / pdf_w;
-            found[0].push_back({here, up, d, value, value, pdf_w});
-            if (!guide)
-                found[0].push_back(light(there, on_sphere(u)));
-        }
-        learner.learn(found);
-        return learner.make_guiding(Guiding::on);
-    };
-    const auto first = pass(nullptr, From::above, 1);
-    const double left = learner.left_of_squares();
-    ASSERT_TRUE(first->at(here, up));
-    EXPECT_EQ(first->at(here, up)->share, 0.75f);
-    const auto second = pass(first->at(here, up), From::above, 100);
-    ASSERT_TRUE(second->at(here, up));
-    EXPECT_EQ(second->at(here, up)->share, 0.75f);
-    EXPECT_NEAR(learner.left_of_squares(), left, 0.3 * left) << "the guide is good as ever";
-    const auto third = pass(second->at(here, up), From::everywhere, 1e3f);
-    EXPECT_EQ(third->at(here, up), nullptr) << "and is no longer";
-    const auto fourth = pass(third->at(here, up), From::above, 1e5f);
-    ASSERT_TRUE(fourth->at(here, up)) << "and again, by paths that nothing has guided";
-    EXPECT_EQ(fourth->at(here, up)->share, 0.75f);
-}
-
-TEST(GuidingLearner, LearnsOfTheFirstPassesMost) {
-    const auto paths = [](int pixels, int index, bool draws) {
-        return pixels * static_cast<double>(GuidingLearner::share_of_paths(pixels, index, draws));
-    };
-    EXPECT_EQ(paths(1000, 0, false), 1000);
-    EXPECT_EQ(paths(1000, 7, true), 1000);
-    EXPECT_EQ(paths(1000, 7, false), 250);
-    constexpr int pixels = 1 << 20;
-    double drawn = 0, undrawn = 0;
-    for (int index = 16; index < 32; ++index) {
-        drawn += paths(pixels, index, true);
-        undrawn += paths(pixels, index, false);
-    }
-    EXPECT_NEAR(paths(pixels, 0, false), 1 << 16, 1);
-    EXPECT_NEAR(paths(pixels, 1, true), 1 << 18, 1);
-    EXPECT_NEAR(drawn, 1 << 18, 16);
-    EXPECT_NEAR(undrawn, 1 << 16, 16);
-    EXPECT_NEAR(paths(pixels, 1 << 20, true), 1 << 10, 1);
 }
 
 } // namespace tessera::test
