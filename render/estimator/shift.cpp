@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 namespace tessera {
 
-void Shift::run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,
+void Shift::run(const BasePath& base, const LightPaths& light, PrimaryVertices& primary, int self,
                 OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes) {
     base_ = &base;
     light_ = &light;

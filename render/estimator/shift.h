@@ -6,6 +6,8 @@
 #include "render/estimator/shift_onlooker.h"
 #include "render/estimator/tracer.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,14 +16,44 @@
 namespace tessera {
 
 /// What the pixels of a sampling set see, x_1 of each.
-struct PrimaryVertices : OffsetVertices {
+class PrimaryVertices : public OffsetVertices {
+public:
     FloatLanes pixel_width; ///< BasePath::pixel_width
 
+    /// Begins another set.
+    void reset(int count) {
+        OffsetVertices::reset(count);
+        ++set_;
+    }
     /// Keeps a reference to the path, which sees something.
     void set_pixel(int lane, const BasePath& path) {
         set(lane, path[0].vertex);
         pixel_width[lane] = path.pixel_width;
     }
+
+    /// What lies beyond x_1 in the direction of a delta scatter: that is the same for every base path of the set,
+    /// so it is traced for the first alone, by trace(vertex), which says whether there is anything. Null: nothing
+    /// is. It stays until the next set.
+    template <class Trace>
+    const Vertex* beyond(int lane, Scatter scatter, glm::vec3 direction, Trace&& trace) {
+        if (beyond_.size() < 2 * static_cast<std::size_t>(count())) // no vertex of this set is in use yet
+            beyond_.resize(2 * static_cast<std::size_t>(count()));
+        Beyond& b = beyond_[static_cast<std::size_t>(2 * lane + (scatter == Scatter::transmit ? 1 : 0))];
+        if (b.set != set_ || b.direction != direction)
+            b.set = set_, b.direction = direction, b.is_met = trace(b.vertex);
+        return b.is_met ? &b.vertex : nullptr;
+    }
+
+private:
+    struct Beyond {
+        std::uint64_t set = 0; ///< of which it is known; 0: of none
+        glm::vec3 direction;   ///< unit, world
+        bool is_met;
+        Vertex vertex;
+    };
+
+    std::vector<Beyond> beyond_; ///< two a lane, reflected and transmitted; never shrinks
+    std::uint64_t set_ = 0;
 };
 
 /// How a shift went, a lane a pixel.
@@ -67,13 +99,14 @@ public:
     Shift(const Tracer& tracer, const ShiftSettings& settings)
         : tracer_(tracer), settings_(settings), rule_(settings, 0) {}
 
-    /// @param primary  what the pixels see; a lane without a vertex is not shifted to
+    /// @param primary  what the pixels see; a lane without a vertex is not shifted to. It is told
+    ///                 what lies beyond delta scatters
     /// @param self     the lane of the base's own pixel, which is left alone; -1: none
     /// @param paths    receives ratios and values, all failed before
     /// @param edges    receives the new edges, unchecked
     /// @param outcomes receives ok, or why the first light path that failed did so
-    void run(const BasePath& base, const LightPaths& light, const PrimaryVertices& primary, int self,
-             OffsetPaths& paths, PendingEdges& edges, OutcomeLanes& outcomes);
+    void run(const BasePath& base, const LightPaths& light, PrimaryVertices& primary, int self, OffsetPaths& paths,
+             PendingEdges& edges, OutcomeLanes& outcomes);
 
     /// @param onlooker  is told of all that the next runs do; null: nobody is
     void set_onlooker(ShiftOnlooker* onlooker) { onlooker_ = onlooker; }
@@ -114,6 +147,7 @@ private:
     // Bounces.
     bool bounce(int i);
     bool bounce(int i, int m);
+    const Vertex* meet(int i, int m, glm::vec3 direction);
     void bounce_to_light(int i, int sample, int m);
     void bounce_out(int i, int m);
     void ask_for_scatter(int i, int first_slot, int end_slot);
@@ -152,15 +186,16 @@ private:
     OutcomeLanes* outcomes_ = nullptr;
 
     // The offsets, as far as the walk has come.
-    const PrimaryVertices* primary_ = nullptr; ///< y_1
-    const OffsetVertices* y_ = nullptr;        ///< y_i
-    LaneMask active_;                          ///< those that go on
-    FloatLanes apart_;                         ///< how far y_i lies from other pixels' (JoinRule)
-    FloatLanes own_width_;                     ///< of a pixel at y_i, as Tracer::width_beyond() has it
+    PrimaryVertices* primary_ = nullptr; ///< y_1
+    const OffsetVertices* y_ = nullptr;  ///< y_i
+    LaneMask active_;                    ///< those that go on
+    FloatLanes apart_;                   ///< how far y_i lies from other pixels' (JoinRule)
+    FloatLanes own_width_;               ///< of a pixel at y_i, as Tracer::width_beyond() has it
     PrefixLanes prefix_;
     FirstScatter* bounced_ = nullptr; ///< the scatter at y_1 that is done again, lane by lane; null: nobody asks
     OffsetVertices moved_;            ///< y_i beyond the first bounce
     std::vector<Vertex> moved_vertices_;
+    std::vector<const Vertex*> met_; ///< y_{i+1} while it is looked for
 
     // Memory that is too large for the stack, written before it is read by whoever makes a connection.
     VertexConnection vertex_connection_;

@@ -30,6 +30,7 @@ bool Shift::bounce(int i) {
     const int count = y_->count();
     ask_for_scatter(i, light_->hit_slot(i), light_->slot_count());
     moved_vertices_.resize(static_cast<std::size_t>(count));
+    met_.resize(static_cast<std::size_t>(count));
     bool any = false;
     for (int m = 0; m < count; ++m) {
         active_[m] = active_[m] && bounce(i, m) ? -1 : 0;
@@ -38,10 +39,23 @@ bool Shift::bounce(int i) {
     moved_.reset(count);
     for (int m = 0; m < count; ++m)
         if (active_[m])
-            moved_.set(m, moved_vertices_[static_cast<std::size_t>(m)]);
+            moved_.set(m, *met_[static_cast<std::size_t>(m)]);
     y_ = &moved_;
     tell_of(active_, [&](int m) { onlooker_->arrives(m, moved_[m]); });
     return any;
+}
+
+/// What y_i meets in the direction of the scatter at hand, perhaps in the place of y_i itself; null: nothing.
+const Vertex* Shift::meet(int i, int m, glm::vec3 direction) {
+    const BaseVertex& x = base(i);
+    const auto trace = [&](Vertex& next) {
+        return tracer_.closest(tracer_.leave((*y_)[m], direction), next, RayKind::shift_bounce,
+                               tracer_.width_beyond(own_width_[m], 0, x.is_delta));
+    };
+    if (i == 0 && x.is_delta)
+        return primary_->beyond(m, x.scatter, direction, trace);
+    Vertex& next = moved_vertices_[static_cast<std::size_t>(m)];
+    return trace(next) ? &next : nullptr;
 }
 
 bool Shift::bounce(int i, int m) {
@@ -51,23 +65,20 @@ bool Shift::bounce(int i, int m) {
         return false;
     keep_bounce(m, *s, x.is_delta);
     const Vertex& y = (*y_)[m];
-    Vertex& next = moved_vertices_[static_cast<std::size_t>(m)]; // perhaps y itself
     const glm::vec3 direction = y.to_world(s->to_next);
     const glm::vec3 origin = y.position;
-    const bool is_inside = tracer_.closest(tracer_.leave(y, direction), next, RayKind::shift_bounce,
-                                           tracer_.width_beyond(own_width_[m], 0, x.is_delta));
+    const Vertex* next = met_[static_cast<std::size_t>(m)] = meet(i, m, direction);
     // By a connectable step, an emitter is reached by connecting (done before); else by this very ray.
     if (!light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i))) {
-        const LightPoint met =
-            is_inside ? tracer_.light_of(next, -direction) : tracer_.environment_toward(direction);
+        const LightPoint met = next ? tracer_.light_of(*next, -direction) : tracer_.environment_toward(direction);
         end_at_light(light_->hit_slot(i), m, *s, origin, met, x.pdf_w + x.hit_pdf_w, x.is_delta);
     }
-    if (!is_inside) {
+    if (!next) {
         fail(m, ShiftOutcome::outside);
         return false;
     }
-    const float distance = glm::distance(origin, next.position);
-    if (!x.is_delta && !is_joined_alike(i, m, distance, next)) {
+    const float distance = glm::distance(origin, next->position);
+    if (!x.is_delta && !is_joined_alike(i, m, distance, *next)) {
         fail(m, ShiftOutcome::kind_mismatch);
         return false;
     }

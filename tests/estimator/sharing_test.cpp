@@ -47,29 +47,63 @@ public:
           reuse_(tracer_, settings_, 0) {}
 
     Tally run(int sets) {
-        for (int i = 0; i < sets; ++i) {
-            const Random random(5, static_cast<std::uint32_t>(i), 0);
-            share_all(glm::ivec2(random.draw_2d(0, Draw::direction) * glm::vec2(size - edge)), random);
-        }
+        for (int i = 0; i < sets; ++i)
+            share_all(paths_of(i));
         return tally_;
+    }
+
+    /// What the pixels of sets get of all their paths, and the rays that the offsets took.
+    struct Shared {
+        std::vector<Rgb> radiance;
+        std::uint64_t rays = 0;
+    };
+    /// @param begins_anew  before each path; else once a set
+    Shared share_sets(int sets, bool begins_anew) {
+        Shared result;
+        const std::uint64_t before = counters_.offset_rays();
+        for (int i = 0; i < sets; ++i) {
+            const std::vector<BasePath> paths = paths_of(i);
+            const Set set = set_of(paths);
+            std::vector<Rgb> radiance(set.size(), Rgb(0));
+            for (std::size_t k = 0; k < set.size(); ++k) {
+                if (k == 0 || begins_anew)
+                    reuse_.begin(set);
+                reuse_.share(static_cast<int>(k), 1, radiance);
+            }
+            result.radiance.insert(result.radiance.end(), radiance.begin(), radiance.end());
+        }
+        result.rays = counters_.offset_rays() - before;
+        return result;
     }
 
 private:
     using Set = std::vector<const BasePath*>;
 
-    void share_all(glm::ivec2 corner, const Random& random) {
+    std::vector<BasePath> paths_of(int set) {
+        const Random random(5, static_cast<std::uint32_t>(set), 0);
+        const glm::ivec2 corner(random.draw_2d(0, Draw::direction) * glm::vec2(size - edge));
         const Projection projection(scene_.camera(), size);
         const glm::vec2 inside = random.draw_2d(1, Draw::direction);
         std::vector<BasePath> paths(static_cast<std::size_t>(edge * edge));
-        Set set;
         for (int i = 0; i < edge * edge; ++i) {
             BasePath& path = paths[static_cast<std::size_t>(i)];
             const glm::ivec2 pixel = corner + glm::ivec2(i % edge, i / edge);
             const auto number = static_cast<std::uint32_t>(random.draw(i, Draw::lobe) * 0x1p24f);
             trace_base_path(tracer_, projection.ray(glm::vec2(pixel) + inside), projection.pixel_width(),
                             Random(9, number, 1), path);
-            set.push_back(&path);
         }
+        return paths;
+    }
+
+    static Set set_of(const std::vector<BasePath>& paths) {
+        Set set;
+        for (const BasePath& path : paths)
+            set.push_back(&path);
+        return set;
+    }
+
+    void share_all(const std::vector<BasePath>& paths) {
+        const Set set = set_of(paths);
         for (std::size_t k = 0; k < set.size(); ++k) {
             LightPaths light;
             light.reset(*set[k], settings_);
@@ -170,6 +204,21 @@ TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
         judge({kind, 0, 0, JoinKind::threshold}, 1, 0);
         judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 3, 2);
         judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 2, 0, TextureFilter::path);
+    }
+}
+
+/// What a set remembers of one path for the next, beyond its mirrors, is what is there.
+TEST_P(Shares, AreTheSameWhetherASetIsBegunOnceOrForEachPath) {
+    for (const ShiftKind kind :
+         {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
+        const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance, JoinKind::threshold};
+        Sharing sharing(GetParam(), s, 1, 0, TextureFilter::path);
+        const auto once = sharing.share_sets(40, false), anew = sharing.share_sets(40, true);
+        EXPECT_TRUE(once.radiance == anew.radiance) << static_cast<int>(kind);
+        EXPECT_LE(once.rays, anew.rays);
+        if (kind == ShiftKind::half_vector && GetParam().name == "mirror") {
+            EXPECT_LT(once.rays, anew.rays); // or nothing is
+        }
     }
 }
 
