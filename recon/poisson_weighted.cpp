@@ -112,10 +112,6 @@ EdgeWeights weights_of_part(const GradientImages& images, const CoefficientPart&
 
 namespace {
 
-// Start and preconditioner need not have the weight of the problem: where gradients are trusted less, a larger one
-// is nearer to it, and does not need to refine its answers.
-constexpr float least_alpha = 0.1f;
-
 constexpr double rounding = 1e-13; // of the squared error: the square of a float's
 
 /// r = b - A I.
@@ -154,18 +150,19 @@ std::array<Channels, 2> apply(const EdgeWeights& weights, float alpha, const Rgb
 
 } // namespace
 
-WeightedSolver::WeightedSolver(int width, int height) : solver_(width, height) {}
+WeightedSolver::WeightedSolver(int width, int height)
+    : width_(width), height_(height), multigrid_(width, height) {}
 
 std::uint64_t WeightedSolver::bytes(int width, int height, int threads) {
     constexpr std::uint64_t images = 6; // its members
-    return PoissonSolver::bytes(width, height, threads) +
+    return WeightedMultigrid::bytes(width, height, threads) +
            images * sizeof(Rgb) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
 void WeightedSolver::make_room() {
-    for (RgbImage* kept : {&residual_, &applied_, &direction_, &applied_step_, &correction_})
+    for (RgbImage* kept : {&residual_, &solved_, &applied_, &direction_, &applied_step_, &correction_})
         if (kept->empty())
-            *kept = RgbImage(solver_.width(), solver_.height());
+            *kept = RgbImage(width_, height_);
 }
 
 /// Adds as much of the last correction as brings the answer nearest to the optimum: a line search in each channel.
@@ -176,8 +173,8 @@ bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
     Rgb length(0);
     for (int c = 0; c < 3; ++c)
         length[c] = cc[c] > 0 ? static_cast<float>(rc[c] / cc[c]) : 0;
-    parallel_for(solver_.height(), [&](int y) {
-        for (int x = 0; x < solver_.width(); ++x) {
+    parallel_for(height_, [&](int y) {
+        for (int x = 0; x < width_; ++x) {
             correction_(x, y) *= length;
             residual_(x, y) -= length * applied_(x, y);
         }
@@ -185,7 +182,7 @@ bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
     return total(cc) > 0;
 }
 
-/// Adds steps to the correction; returns the number of inner solves. What is not finite empties all that is kept.
+/// Adds steps to the correction; returns how many. What is not finite empties all that is kept.
 int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
                             const ParallelFor& parallel_for, const SolveWatch& watch) {
     Channels rz_before{}, step{};
@@ -193,16 +190,16 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
     for (int i = 0; i < iterations; ++i) {
         if (!watch.goes_on(i, iterations))
             return i;
-        solver_.solve(residual_, std::max(problem.alpha, least_alpha), solved_, parallel_for);
+        multigrid_.apply(residual_, solved_, parallel_for);
         const auto [rz, wz] = apply(weights, problem.alpha, solved_, residual_, applied_, parallel_for);
         if (!std::isfinite(total(rz) + total(wz))) {
             correction_ = direction_ = applied_step_ = {};
-            return i + 1;
+            return i;
         }
         if (i == 0)
             first = total(rz);
         if (!(total(rz) > rounding * first))
-            return i + 1; // solved, as far as floats can tell
+            return i; // solved, as far as floats can tell
         Channels turn{};
         for (int c = 0; c < 3; ++c) {
             turn[c] = step[c] > 0 ? rz[c] / rz_before[c] : 0;
@@ -210,8 +207,8 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
             step[c] = rz[c] > 0 && curvature > 0 ? rz[c] / curvature : 0;
         }
         const Factors turns(turn), steps(step);
-        parallel_for(solver_.height(), [&](int y) {
-            take_step(turns, steps, solver_.width(), values(solved_, 0, y), values(applied_, 0, y),
+        parallel_for(height_, [&](int y) {
+            take_step(turns, steps, width_, values(solved_, 0, y), values(applied_, 0, y),
                       values(direction_, 0, y), values(applied_step_, 0, y), values(correction_, 0, y),
                       values(residual_, 0, y));
         });
@@ -220,9 +217,8 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
     return iterations;
 }
 
-/// Adds the correction to the start, and to the correction what is missing of the primal's mean: start and steps
-/// keep that but for rounding, which sums up over steps and warm starts. A takes the same colour in every pixel to
-/// alpha^2 times that, so that this much of the optimum is known exactly.
+/// Adds the correction to the start, and to the correction what is missing of the primal's mean. A takes the same
+/// colour in every pixel to alpha^2 times that, so that this much of the optimum is known exactly.
 void WeightedSolver::add_correction(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     std::vector<Channels> rows(primal.height());
     parallel_for(primal.height(), [&](int y) {
@@ -248,8 +244,8 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
                           const SolveWatch& watch) {
     const bool has_last = !correction_.empty();
     make_room();
-    const float alpha = std::max(problem.alpha, least_alpha);
-    solver_.solve(PoissonProblem{problem.primal, problem.dx, problem.dy, alpha}, image, parallel_for);
+    multigrid_.prepare(weights, problem.alpha, parallel_for);
+    image = problem.primal;
     residual(problem, weights, image, residual_, parallel_for);
     const bool is_warm = has_last && try_last_correction(problem, weights, parallel_for);
     const int steps = descend(problem, weights, is_warm ? settings.warm_iterations : settings.cold_iterations,
@@ -260,7 +256,7 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
     }
     if (!correction_.empty()) // else numbers were too large
         add_correction(problem.primal, image, parallel_for);
-    return steps + 1;
+    return std::max(steps, 1);
 }
 
 } // namespace tessera

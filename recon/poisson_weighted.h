@@ -2,7 +2,8 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
-#include "recon/poisson_direct.h"
+#include "recon/poisson_problem.h"
+#include "recon/weighted_multigrid.h"
 
 #include <cstdint>
 
@@ -43,8 +44,8 @@ EdgeWeights weights_of_part(const GradientImages& images, const CoefficientPart&
 
 /// How long a weighted solve takes.
 struct WeightedSettings {
-    int cold_iterations = 16; ///< steps of a first solve
-    int warm_iterations = 4;  ///< of one that has the last correction
+    int cold_iterations = 5; ///< steps of a first solve
+    int warm_iterations = 3; ///< of one that has the last correction
 };
 
 /// The screened Poisson problem with a weight for each gradient: minimises the sum over the pixels of
@@ -52,12 +53,11 @@ struct WeightedSettings {
 /// The normal equations are A I = b with A = alpha^2 + Dx^T w_x Dx + Dy^T w_y Dy. Every column of A sums to
 /// alpha^2, so that the image has the mean of the primal, whatever the weights.
 ///
-/// Conjugate gradients [Hestenes and Stiefel 1952], preconditioned by the direct solver for weights of 1
-/// [Concus and Golub 1973], in the form that needs all its sums at one time [Chronopoulos and Gear 1989]. The
-/// start is the direct solver's answer to the same data without weights; what the last solve has added to its
-/// start is the first direction tried (a warm start). Start and steps have the mean of the primal, too. For alpha
-/// from 0.1 up (G-PR's is divided by the root of the tile's edge) the default iterations come so near that relMSE
-/// is a few percent from the optimum's; a smaller one would take more.
+/// Conjugate gradients [Hestenes and Stiefel 1952], preconditioned by multigrid for the same weights, in the form
+/// that needs all its sums at one time [Chronopoulos and Gear 1989]. The start is the primal; what the last solve
+/// has added to it is the first direction tried (a warm start). For alpha from 0.08 up (G-PR's is divided by the
+/// root of the tile's edge) the default iterations come so near that relMSE is a percent or two from the
+/// optimum's; a smaller one would take more.
 class WeightedSolver {
 public:
     /// `width` and `height` are >= 1.
@@ -66,7 +66,7 @@ public:
     /// The memory that such a solver takes, if it works on so many threads.
     static std::uint64_t bytes(int width, int height, int threads);
 
-    /// Writes the answer to `image`, which is none of the problem's; returns the number of inner solves, 0 if
+    /// Writes the answer to `image`, which is none of the problem's; returns the number of steps, 1 at least, 0 if
     /// stopped, which is looked at between them. The same bits for any parallel_for. Where numbers are too large
     /// for floats, the answer is the start.
     int solve(const PoissonProblem& problem, const EdgeWeights& weights, const WeightedSettings& settings,
@@ -83,10 +83,11 @@ private:
                 const ParallelFor& parallel_for, const SolveWatch& watch);
     void add_correction(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for);
 
-    PoissonSolver solver_;
+    int width_, height_;
+    WeightedMultigrid multigrid_;
     RgbImage correction_;   ///< the answer without the start; empty: there is none
     RgbImage residual_;     ///< r = b - A I
-    RgbImage solved_;       ///< z, the direct solver's answer to r
+    RgbImage solved_;       ///< z, the multigrid's answer to r
     RgbImage applied_;      ///< A z
     RgbImage direction_;    ///< of the step, p
     RgbImage applied_step_; ///< A p

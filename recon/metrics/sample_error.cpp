@@ -35,16 +35,13 @@ Image<float> means_of(const RgbImage& image, int channel, float sign, Image<floa
 
 } // namespace
 
-std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images, int samples,
-                                                    const RgbImage& picture) {
+std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images, const RgbImage& picture) {
     constexpr double most_unknown = 0.2;
     const int width = picture.width(), height = picture.height();
     if (images.halves.empty() || picture.empty() || images.halves.primal.width() != width ||
         images.halves.primal.height() != height)
         return std::nullopt;
     const RgbImage noise = noise_of(images, picture);
-    // The weights of the halves sum to zero, which with an odd number of samples leaves a little of the noise out.
-    const double n = samples, scale = samples % 2 == 1 ? n * n / (n * n - 1) : 1;
     Image<double> errors(width, height);
     Image<float> rows(width, height);
     double unknown = 0;
@@ -56,7 +53,7 @@ std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images
             const auto h = static_cast<double>(noise.data()[i][c]);
             const auto of_mean = static_cast<double>(above.data()[i] - below.data()[i]);
             const double square = mean * mean + relative_mse_epsilon;
-            errors.data()[i] += scale * h * h / square / 3;
+            errors.data()[i] += h * h / square / 3;
             unknown += std::min(of_mean * of_mean / square, 1.0) / 3;
         }
     }

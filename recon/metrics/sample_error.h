@@ -13,11 +13,9 @@ namespace tessera {
 /// h are the half differences, as radiance; m are means of the picture over 5x5 pixels, as what a pixel's own
 /// samples say of its brightness goes with their noise. It sees no bias, but samples have none. Emission that the
 /// camera sees counts as brightness alone: noise at edges of lamps is not in it.
-/// @param samples  a pixel, that the images are means of
 /// @param picture  the best that there is of the same view and size
 /// Empty: the halves are unknown, or it is not known yet how bright the picture is: the halves disagree on more
 /// than a fifth of the squared means.
-std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images, int samples,
-                                                    const RgbImage& picture);
+std::optional<FloorFreeError> estimate_sample_error(const GradientImages& images, const RgbImage& picture);
 
 } // namespace tessera

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,50 +29,67 @@ Rgb unbiased(const GradientImages& images, const RgbImage& image, int x, int y) 
     return d.value(x, y) + d.albedo(x, y) * (image(x, y) - images.primal(x, y));
 }
 
-/// The sum over the pixels of the 3x3 about (x, y).
+/// The sums over the 3x3 pixels about each pixel of row y.
 template <class Sum, class ValueOf>
-Sum around(int x, int y, int width, int height, ValueOf value_of) {
-    Sum sum(0);
+std::vector<Sum> sums_around(int y, int width, int height, ValueOf value_of) {
+    std::vector<Sum> columns(static_cast<std::size_t>(width) + 2, Sum(0)), sums(static_cast<std::size_t>(width));
     for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
-            sum += value_of(i, j);
-    return sum;
+        for (int x = 0; x < width; ++x)
+            columns[static_cast<std::size_t>(x) + 1] += value_of(x, j);
+    for (std::size_t x = 0; x < sums.size(); ++x)
+        sums[x] = columns[x] + columns[x + 1] + columns[x + 2];
+    return sums;
 }
 
-/// b: how v changes with a, in the samples of the pixels around; as little as they know of it, it is E.
-Rgb slope(const GradientImages& images, Rgb light, int x, int y) {
+/// What the samples of 3x3 pixels know of how v changes with a.
+struct SlopeSums {
+    Rgb covariance, variance;
+};
+
+/// b: how v changes with a; as little as the samples know of it, it is E.
+Rgb slope(const GradientImages& images, const SlopeSums& sums, Rgb light, int x, int y) {
     constexpr float prior = 0.1f;  // of a pixel's variance
     constexpr float least = 1e-4f; // of the squared albedo: below, differences say nothing, and may be rounding
     const Demodulation& d = images.demodulation;
-    const auto sum = [&](const RgbImage& image) {
-        return around<Rgb>(x, y, image.width(), image.height(), [&](int i, int j) { return image(i, j); });
-    };
     const Rgb albedo = known_albedo(d, x, y);
     const Rgb weight = prior * d.albedo_variance(x, y) / 3 + least * albedo * albedo;
-    return (sum(d.value_covariance) + weight * light) / glm::max(sum(d.sampled_variance) + weight, 1e-20f);
+    return (sums.covariance + weight * light) / glm::max(sums.variance + weight, 1e-20f);
 }
 
-/// rho = m(v) - A m(e) - b (m(a) - A).
-Rgb covariance(const GradientImages& images, Rgb light, int x, int y) {
+/// rho = m(v) - A m(e) - b (m(a) - A), of row y.
+void write_covariance(const GradientImages& images, const RgbImage& light, int y, RgbImage& rho) {
     const Demodulation& d = images.demodulation;
-    const Rgb albedo = known_albedo(d, x, y);
-    return d.value(x, y) - albedo * images.primal(x, y) -
-           slope(images, light, x, y) * (d.sampled_albedo(x, y) - albedo);
+    const int width = light.width();
+    const auto sums_of = [&](const RgbImage& image) {
+        return sums_around<Rgb>(y, width, light.height(), [&](int x, int j) { return image(x, j); });
+    };
+    const std::vector<Rgb> covariances = sums_of(d.value_covariance), variances = sums_of(d.sampled_variance);
+    for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        const Rgb albedo = known_albedo(d, x, y);
+        rho(x, y) =
+            d.value(x, y) - albedo * images.primal(x, y) -
+            slope(images, {covariances[i], variances[i]}, light(x, y), x, y) * (d.sampled_albedo(x, y) - albedo);
+    }
 }
 
-/// k of pixel (x, y).
-float trust(const GradientImages& images, const RgbImage& rho, int x, int y) {
+/// k of the pixels of row y.
+std::vector<float> trust(const GradientImages& images, const RgbImage& rho, int y) {
     const Demodulation& d = images.demodulation;
     // As if each channel had a third of both variances.
-    const double noise = around<double>(x, y, rho.width(), rho.height(), [&](int i, int j) {
-        return static_cast<double>(d.albedo_variance(i, j)) * static_cast<double>(d.unexplained_variance(i, j)) /
+    const std::vector<double> noise = sums_around<double>(y, rho.width(), rho.height(), [&](int x, int j) {
+        return static_cast<double>(d.albedo_variance(x, j)) * static_cast<double>(d.unexplained_variance(x, j)) /
                3;
     });
-    const double squares = around<double>(x, y, rho.width(), rho.height(), [&](int i, int j) {
-        const glm::dvec3 r(rho(i, j));
+    const std::vector<double> squares = sums_around<double>(y, rho.width(), rho.height(), [&](int x, int j) {
+        const glm::dvec3 r(rho(x, j));
         return glm::dot(r, r);
     });
-    return squares > 0 ? static_cast<float>(std::max(0.0, 1 - noise / squares)) : 0;
+    std::vector<float> result(noise.size());
+    std::ranges::transform(noise, squares, result.begin(), [](double n, double s) {
+        return s > 0 ? static_cast<float>(std::max(0.0, 1 - n / s)) : 0.0f;
+    });
+    return result;
 }
 
 } // namespace
@@ -88,17 +107,13 @@ void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image,
     RgbImage rho;
     if (!images.primal_variance.empty()) {
         rho = RgbImage(width, height);
-        parallel_for(height, [&](int y) {
-            for (int x = 0; x < width; ++x)
-                rho(x, y) = covariance(images, image(x, y), x, y);
-        });
+        parallel_for(height, [&](int y) { write_covariance(images, image, y, rho); });
     }
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            image(x, y) *= known_albedo(d, x, y);
-            if (!rho.empty())
-                image(x, y) += trust(images, rho, x, y) * rho(x, y);
-        }
+    multiply_by_known_albedo(d, image, parallel_for);
+    parallel_for(rho.height(), [&](int y) {
+        const std::vector<float> k = trust(images, rho, y);
+        for (int x = 0; x < width; ++x)
+            image(x, y) += k[static_cast<std::size_t>(x)] * rho(x, y);
     });
 }
 

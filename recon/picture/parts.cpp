@@ -17,7 +17,9 @@ constexpr int linear_iterations = 48, weighted_iterations = 16;
 constexpr int reweightings = 8, reweighted_iterations = 6;
 constexpr float least_length = 0.1f; ///< of a misfit, in typical values: below, L1 is as good as L2
 
-constexpr float least_alpha = 0.1f; // of the preconditioner, as WeightedSolver has it
+// Start and preconditioner need not have the weight of the problem: where gradients are trusted less, a larger one
+// is nearer to it, and does not need to refine its answers.
+constexpr float least_alpha = 0.1f;
 
 EdgeWeights all_of(float weight, int width, int height) {
     EdgeWeights weights{Image<float>(width, height, weight), Image<float>(width, height, weight)};

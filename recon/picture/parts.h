@@ -26,7 +26,7 @@ namespace tessera {
 ///             they are the smoother ones, the gradients of the whole where these are. That takes the place of
 ///             mixing finished pictures [Fang 2024, 3.3].
 ///
-/// Conjugate gradients over all parts, preconditioned by the direct solver for each (as WeightedSolver has it).
+/// Conjugate gradients over all parts, preconditioned by the direct solver for each [Concus and Golub 1973].
 /// The start is each part by itself.
 class PartsSolver {
 public:

@@ -212,7 +212,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         const float alpha = alpha_of_patches(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
         // Noise need not be known better than it is alike from one half to another.
-        constexpr WeightedSettings quick{.cold_iterations = 6, .warm_iterations = 2};
+        constexpr WeightedSettings quick{.cold_iterations = 3, .warm_iterations = 2};
         solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
         solvers_->weights = {};
     }

@@ -25,7 +25,7 @@ struct ReconstructionSettings {
 struct Reconstruction {
     RgbImage image;      ///< radiance, very direct light included; empty when stopped
     double residual = 0; ///< relative residual of the normal equations (L2)
-    int iterations = 0;  ///< inner solves, or sweeps of uniform; 1 for L2, 0 for none
+    int iterations = 0;  ///< inner solves, steps of weighted, or sweeps of uniform; 1 for L2, 0 for none
     double seconds = 0;  ///< wall time
     /// Of the light, without very direct light, what was held back and spread (recon/picture/spikes.h).
     double held_share = 0;

@@ -161,6 +161,7 @@ private:
     BrightestSamples brightest_samples(int passes) const;
     HalfDifferences half_differences(int passes) const;
     double share_of_balance(int passes) const { return passes > 0 ? static_cast<double>(balance_) / passes : 0; }
+    double scale_of_halves(int passes) const;
     std::vector<CoefficientPart> part_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;

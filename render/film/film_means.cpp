@@ -124,7 +124,9 @@ BrightestSamples Film::brightest_samples(int passes) const {
     const bool has_gradients = !dx_.empty();
     Image<float> half(width(), height());
     const auto balance = static_cast<float>(share_of_balance(passes));
-    std::ranges::transform(brightest_, half.begin(), [=](const Brightest& b) { return b.sign - balance; });
+    const auto scale = static_cast<float>(scale_of_halves(passes));
+    std::ranges::transform(brightest_, half.begin(),
+                           [=](const Brightest& b) { return scale * (b.sign - balance); });
     return {image_of(&Brightest::primal),
             has_gradients ? image_of(&Brightest::dx) : RgbImage(),
             has_gradients ? image_of(&Brightest::dy) : RgbImage(),
@@ -133,16 +135,23 @@ BrightestSamples Film::brightest_samples(int passes) const {
             passes};
 }
 
+/// What makes up for the little of the noise that is left out where one half has more passes.
+double Film::scale_of_halves(int passes) const {
+    const double balance = share_of_balance(passes), kept = 1 - balance * balance;
+    return kept > 0 ? 1 / std::sqrt(kept) : 1;
+}
+
 /// With n passes of signs s_k that sum to S, the mean of (s_k - S / n) x_k: its weights sum to zero, whatever n.
+/// Their squares sum to n - S^2 / n, and are scaled to n, as those of the mean.
 HalfDifferences Film::half_differences(int passes) const {
     if (passes < 2)
         return {};
-    const double n = passes, balance = share_of_balance(passes);
+    const double balance = share_of_balance(passes), scale = scale_of_halves(passes) / passes;
     const auto image_of = [&](const Image<Moments>& moments, Rgb Difference::*part) {
         RgbImage image(moments.width(), moments.height());
         for (std::size_t i = 0; i < image.size(); ++i)
             image.data()[i] =
-                Rgb((glm::dvec3(differences_.data()[i].*part) - balance * moments.data()[i].sum) / n);
+                Rgb((glm::dvec3(differences_.data()[i].*part) - balance * moments.data()[i].sum) * scale);
         return image;
     };
     return {image_of(primal_, &Difference::primal), image_of(dx_, &Difference::dx),

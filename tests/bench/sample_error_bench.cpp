@@ -57,7 +57,7 @@ void measure(const std::shared_ptr<const Scene>& scene, int samples) {
             const RgbImage primal = picture(images, Norm::none, Spikes::off, pool);
             const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
             const auto estimate =
-                estimate_sample_error(images, spp, picture(images, Norm::guided, Spikes::consistent, pool));
+                estimate_sample_error(images, picture(images, Norm::guided, Spikes::consistent, pool));
             std::printf("%-3s %2d spp  relMSE %.4g", short_name(method).data(), spp, error);
             if (estimate)
                 std::printf("  estimate %.4g +- %.2g  ratio %.2f\n", estimate->relative_mse,

@@ -118,8 +118,7 @@ TEST(PoissonWeighted, WhatIsStoppedStartsAnew) {
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0);
 }
 
-/// Values that floats cannot square leave no trace once they are gone, whether the transforms' lengths fill whole
-/// vectors (as for 60) or not.
+/// Values that floats cannot square leave no trace once they are gone, whether rows fill whole vectors or not.
 TEST(PoissonWeighted, WhatIsTooLargeIsForgotten) {
     for (const int width : {60, 67}) {
         const GradientImages images = noisy_images(width, 40);

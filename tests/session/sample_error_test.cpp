@@ -47,12 +47,11 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
     }
     for (const Method method : {Method::pt, Method::gpr}) {
         Render render = render_of(scene, method, 1);
-        EXPECT_FALSE(estimate_sample_error(render.images(), 0, RgbImage(size.x, size.y)));
+        EXPECT_FALSE(estimate_sample_error(render.images(), RgbImage(size.x, size.y)));
         for (int spp = 1; spp <= 64; ++spp) {
             render.pass(pool);
             const GradientImages images = render.images();
-            const auto estimate =
-                estimate_sample_error(images, spp, picture(images, Norm::guided, Spikes::consistent));
+            const auto estimate = estimate_sample_error(images, picture(images, Norm::guided, Spikes::consistent));
             EXPECT_TRUE(estimate || spp == 1);      // which makes no two halves
             if (spp != 5 && spp != 16 && spp != 64) // five: one more of one half than of the other
                 continue;
@@ -77,17 +76,16 @@ TEST(SampleError, IsNotKnownWhereBrightnessIsNot) {
     for (int y = 0; y < 40; y += 20)
         for (int x = 0; x < 40; x += 20)
             images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
-    EXPECT_TRUE(estimate_sample_error(images, 2, images.primal)); // most is black: known by all that is seen
+    EXPECT_TRUE(estimate_sample_error(images, images.primal)); // most is black: known by all that is seen
     for (int y = 0; y < 40; y += 3)
         for (int x = 0; x < 40; x += 3)
             images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
-    EXPECT_FALSE(estimate_sample_error(images, 2, images.primal));
+    EXPECT_FALSE(estimate_sample_error(images, images.primal));
     images.halves.primal = RgbImage(40, 40, Rgb(0.5f));
     images.primal = RgbImage(40, 40, Rgb(2));
-    ASSERT_TRUE(estimate_sample_error(images, 2, images.primal));
-    EXPECT_NEAR(estimate_sample_error(images, 2, images.primal)->relative_mse, 0.0625, 1e-3);
-    EXPECT_NEAR(estimate_sample_error(images, 3, images.primal)->relative_mse, 0.0625 * 9 / 8, 1e-3);
-    EXPECT_FALSE(estimate_sample_error(images, 2, RgbImage(20, 20))); // of another view
+    ASSERT_TRUE(estimate_sample_error(images, images.primal));
+    EXPECT_NEAR(estimate_sample_error(images, images.primal)->relative_mse, 0.0625, 1e-3);
+    EXPECT_FALSE(estimate_sample_error(images, RgbImage(20, 20))); // of another view
 }
 
 } // namespace

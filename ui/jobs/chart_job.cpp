@@ -102,7 +102,7 @@ ChartJob::Measured ChartJob::measure(const Snapshot& s, const Request& request) 
     if (request.wants_histogram)
         measured.histogram = std::make_shared<const Histogram>(histogram_of(image));
     if (!request.reference) {
-        if (const auto error = estimate_sample_error(*s.images, s.spp, image))
+        if (const auto error = estimate_sample_error(*s.images, image))
             measured.point = ErrorPoint{s.spp, s.seconds, error->relative_mse, error->standard_error, 0};
         return measured;
     }
