@@ -254,8 +254,11 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
         forget();
         return 0;
     }
-    if (!correction_.empty()) // else numbers were too large
+    if (!correction_.empty())
         add_correction(problem.primal, image, parallel_for);
+    else // numbers were too large, and if even the right side's were, that must not look like an answer
+        for (std::size_t i = 0; i < image.size(); ++i)
+            image.data()[i] += 0.0f * residual_.data()[i];
     return std::max(steps, 1);
 }
 

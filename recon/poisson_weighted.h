@@ -68,7 +68,7 @@ public:
 
     /// Writes the answer to `image`, which is none of the problem's; returns the number of steps, 1 at least, 0 if
     /// stopped, which is looked at between them. The same bits for any parallel_for. Where numbers are too large
-    /// for floats, the answer is the start.
+    /// for floats, the answer is the primal, and no number where not even the right side can be told.
     int solve(const PoissonProblem& problem, const EdgeWeights& weights, const WeightedSettings& settings,
               RgbImage& image, const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
