@@ -330,7 +330,7 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     set.collect(pass, worker.base);
     const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
     worker.reuse.begin(set.paths);
-    const std::uint64_t rays = worker.counters.offset_rays();
+    const std::uint64_t rays = worker.counters.offset_work();
     for (int k = 0; k < set.size(); ++k) {
         const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
         worker.reuse.share(k, decision.scale, set.radiance, set.arriving.is_kept() ? &set.arriving : nullptr);
@@ -339,7 +339,7 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     }
     const int offsets = set.size() * (set.size() - 1);
     set.offset_rays =
-        static_cast<float>(worker.counters.offset_rays() - rays) / static_cast<float>(std::max(offsets, 1));
+        static_cast<float>(worker.counters.offset_work() - rays) / static_cast<float>(std::max(offsets, 1));
 }
 /// share_light() where nobody wants to know of single paths.
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker);

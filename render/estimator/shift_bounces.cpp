@@ -52,8 +52,15 @@ const Vertex* Shift::meet(int i, int m, glm::vec3 direction) {
         return tracer_.closest(tracer_.leave((*y_)[m], direction), next, RayKind::shift_bounce,
                                tracer_.width_beyond(own_width_[m], 0, x.is_delta));
     };
-    if (i == 0 && x.is_delta)
-        return primary_->beyond(m, x.scatter, direction, trace);
+    if (i == 0 && x.is_delta) {
+        bool is_new = false;
+        const Vertex* next = primary_->beyond(m, x.scatter, direction, [&](Vertex& v) {
+            is_new = true;
+            return trace(v);
+        });
+        tracer_.counters.remembered += !is_new;
+        return next;
+    }
     Vertex& next = moved_vertices_[static_cast<std::size_t>(m)];
     return trace(next) ? &next : nullptr;
 }

@@ -50,6 +50,7 @@ Counters& Counters::operator+=(const Counters& other) {
     path_vertices += other.path_vertices;
     for (std::size_t i = 0; i < rays.size(); ++i)
         rays[i] += other.rays[i];
+    remembered += other.remembered;
     dark_paths += other.dark_paths;
     skipped_paths += other.skipped_paths;
     reused_paths += other.reused_paths;

@@ -69,6 +69,7 @@ struct Counters {
     std::uint64_t camera_paths = 0;  ///< base paths traced
     std::uint64_t path_vertices = 0; ///< surface vertices of base paths
     std::array<std::uint64_t, ray_kind_count> rays{};
+    std::uint64_t remembered = 0; ///< vertices of offset paths that were known without a ray
 
     // Base paths of sampling sets; a path counts once for every set that it is in.
     std::uint64_t dark_paths = 0;          ///< carry nothing that could be reused
@@ -84,9 +85,10 @@ struct Counters {
     std::uint64_t shift_attempts() const {
         return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});
     }
-    std::uint64_t offset_rays() const {
+    /// What the offsets cost, in rays: what goes with a vertex costs as much whether a ray was shot for it or not.
+    std::uint64_t offset_work() const {
         return rays[static_cast<std::size_t>(RayKind::shift_bounce)] +
-               rays[static_cast<std::size_t>(RayKind::shift_edge)];
+               rays[static_cast<std::size_t>(RayKind::shift_edge)] + remembered;
     }
     std::uint64_t all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
     std::uint64_t set_paths() const { return dark_paths + skipped_paths + reused_paths; }

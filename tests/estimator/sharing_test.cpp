@@ -60,7 +60,7 @@ public:
     /// @param begins_anew  before each path; else once a set
     Shared share_sets(int sets, bool begins_anew) {
         Shared result;
-        const std::uint64_t before = counters_.offset_rays();
+        const std::uint64_t before = counters_.rays[static_cast<std::size_t>(RayKind::shift_bounce)];
         for (int i = 0; i < sets; ++i) {
             const std::vector<BasePath> paths = paths_of(i);
             const Set set = set_of(paths);
@@ -72,7 +72,7 @@ public:
             }
             result.radiance.insert(result.radiance.end(), radiance.begin(), radiance.end());
         }
-        result.rays = counters_.offset_rays() - before;
+        result.rays = counters_.rays[static_cast<std::size_t>(RayKind::shift_bounce)] - before;
         return result;
     }
 
