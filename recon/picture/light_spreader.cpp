@@ -152,14 +152,14 @@ int mirrored(int i, int count) {
 void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out) {
     std::fill_n(out, size, 0.0f);
     std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, from = 0;
-    for (; count > 0; count /= 2, step *= 2) {
+    for (;; count /= 2, step *= 2) {
         if (count % 2 == 1) {
             for (std::size_t i = 0; i < size; ++i)
                 out[i] += in[from + i];
             from += step;
         }
         if (count == 1)
-            break;
+            return;
         numbers -= step;
         for (std::size_t i = 0; i < numbers; ++i)
             in[i] += in[i + step];

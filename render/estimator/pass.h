@@ -29,7 +29,7 @@ struct SamplingSet {
     std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
     std::vector<ReuseCounts> reuse;
     int number = 0;         ///< which of the paths that a pixel takes for itself alone (Pass::camera_sample)
-    float offset_rays = 0;  ///< that an offset took, in the mean
+    float offset_rays = 0;  ///< that an offset took, in the mean (Counters::offset_work)
     ArrivingLight arriving; ///< if the basis has parts
     std::vector<Rgb> parts; ///< of the coefficients, part_count() a pixel, once they are expanded
 

@@ -39,8 +39,11 @@ public:
         if (beyond_.size() < 2 * static_cast<std::size_t>(count())) // no vertex of this set is in use yet
             beyond_.resize(2 * static_cast<std::size_t>(count()));
         Beyond& b = beyond_[static_cast<std::size_t>(2 * lane + (scatter == Scatter::transmit ? 1 : 0))];
-        if (b.set != set_ || b.direction != direction)
-            b.set = set_, b.direction = direction, b.is_met = trace(b.vertex);
+        if (b.set != set_ || b.direction != direction) {
+            b.set = set_;
+            b.direction = direction;
+            b.is_met = trace(b.vertex);
+        }
         return b.is_met ? &b.vertex : nullptr;
     }
 
@@ -99,8 +102,8 @@ public:
     Shift(const Tracer& tracer, const ShiftSettings& settings)
         : tracer_(tracer), settings_(settings), rule_(settings, 0) {}
 
-    /// @param primary  what the pixels see; a lane without a vertex is not shifted to. It is told
-    ///                 what lies beyond delta scatters
+    /// @param primary  what the pixels see; a lane without a vertex is not shifted to. It
+    ///                 remembers what lies beyond delta scatters
     /// @param self     the lane of the base's own pixel, which is left alone; -1: none
     /// @param paths    receives ratios and values, all failed before
     /// @param edges    receives the new edges, unchecked

@@ -1,7 +1,7 @@
 // recon_convergence BUFFERS.exr ONE.exr [CHART.svg]: how far the reconstruction's objective is above its least
-// value, against the number of inner solves. BUFFERS is a render of n samples a pixel with its buffers; ONE the
-// same with one sample and another seed. Cold starts solve BUFFERS; warm starts have solved BUFFERS, and go on
-// with the n + 1 samples of both.
+// value, against the number of steps, inner solves of L1 and mixed. BUFFERS is a render of n samples a pixel with
+// its buffers; ONE the same with one sample and another seed. Cold starts solve BUFFERS; warm starts have solved
+// BUFFERS, and go on with the n + 1 samples of both.
 
 #include "app/commands/commands.h"
 #include "recon/poisson_l1.h"
@@ -125,7 +125,7 @@ ChartSeries measure(const Case& c, const char* start, const GradientImages& g, c
     for (const int n : solves) {
         const RgbImage image = newer ? c.solve(g, c.usual_cold(), newer, n) : c.solve(g, n, nullptr, 1);
         const double excess = c.objective_of(data, image) / least - 1;
-        std::printf("%-18s %3d inner solves: %8.3f %% above the least\n", series.label.c_str(), n, 100 * excess);
+        std::printf("%-18s %3d steps: %8.3f %% above the least\n", series.label.c_str(), n, 100 * excess);
         series.points.push_back({static_cast<double>(n), 100 * excess});
     }
     return series;
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
         const auto settings = nlohmann::json::parse(input.attributes.at("tessera:settings"));
         const GradientImages newer = with_one_more(input.images, one.images, settings.at("spp").get<float>());
         ChartPlot plot;
-        plot.x_label = "inner solves";
+        plot.x_label = "steps";
         plot.y_label = "objective above the least, %";
         const Case l1("L1", false), mixed("mixed", true);
         const WeightedCase weighted;

@@ -195,7 +195,7 @@ TEST(Reconstruct, TellsHowFarItIs) {
         };
         reconstruct(images, {norm, 0.2f}, watched, {{}, &share});
         EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end())) << to_string(norm);
-        const int steps = norm == Norm::weighted ? WeightedSettings{}.cold_iterations : 10;
+        const int steps = norm == Norm::weighted ? WeightedSettings{}.cold_iterations : 11;
         EXPECT_GE(std::set<float>(seen.begin(), seen.end()).size(), static_cast<std::size_t>(steps))
             << to_string(norm);
         EXPECT_EQ(seen.front(), 0) << to_string(norm);

@@ -23,7 +23,7 @@ EdgeWeights weights_by(int width, int height, float (*weight)(int x, int y)) {
     return weights;
 }
 
-// Even ones, and patches of weak ones, with one that is cut off.
+// Even ones, and weak patches with a strip that is cut off.
 float even(int, int) {
     return 1;
 }
@@ -58,7 +58,7 @@ TEST(WeightedMultigrid, IsSymmetricAndPositive) {
             }
 }
 
-/// Few steps do, whatever the weights; where the screening is weaker than any that is used, a few more would.
+/// Few steps do, whatever the weights; where the screening is far weaker than by default, a few more would.
 TEST(WeightedMultigrid, FewStepsDo) {
     constexpr int width = 300, height = 200;
     for (const auto weight : {even, patchy})
