@@ -26,10 +26,10 @@ std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, 
 /// takes [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    const CameraSample from = pass.camera_sample({area.x0, area.y0}, worker.number);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, from, worker.path, worker.number);
+            trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}, worker.number), worker.path,
+                        worker.number);
             if (worker.number == 0)
                 note_light(pass, worker.path, worker.found);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};

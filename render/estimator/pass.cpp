@@ -3,6 +3,7 @@
 #include "render/estimator/guiding_learner.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -57,26 +58,6 @@ PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
         coefficient(i), Rgb(0), Rgb(0), path.very_direct, albedo[m], reuse[m], estimator.arriving_luminance(path)};
 }
 
-namespace {
-
-float fraction(double a) {
-    return std::min(static_cast<float>(a - std::floor(a)), 0x1.fffffep-1f);
-}
-
-/// The R2 sequence [Roberts 2018] from a start that depends on the seed; in double, as it runs for 10^5 passes.
-glm::vec2 subpixel_of(std::uint64_t seed, int index) {
-    const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(0, Draw::direction);
-    return {fraction(start.x + index * 0.7548776662466927), fraction(start.y + index * 0.5698402909980532)};
-}
-
-/// Multiples of the roots of primes [Richtmyer 1951], as the R2 sequence would go along with the subpixels.
-glm::vec2 lens_of(std::uint64_t seed, int index) {
-    const glm::vec2 start = Random(seed, 0xffffffffu, 0).draw_2d(1, Draw::direction);
-    return {fraction(start.x + index * std::sqrt(2.0)), fraction(start.y + index * std::sqrt(3.0))};
-}
-
-} // namespace
-
 std::uint64_t Worker::bytes(const RenderSettings& settings) {
     constexpr int long_path = 16; // vertices: memory is for 2^n of them, and some of a block's paths are as long
     const auto edge = static_cast<std::uint64_t>(block_edge_of(settings) + 1); // with one more column and row
@@ -96,41 +77,39 @@ float telling_share_of(glm::ivec2 size, const RenderSettings& settings, const Pa
         return 0;
     return GuidingLearner::share_of_paths(size.x * size.y, index, guiding && guiding->draws());
 }
+/// Nets begin with the first pass that goes by its plan, and with powers of two, whether or not anything is learnt
+/// then. The position of a path asks for neither plan nor guides, but with samples whose number is learnt there
+/// are several.
+PassNumbers::Begins begins_of_nets(const RenderSettings& settings, const ReusePlan& plan, int pass) {
+    const int begin = std::max(plan.first_pass(), static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))));
+    return {is_adaptive(settings) ? begin : 0, begin};
+}
 } // namespace
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const ReusePlan& plan, int index_)
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       telling_share(telling_share_of(size_, settings_, plan.guiding(), index_)), projection_(camera, size_),
-      has_lens_(camera.aperture_radius > 0), subpixel_(subpixel_of(settings_.seed, index_)),
-      lens_(lens_of(settings_.seed, index_)) {}
+      has_lens_(camera.aperture_radius > 0),
+      numbers_(settings_.seed, index_, begins_of_nets(settings_, plan, index_)) {}
 
-glm::vec2 Pass::subpixel_at(glm::ivec2 pixel) const {
-    // Of the four numbers of the R4 sequence, two for the column and two for the row.
-    const glm::dvec2 block = grid.block_of(pixel);
-    return {fraction(subpixel_.x + block.x * 0.8566748838545029 + block.y * 0.6287067210378087),
-            fraction(subpixel_.y + block.x * 0.7338918566271260 + block.y * 0.5385972572236101)};
+/// Blocks are moved with the grid of tiles. Those of a square begin at one place, so that few pixels change from
+/// one sequence to another, and see only parts of both.
+std::uint32_t Pass::place_of(glm::ivec2 pixel) const {
+    constexpr int blocks = 8;
+    const glm::ivec2 at = settings.method == Method::pt ? pixel : grid.block_of(pixel) / blocks;
+    return static_cast<std::uint32_t>(at.y * size.x + at.x);
 }
 
-glm::vec2 Pass::lens_at(glm::ivec2 pixel) const {
-    const glm::dvec2 block = grid.block_of(pixel);
-    return {fraction(lens_.x + block.x * std::sqrt(5.0) + block.y * std::sqrt(11.0)),
-            fraction(lens_.y + block.x * std::sqrt(7.0) + block.y * std::sqrt(13.0))};
-}
-
-/// Further paths go on by multiples of other roots, so that they do not meet those of other passes.
 CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
-    const glm::vec2 subpixel = subpixel_at(pixel), lens = lens_at(pixel);
-    if (path == 0)
-        return {subpixel, sample_disk(lens)};
-    return {{fraction(subpixel.x + path * std::sqrt(17.0)), fraction(subpixel.y + path * std::sqrt(19.0))},
-            sample_disk({fraction(lens.x + path * std::sqrt(23.0)), fraction(lens.y + path * std::sqrt(29.0))})};
+    const std::uint32_t place = place_of(pixel);
+    return {numbers_.subpixel(place, path), has_lens_ ? sample_disk(numbers_.lens(place, path)) : glm::vec2(0)};
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     const int n = settings.very_direct_grid;
     const auto cells = static_cast<float>(n);
-    const glm::vec2 in_cell = subpixel_at({x, y}), on_lens = lens_at({x, y});
+    const glm::vec2 in_cell = numbers_.subpixel(place_of({x, y}), 0), on_lens = numbers_.lens(place_of({x, y}), 0);
     Rgb sum(0);
     for (int i = 0; i < n * n; ++i) {
         // A row of cells of the pixel goes with a column of the lens; rotated by the block's own position, each
@@ -144,26 +123,33 @@ Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
 
 namespace {
 
-/// A point of a low-discrepancy sequence, in a pixel and on the lens.
-CameraSample point_from(glm::vec2 subpixel, glm::vec2 lens, int point) {
-    return {{fraction(subpixel.x + point * 0.7548776662466927), fraction(subpixel.y + point * 0.5698402909980532)},
-            sample_disk({fraction(lens.x + point * std::sqrt(2.0)), fraction(lens.y + point * std::sqrt(3.0))})};
-}
+// Keys of nets, over the looks of a pixel.
+constexpr std::uint64_t looks_in_pixel = 0x6c6f'6f6b'7069'786cu, looks_on_lens = 0x6c6f'6f6b'6c65'6e73u;
 
 } // namespace
 
+/// @param subpixel, lens  digits that points are shifted by
+CameraSample Pass::look_from(std::uint64_t subpixel, std::uint64_t lens, int point) const {
+    const auto at = [&](std::uint64_t shift, std::uint64_t net) {
+        return unit_square(shift ^ net_point(static_cast<std::uint32_t>(point), net));
+    };
+    return {at(subpixel, looks_in_pixel), has_lens_ ? sample_disk(at(lens, looks_on_lens)) : glm::vec2(0)};
+}
+
 Look Pass::look_at(const Tracer& tracer, int x, int y, int point) const {
-    const Random start(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
+    const Random shift(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
     const CameraSample sample =
-        point_from(start.draw_2d(0, Draw::direction), start.draw_2d(1, Draw::direction), point);
+        look_from(shift.digits(0, Draw::direction), shift.digits(1, Draw::direction), point);
     const Random numbers(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
-                         0xfffffffeu - static_cast<std::uint32_t>(point)); // no pass's either
+                         0xfffffffcu - static_cast<std::uint32_t>(point)); // no pass's either
     return look_along(tracer, camera_ray(x, y, sample), numbers);
 }
 
 bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const {
-    return tracer.closest(camera_ray(x, y, point_from(glm::vec2(0.5f), glm::vec2(0.5f), point)), seen,
-                          RayKind::camera);
+    constexpr std::uint64_t middle = 0x8000'0000'8000'0000u; // where the first look is
+    const CameraSample sample =
+        look_from(middle ^ net_point(0, looks_in_pixel), middle ^ net_point(0, looks_on_lens), point);
+    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera);
 }
 
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number) {

@@ -5,6 +5,7 @@
 #include "render/estimator/reuse_policy.h"
 #include "render/estimator/tile_grid.h"
 #include "render/film/film.h"
+#include "render/sampling/pass_numbers.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ struct CameraSample {
 /// One sample a pixel of a whole image: what all its blocks have in common.
 class Pass {
 public:
-    /// `index` counts passes from 0; those of a pilot are below. Keeps references to scene, settings and plan.
+    /// `index` counts passes from 0. Keeps references to scene, settings and plan.
     Pass(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
          const ReusePlan& plan, int index);
 
@@ -88,9 +89,10 @@ public:
 
     /// Where within their pixels and on the lens all base paths begin whose light is shared within the block that
     /// a pixel is in, those of the block's border among them: so the values of the box filter cancel in gradients
-    /// [Bauszat 2017, 3.2], and all see the scene through the same pinhole, whose picture is sharp. The positions
-    /// of a block are a low-discrepancy sequence over the passes; each block's is rotated by another vector, as an
-    /// edge along which all pixels had the same few positions would be too bright, or too dark, all along.
+    /// [Bauszat 2017, 3.2], and all see the scene through the same pinhole, whose picture is sharp. PT's pixels
+    /// have positions of their own. All are nets over the passes, each shifted by another pattern of digits: one
+    /// for a pixel of PT's, or for a square of 8 x 8 blocks, as an edge along which all pixels had the same few
+    /// positions would be too bright, or too dark, all along.
     /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
     CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
 
@@ -109,8 +111,8 @@ public:
             return Rgb(1);
         return path.empty() ? Rgb(0) : path.albedo;
     }
-    /// A look at a point of its own of a pixel. The points of a pixel are a low-discrepancy sequence, which has
-    /// nothing to do with where samples lie: means of albedos are independent of the samples.
+    /// A look at a point of its own of a pixel. The points of a pixel are a net, which has nothing to do with
+    /// where samples lie: means of albedos are independent of the samples.
     Look look_at(const Tracer& tracer, int x, int y, int point) const;
     /// What is seen at a point of a pixel, the same for all seeds; false: nothing.
     bool look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const;
@@ -119,20 +121,19 @@ public:
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     bool has_lens() const { return has_lens_; }
 
-    /// The numbers of a pixel's path; `path` as in camera_sample().
+    /// The numbers of a pixel's path; `path` as in camera_sample(). What is drawn at x_1 is a net over the passes
+    /// that go by one plan, and independent of the passes before, by which that was made.
     Random random(int x, int y, int path = 0) const {
-        const std::uint64_t own = static_cast<std::uint64_t>(path) * 0x6f77'6e20'7061'7468u;
-        return Random(settings.seed ^ own, static_cast<std::uint32_t>(y * size.x + x),
-                      static_cast<std::uint32_t>(index));
+        return numbers_.of_path(static_cast<std::uint32_t>(y * size.x + x), path);
     }
 
 private:
-    glm::vec2 subpixel_at(glm::ivec2 pixel) const; // [0, 1)^2
-    glm::vec2 lens_at(glm::ivec2 pixel) const;     // [0, 1)^2, mapped to the disk by sample_disk()
+    std::uint32_t place_of(glm::ivec2 pixel) const; // for PassNumbers
+    CameraSample look_from(std::uint64_t subpixel, std::uint64_t lens, int point) const;
 
     Projection projection_;
     bool has_lens_;
-    glm::vec2 subpixel_, lens_;
+    PassNumbers numbers_;
 };
 
 /// The mean of several base paths of a pixel.

@@ -48,8 +48,8 @@ void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n, PlanE
     found.own_noise += glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
 }
 
-RenderSettings settings_of_pilot(RenderSettings settings) {
-    settings.seed ^= 0x7069'6c6f'7400'0000u;
+RenderSettings settings_of_trial(RenderSettings settings, std::uint64_t trial) {
+    settings.seed ^= 0x7069'6c6f'7400'0000u + trial;
     return settings;
 }
 
@@ -57,8 +57,8 @@ RenderSettings settings_of_pilot(RenderSettings settings) {
 
 Pilot::Pilot(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
              const ReusePlan& plan)
-    : settings_(settings_of_pilot(settings)), first_(scene, camera, size, settings_, plan, 0),
-      second_(scene, camera, size, settings_, plan, 1) {}
+    : settings_{settings_of_trial(settings, 0), settings_of_trial(settings, 1)},
+      first_(scene, camera, size, settings_[0], plan, 0), second_(scene, camera, size, settings_[1], plan, 0) {}
 
 PlanEvidence Pilot::explore(PixelRect cell, Worker& worker) const {
     PlanEvidence found;

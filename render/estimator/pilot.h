@@ -2,6 +2,8 @@
 
 #include "render/estimator/pass.h"
 
+#include <array>
+
 namespace tessera {
 
 /// Tries before the first pass what sharing would bring G-PR. It takes two samples, so that their differences are
@@ -17,7 +19,8 @@ public:
     PlanEvidence explore(PixelRect cell, Worker& worker) const;
 
 private:
-    RenderSettings settings_; ///< with a seed of its own, so that nothing of it is in any pass
+    /// With seeds of their own, so that nothing of the trials is in any pass, nor of one in the other.
+    std::array<RenderSettings, 2> settings_;
     Pass first_, second_;
 };
 

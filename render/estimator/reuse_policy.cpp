@@ -51,9 +51,17 @@ PlanEvidence& PlanEvidence::operator+=(const PlanEvidence& more) {
 }
 
 ReusePlan::ReusePlan(glm::ivec2 size, const RenderSettings& settings)
-    : tile_(settings.tile), adapts_(settings.adapt_tile), wants_pilot_(finds_gain_of_sharing(settings)),
-      size_(size), cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge),
+    : tile_(settings.tile), adapts_(settings.adapt_tile),
+      learns_((settings.adapt_tile && has_tiles_to_cut(settings)) || is_adaptive(settings) ||
+              settings.path_guiding != Guiding::off),
+      wants_pilot_(finds_gain_of_sharing(settings)), size_(size),
+      cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge),
       samples_(cells_.width(), cells_.height(), 1), gain_(cells_.width(), cells_.height()) {}
+
+void ReusePlan::take(const ReusePlan& next, int pass) {
+    *this = next;
+    first_pass_ = learns_ ? pass : 0; // whatever was learnt: when a net ends, chance must not decide either
+}
 
 void ReusePlan::learn(const Image<float>& luminance) {
     for (int y = 0; y < luminance.height(); ++y)

@@ -62,6 +62,12 @@ class ReusePlan {
 public:
     ReusePlan(glm::ivec2 size, const RenderSettings& settings);
 
+    /// The first of the passes that go by it: what earlier ones have told may be in it, and nothing of these. 0
+    /// where passes tell nothing that others could go by.
+    int first_pass() const { return first_pass_; }
+    /// Passes from this one on go by what `next` has learnt.
+    void take(const ReusePlan& next, int pass);
+
     /// Calls `visit(piece)` for what is cut by itself: the whole tile; or, where it reaches into cells of which
     /// some share and others do not, what it has of each. So a pixel always shares, or never: else its few bad
     /// samples would spoil the many good ones.
@@ -108,7 +114,10 @@ public:
     void set_guiding(std::shared_ptr<const PathGuiding> guiding) { guiding_ = std::move(guiding); }
 
     /// All that it has learnt, but for where paths are guided to.
-    Memory memory() { return {memory_of(cells_), memory_of(gain_), memory_of(samples_), memory_of(paths_alone_)}; }
+    Memory memory() {
+        return {memory_of(first_pass_), memory_of(cells_), memory_of(gain_), memory_of(samples_),
+                memory_of(paths_alone_)};
+    }
 
 private:
     static constexpr int cell_edge = 16; // pixels, no fewer than those of any tile
@@ -119,8 +128,8 @@ private:
     bool is_alone(int cell) const { return gain_.data()[cell] > 0 && gain_.data()[cell] < 1; }
     int cut_edge(const PlanEvidence& known) const;
 
-    int tile_;
-    bool adapts_, wants_pilot_;
+    int tile_, first_pass_ = 0;
+    bool adapts_, learns_, wants_pilot_;
     glm::ivec2 size_;
     Image<PlanEvidence> cells_;
     Image<float> samples_; ///< a pass, by cells

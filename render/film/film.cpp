@@ -10,10 +10,13 @@ namespace tessera {
 
 namespace {
 
-/// How a pass counts in Film::Difference: of one half or the other, by the sequence of Thue and Morse, which has
-/// nothing to do with where in their pixels passes lie. (Every second one lies on one side for a while.)
+/// How a pass counts in Film::Difference: of one half or the other. Of 2^k passes from pass 2^k on, the first half
+/// and the second are a net each (Pass::random), and as independent of each other as nets are: how far they differ
+/// tells the noise. (By halves that tear what lies evenly together it is told half as large again as it is.)
 float sign_of(int pass) {
-    return std::popcount(static_cast<unsigned>(pass)) % 2 == 0 ? 1.0f : -1.0f;
+    const auto p = static_cast<unsigned>(pass);
+    const bool is_second = p == 1 || (p & std::bit_floor(p) >> 1) != 0;
+    return is_second ? -1.0f : 1.0f;
 }
 
 /// What two entries at the same place become, in the first image.

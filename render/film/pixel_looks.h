@@ -17,8 +17,8 @@ struct Look {
     Guide guide;
 };
 
-/// What is known of the pixels from camera rays of their own, none of them a sample's. The points of a pixel are
-/// low-discrepancy ones: the variance of their mean falls about as count^-1.5. They are the same for all passes of
+/// What is known of the pixels from camera rays of their own, none of them a sample's. The points of a pixel are a
+/// net: at an edge, the variance of their mean falls about as count^-1.5. They are the same for all passes of
 /// a render, and each pixel has as many as it takes to know it well.
 class PixelLooks {
 public:

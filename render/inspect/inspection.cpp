@@ -247,19 +247,24 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
                 if (cuts)
                     cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
     }
+    // Passes go by what all had told when there were last twice as many as the time before (Render).
+    ReusePlan next = plan;
     GuidingLearner guiding;
-    const int guides_from =
-        settings.path_guiding != Guiding::off ? static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))) : 0;
-    for (int i = 0; i < (cuts ? pass : guides_from) && !stop.stop_requested(); ++i) {
+    const bool guides = settings.path_guiding != Guiding::off;
+    const int told = static_cast<int>(std::bit_floor(static_cast<unsigned>(pass)));
+    for (int i = cuts || guides ? 0 : told; i < told && !stop.stop_requested(); ++i) {
         Worker worker(scene, camera, size, settings, plan.guiding());
         const Pass replayed(scene, camera, size, settings, plan, i);
-        if (i < guides_from)
+        if (guides)
             guiding.learn(light_found_in(replayed, worker, stop));
         for (const int cell : cells)
-            learn_luminance(replayed, plan.cell(cell), worker, plan);
-        if (std::has_single_bit(static_cast<unsigned>(i + 1)))
-            plan.set_guiding(guiding.make_guiding(settings.path_guiding));
+            learn_luminance(replayed, next.cell(cell), worker, next);
+        if (std::has_single_bit(static_cast<unsigned>(i + 1))) {
+            next.set_guiding(guiding.make_guiding(settings.path_guiding));
+            plan.take(next, i + 1);
+        }
     }
+    plan.take(next, told); // where there was nothing to replay
     return plan;
 }
 

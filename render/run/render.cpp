@@ -48,7 +48,7 @@ glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
                const RenderSettings& settings, int first_pass)
     : scene_(std::move(scene)), camera_(camera), size_(checked(size, settings)), settings_(settings),
-      film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_),
+      film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_), next_plan_(plan_),
       newest_plan_(std::make_shared<const ReusePlan>(plan_)), first_pass_(first_pass) {
     check(settings);
     done_blocks_.resize(most_blocks(size, settings));
@@ -156,17 +156,17 @@ bool Render::look_first(Workers& workers) {
 bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share) {
     if (!plan_.wants_pilot())
         return true;
-    ReusePlan plan(size_, settings_);
     const Pilot pilot(*scene_, camera_, size_, settings_, plan_);
     Workers workers(*this, pool, stop);
-    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan.cell_count()));
+    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan_.cell_count()));
     if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
-            found[static_cast<std::size_t>(i)] = pilot.explore(plan.cell(i), worker);
+            found[static_cast<std::size_t>(i)] = pilot.explore(plan_.cell(i), worker);
             share.add(1);
         }))
         return false;
+    ReusePlan plan(size_, settings_); // not next_plan_, which a pilot sent before may have told, if no pass followed
     plan.learn(found);
-    plan_ = plan;
+    plan_ = next_plan_ = plan;
     for (const auto& worker : workers.all())
         cpu_seconds_ += worker->cpu_seconds;
     return true;
@@ -213,8 +213,8 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     return is_whole;
 }
 
-/// What is worked out between passes, in the calling thread. What takes a look at all pixels, and changes little
-/// from pass to pass, is worked out whenever there are twice as many.
+/// What is worked out between passes, in the calling thread. What passes go by is new whenever there are twice as
+/// many, so that all that go by the same can have their numbers of one net (Pass::random).
 void Render::learn_from_pass() {
     const double before = thread_cpu_seconds();
     std::ranges::fill(done_blocks_, std::uint8_t{0});
@@ -222,14 +222,15 @@ void Render::learn_from_pass() {
     guiding_.learn(found_);
     for (std::vector<FoundLight>& found : found_)
         found = {};
-    plan_.learn(film_.path_luminance());
+    next_plan_.learn(film_.path_luminance());
     film_.finish(first_pass_ + spp_);
     ++spp_;
     if (std::has_single_bit(unsigned(spp_))) {
-        plan_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
+        next_plan_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
         film_.ask_for_looks(first_pass_ + 2 * spp_);
         if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first)
-            plan_.learn_noise(film_.noise(spp_));
+            next_plan_.learn_noise(film_.noise(spp_));
+        plan_.take(next_plan_, first_pass_ + spp_);
     }
     cpu_seconds_ += thread_cpu_seconds() - before;
 }
@@ -256,6 +257,7 @@ void Render::add(const Render& other) {
 Memory Render::memory() {
     Memory memory = film_.memory();
     append(memory, plan_.memory());
+    append(memory, next_plan_.memory());
     append(memory, {std::as_writable_bytes(std::span(done_blocks_))});
     append(memory, {memory_of(counters_), memory_of(spp_), memory_of(seconds_), memory_of(cpu_seconds_)});
     return memory;

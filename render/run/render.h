@@ -24,7 +24,7 @@ public:
     /// settings outside their limits.
     /// @param scene       may be null where no pass is to be made: for what is restored, or added up
     /// @param first_pass  from 0 on: passes are those of one that begins with 0, but for what it would have learnt
-    ///                    in the passes before
+    ///                    in the passes before, and the numbers of those that go by it
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
            const RenderSettings& settings, int first_pass = 0);
 
@@ -79,8 +79,8 @@ private:
     std::vector<std::uint8_t> done_blocks_;      // of the pass under way: 1 for each that it has done
     std::vector<std::vector<FoundLight>> found_; // by each of these
     GuidingLearner guiding_;
-    ReusePlan plan_;
-    std::shared_ptr<const ReusePlan> newest_plan_; // plan_ before it learnt from the newest pass
+    ReusePlan plan_, next_plan_;                   // what passes go by, and what they tell it
+    std::shared_ptr<const ReusePlan> newest_plan_; // plan_ of the newest pass
     Counters counters_;
     int first_pass_;
     int spp_ = 0; // how many it has made

@@ -1,5 +1,5 @@
 // All paths that share light begin at one position within their pixels, those of a block's border among them; each
-// block has its own.
+// square of blocks has its own.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -13,7 +13,7 @@ namespace tessera::test {
 
 namespace {
 
-constexpr glm::ivec2 size(80, 6); // of several blocks
+constexpr glm::ivec2 size(400, 6); // of blocks at more than one position
 constexpr int row = 3;
 
 /// A floor under a point light, black otherwise: what a pixel sees is a smooth function of the position alone.
@@ -70,7 +70,7 @@ TEST(BlockPositions, OnTheLensAreOneOverTheBlockToo) {
     expect_smooth_gradients(Method::gpr, 0.1f);
 }
 
-TEST(BlockPositions, AreOneOverTheBlockAndMoveFromPassToPass) {
+TEST(BlockPositions, MoveFromPassToPass) {
     const GradientImages a = one_pass(Method::pt, 1), b = one_pass(Method::pt, 2);
     int same = 0;
     for (int x = 0; x < size.x; ++x)

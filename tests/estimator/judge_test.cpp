@@ -16,8 +16,8 @@ namespace tessera::test {
 namespace {
 
 constexpr int naive_samples = 32768;
-constexpr int runs = 48;
-constexpr int passes = 16;
+constexpr int runs = 96; // what lies evenly over few passes has long tails: standard errors ask for many runs
+constexpr int passes = 8;
 
 // Sizes of the pictures, no multiples of tiles. The small one takes a third of the time, and the limits of its
 // z-tests are wider, as it has fewer pixels: a bias of all pixels must be twice as large to be seen. With fewer

@@ -79,6 +79,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
 }
 
 TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
+    settings.adapt_tile = false; // pixels that share nothing have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     int joined = 0;
@@ -105,6 +106,7 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
 
 /// What the table of vertices says, multiplied out, is what the estimator weighs with.
 TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
+    settings.adapt_tile = false; // pixels that share nothing have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     int seen_steps = 0, stretched = 0;
@@ -139,6 +141,7 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
 /// Shifted paths have footprints as if their own pixel had drawn them; so has a pixel's own path, which it did
 /// draw.
 TEST_P(Inspected, ShiftedPathsHaveFootprints) {
+    settings.adapt_tile = false; // pixels that share nothing have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     int own = 0, shifted = 0;

@@ -129,7 +129,8 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
     recipe.settings.seed += 100;
     recipe.spp = 1600;
     const ReferenceImage expected = whole("whole.exr");
-    // The mean square of the differences is that of both errors, and no more.
+    // The mean square of the differences is that of both errors, and no more. (Of so small a picture, where all
+    // pixels have one position in a pass, edges have much of both, and errors are known to within a third or so.)
     double squares = 0;
     for (std::size_t i = 0; i < expected.mean.size(); ++i) {
         const Rgb d = merged.mean.data()[i] - expected.mean.data()[i];
@@ -138,7 +139,7 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
     }
     const double difference = squares / static_cast<double>(expected.mean.size());
     const double errors = error_of(merged).relative_mse + error_of(expected).relative_mse;
-    EXPECT_LT(difference, 1.5 * errors);
+    EXPECT_LT(difference, 2 * errors);
     EXPECT_GT(difference, 0.5 * errors);
     EXPECT_EQ(variance_of(merged).size(), expected.mean.size());
 }

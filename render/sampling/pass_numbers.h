@@ -1,0 +1,81 @@
+#pragma once
+
+#include "render/sampling/random.h"
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+namespace tessera {
+
+/// The random numbers of a pass: where in their pixels and on the lens its paths begin, and those that they draw.
+/// The former, and what is drawn at x_1, are nets over the passes; each of these has the point of the pass, with
+/// digits turned over by a pattern of the pixel's own, or of those that begin at the same place.
+class PassNumbers {
+public:
+    /// Passes with whose numbers a net begins, another one than those before, so that what was learnt from passes
+    /// before knows nothing of it.
+    struct Begins {
+        int of_positions;
+        int at_x1;
+    };
+
+    PassNumbers(std::uint64_t seed, int pass, Begins begins) : seed_(seed), pass_(pass), begins_(begins) {
+        subpixel_ = point({begins.of_positions, 0}, 0);
+        lens_ = point({begins.of_positions, 1}, 0);
+        for (std::size_t v = 0; v < at_x1_.size(); ++v) {
+            at_x1_[v].first = static_cast<std::uint32_t>(begins.at_x1);
+            for (std::size_t i = 0; i < Random::Points::count; ++i)
+                at_x1_[v].digits[i] = point({begins.at_x1, positions + i}, v);
+        }
+    }
+
+    /// Within a pixel, uniform in [0, 1)^2.
+    /// @param place  a number of those that begin there
+    /// @param path   of several of a pixel; each has numbers of its own
+    glm::vec2 subpixel(std::uint32_t place, int path) const {
+        return unit_square(subpixel_ ^ shift_of(place, path).digits(0, Draw::direction));
+    }
+    /// Uniform in [0, 1)^2, to be mapped to the lens.
+    glm::vec2 lens(std::uint32_t place, int path) const {
+        return unit_square(lens_ ^ shift_of(place, path).digits(1, Draw::direction));
+    }
+    /// Those that a pixel's path draws. Of two nets taken together some effects are measured worse than by chance,
+    /// and others exactly; so pixels have one of several variants, which have nothing to do with each other.
+    Random of_path(std::uint32_t pixel, int path) const {
+        const Random::Points& points = at_x1_[Random::mix(seed_ ^ pixel) % at_x1_.size()];
+        return {seed_of(path), pixel, static_cast<std::uint32_t>(pass_), points};
+    }
+
+private:
+    static constexpr std::size_t variants = 16, positions = 2, nets = positions + Random::Points::count;
+
+    struct Net {
+        int begin;
+        std::size_t number; ///< of those that begin with the pass
+    };
+
+    std::uint64_t point(Net net, std::uint64_t variant) const {
+        const std::uint64_t number = static_cast<std::uint64_t>(net.begin) * nets + net.number;
+        return net_point(static_cast<std::uint32_t>(pass_ - net.begin),
+                         Random::mix(Random::mix(seed_ + 1) + number) + variant);
+    }
+
+    std::uint64_t seed_of(int path) const {
+        return seed_ ^ static_cast<std::uint64_t>(path) * 0x6f77'6e20'7061'7468u;
+    }
+
+    Random shift_of(std::uint32_t place, int path) const {
+        const auto begin = static_cast<std::uint64_t>(begins_.of_positions);
+        return {Random::mix(seed_of(path)) + begin, place, 0xfffffffdu}; // no pass
+    }
+
+    std::uint64_t seed_;
+    int pass_;
+    Begins begins_;
+    std::uint64_t subpixel_, lens_; // digits of points, as net_point() has them
+    std::array<Random::Points, variants> at_x1_;
+};
+
+} // namespace tessera
