@@ -77,9 +77,10 @@ float telling_share_of(glm::ivec2 size, const RenderSettings& settings, const Pa
         return 0;
     return GuidingLearner::share_of_paths(size.x * size.y, index, guiding && guiding->draws());
 }
+
 /// Nets begin with the first pass that goes by its plan, and with powers of two, whether or not anything is learnt
-/// then. The position of a path asks for neither plan nor guides, but with samples whose number is learnt there
-/// are several.
+/// then. The position of a path asks for neither plan nor guides; but of samples whose number is learnt, each has
+/// a position of its own.
 PassNumbers::Begins begins_of_nets(const RenderSettings& settings, const ReusePlan& plan, int pass) {
     const int begin = std::max(plan.first_pass(), static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))));
     return {is_adaptive(settings) ? begin : 0, begin};
@@ -226,13 +227,15 @@ int very_direct_looks(const Pass& pass) {
 }
 
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture) {
-    const PixelRect area = block.clipped(pass.size);
+    const PixelRect inside = block.clipped(pass.size);
+    const PixelRect area{inside.x0 - (inside.x0 == 0), inside.y0 - (inside.y0 == 0),
+                         inside.x1 + (inside.x1 == pass.size.x), inside.y1 + (inside.y1 == pass.size.y)};
     const int n = pass.settings.very_direct_grid;
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            const glm::vec2 cell((x + look) % n, (y + look / n) % n);
+            const glm::vec2 cell((x + 1 + look) % n, (y + 1 + look / n) % n);
             const glm::vec2 lens = sample_disk((cell + 0.5f) / static_cast<float>(n));
-            picture(x, y) = tracer.very_direct_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}));
+            picture(x + 1, y + 1) = tracer.very_direct_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}));
         }
 }
 

@@ -299,9 +299,10 @@ void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>&
 /// it blurs is seen through some of its points only.
 int very_direct_looks(const Pass& pass);
 
-/// Very direct light of the block's pixels, along a ray through the middle of each. Pixels side by side look
-/// through different parts of the lens, and differ where a lamp is blurred, too; over all looks each sees through
-/// every part.
+/// Very direct light of the block's pixels, and of those beside it beyond the image's borders, along a ray through
+/// the middle of each. Pixels side by side look through different parts of the lens, and differ where a lamp is
+/// blurred, too; over all looks each sees through every part.
+/// @param picture  with a pixel more than the image on all four sides
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 
 /// How many points of a pixel tell its projections.

@@ -177,15 +177,21 @@ void Film::find_lamp_edges(const RgbImage& lamps) {
     constexpr float noticeable = 0.01f; // of a squared radiance
     if (lamp_edges_.empty())
         return;
-    const auto compare = [&](int x, int y, int to_x, int to_y) {
-        if (to_x < 0 || to_x >= width() || to_y >= height())
-            return;
-        const Rgb a = lamps(x, y), b = lamps(to_x, to_y), d = a - b;
-        if (glm::dot(d, d) > noticeable * std::max(glm::dot(a, a), glm::dot(b, b)))
-            lamp_edges_(x, y) = lamp_edges_(to_x, to_y) = 1;
+    const auto mark = [&](int x, int y) {
+        if (x >= 0 && y >= 0 && x < width() && y < height())
+            lamp_edges_(x, y) = 1;
     };
-    for (int y = 0; y < height(); ++y)
-        for (int x = 0; x < width(); ++x) {
+    const auto compare = [&](int x, int y, int to_x, int to_y) {
+        if (to_x < -1 || to_x > width() || to_y > height())
+            return;
+        const Rgb a = lamps(x + 1, y + 1), b = lamps(to_x + 1, to_y + 1), d = a - b;
+        if (glm::dot(d, d) > noticeable * std::max(glm::dot(a, a), glm::dot(b, b))) {
+            mark(x, y);
+            mark(to_x, to_y);
+        }
+    };
+    for (int y = -1; y <= height(); ++y)
+        for (int x = -1; x <= width(); ++x) {
             compare(x, y, x + 1, y);
             for (int to_x = x - 1; to_x <= x + 1; ++to_x)
                 compare(x, y, to_x, y + 1);

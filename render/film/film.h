@@ -106,7 +106,8 @@ public:
     }
 
     /// Remembers more edges of lamps, if it keeps them: both sides of every step between pixels side by side of
-    /// `lamps`, very direct light as large as the film. Not during a pass.
+    /// `lamps`, very direct light with a pixel more than the film on all four sides: an edge may lie in the
+    /// outermost pixels. Not during a pass.
     void find_lamp_edges(const RgbImage& lamps);
     bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }
 

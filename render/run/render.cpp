@@ -139,7 +139,7 @@ bool Render::look_first(Workers& workers) {
     const std::vector<PixelRect> blocks = blocks_of(pass);
     const int looks = very_direct_looks(pass);
     for (int look = 0; look < looks; ++look) {
-        RgbImage lamps(size_.x, size_.y);
+        RgbImage lamps(size_.x + 2, size_.y + 2);
         if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {
                 show_very_direct(pass, look, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
             }))

@@ -3,7 +3,9 @@
 #include "render/sampling/random.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 #include <glm/vec2.hpp>
 
@@ -24,11 +26,9 @@ public:
     PassNumbers(std::uint64_t seed, int pass, Begins begins) : seed_(seed), pass_(pass), begins_(begins) {
         subpixel_ = point({begins.of_positions, 0}, 0);
         lens_ = point({begins.of_positions, 1}, 0);
-        for (std::size_t v = 0; v < at_x1_.size(); ++v) {
-            at_x1_[v].first = static_cast<std::uint32_t>(begins.at_x1);
-            for (std::size_t i = 0; i < Random::Points::count; ++i)
-                at_x1_[v].digits[i] = point({begins.at_x1, positions + i}, v);
-        }
+        for (std::size_t v = 0; v < variants; ++v)
+            for (std::size_t i = 0; i < at_x1_[v].size(); ++i)
+                at_x1_[v][i] = point({begins.at_x1, positions + i}, v);
     }
 
     /// Within a pixel, uniform in [0, 1)^2.
@@ -44,12 +44,14 @@ public:
     /// Those that a pixel's path draws. Of two nets taken together some effects are measured worse than by chance,
     /// and others exactly; so pixels have one of several variants, which have nothing to do with each other.
     Random of_path(std::uint32_t pixel, int path) const {
-        const Random::Points& points = at_x1_[Random::mix(seed_ ^ pixel) % at_x1_.size()];
-        return {seed_of(path), pixel, static_cast<std::uint32_t>(pass_), points};
+        const Random::Points& points = at_x1_[Random::mix(seed_ ^ pixel) % variants];
+        return {seed_of(path), pixel, static_cast<std::uint32_t>(pass_), static_cast<std::uint32_t>(begins_.at_x1),
+                points};
     }
 
 private:
-    static constexpr std::size_t variants = 16, positions = 2, nets = positions + Random::Points::count;
+    static constexpr std::size_t variants = 16, positions = 2,
+                                 nets = positions + std::tuple_size_v<Random::Points>;
 
     struct Net {
         int begin;

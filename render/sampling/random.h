@@ -33,22 +33,19 @@ inline glm::vec2 unit_square(std::uint64_t digits) {
 /// for any number of threads and any order of work. SplitMix64 [Steele 2014] with the path's key as its start.
 class Random {
 public:
-    /// What is drawn at x_1, up to the direction in which a path goes on: for each purpose a point of a net of
-    /// samples.
-    struct Points {
-        static constexpr std::size_t count = static_cast<std::size_t>(Draw::direction) + 1;
-        std::array<std::uint64_t, count> digits{}; ///< of net_point()
-        std::uint32_t first = 0; ///< the sample with which the net begins; another one is independent of it
-    };
+    /// What is drawn at x_1, up to the direction in which a path goes on: for each purpose the digits of a point,
+    /// as net_point() has them.
+    using Points = std::array<std::uint64_t, static_cast<std::size_t>(Draw::direction) + 1>;
 
     Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
         : key_(key(seed, pixel, sample)), key_at_x1_(key_), points_{} {}
 
     /// Of samples whose points are a net, so are the numbers drawn at x_1: they are the points', with digits
-    /// turned over by a pattern of the pixel's own. The other numbers are as without.
-    Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, const Points& points)
-        : key_(key(seed, pixel, sample)), key_at_x1_(key(seed ^ 0x7831'7831'7831'7831u, pixel, points.first)),
-          points_(points.digits) {}
+    /// turned over by a pattern that the pixel has for this net. The other numbers are as without.
+    /// @param net  the sample with which it begins
+    Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, std::uint32_t net, const Points& points)
+        : key_(key(seed, pixel, sample)), key_at_x1_(key(seed ^ 0x7831'7831'7831'7831u, pixel, net)),
+          points_(points) {}
 
     /// Uniform in [0, 1).
     float draw(int vertex, Draw purpose) const { return draw_2d(vertex, purpose).x; }
@@ -80,7 +77,7 @@ private:
     }
 
     std::uint64_t key_, key_at_x1_;
-    std::array<std::uint64_t, Points::count> points_;
+    Points points_;
 };
 
 inline std::uint32_t reversed(std::uint32_t bits) {

@@ -28,7 +28,7 @@ const TestScene& scene_named(const std::string& name) {
 /// light change together within these pixels, and the covariance is a tenth of the picture and more.
 TEST(Basis, IsUnbiasedInTheMeanOfManyRendersOfTwoPasses) {
     constexpr glm::ivec2 size(4, 4);
-    constexpr int renders = 12'000;
+    constexpr int renders = 20'000;
     for (const char* name : {"texture_edges", "black_texels"}) {
         const TestScene& t = scene_named(name);
         const NaiveMeasured truth = render_naive(*t.scene, size, 3, 500'000, 7);

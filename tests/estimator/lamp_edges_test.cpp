@@ -65,15 +65,39 @@ TEST(LampEdges, HaveLessNoiseFromTheFirstPassOn) {
 TEST(LampEdges, AreBothSidesOfSteps) {
     Film film(5, 3, {.lamp_edges = true});
     EXPECT_FALSE(film.has_lamp_edge(2, 1));
-    RgbImage look(5, 3, Rgb(1));
-    look(2, 1) = Rgb(1.01f); // hardly another
+    RgbImage look(7, 5, Rgb(1)); // a pixel more on all sides
+    look(3, 2) = Rgb(1.01f);     // hardly another
     film.find_lamp_edges(look);
     EXPECT_FALSE(film.has_lamp_edge(2, 1));
-    look(4, 0) = Rgb(0);
+    look(5, 1) = Rgb(0);
     film.find_lamp_edges(look);
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 5; ++x)
             EXPECT_EQ(film.has_lamp_edge(x, y), x >= 3 && y <= 1) << x << ',' << y;
+    look(2, 4) = Rgb(0); // below the film
+    film.find_lamp_edges(look);
+    for (int x = 0; x < 3; ++x)
+        EXPECT_TRUE(film.has_lamp_edge(x, 2)) << x;
+}
+
+/// A lamp above the picture has three tenths of its first row: no ray through the middle of a pixel meets it.
+TEST(LampEdges, AreFoundInTheOutermostPixels) {
+    SceneBuilder b;
+    b.quad({-2, 0.9625f, 0}, {4, 0, 0}, {0, 1, 0}, b.diffuse(Rgb(0.5f)), b.light(Texture(Rgb(1))));
+    b.camera(Camera{look_at({0, 0, 1}, {0, 0, 0}), 90, FovAxis::x}); // sees -1 to 1, sixteen pixels
+    const auto scene = b.build();
+    RenderSettings settings;
+    settings.method = Method::pt;
+    settings.max_depth = 1;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        settings.seed = seed;
+        Render render(scene, scene->camera(), {16, 16}, settings);
+        ThreadPool pool(1);
+        render.pass(pool);
+        const RgbImage image = render.images().very_direct;
+        for (int x = 0; x < 16; ++x)
+            EXPECT_NEAR(image(x, 0).r, 0.3f, 0.21f) << x; // one or two of the grid's four rows see it
+    }
 }
 
 /// In a mirror, a lamp is as sharp and as free of noise as beside it.

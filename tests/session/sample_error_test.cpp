@@ -55,7 +55,7 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
             for (int spp = 1; spp <= 64; ++spp) {
                 render.pass(pool);
                 // Two make halves; five: one more of one half than of the other; 24: eight more.
-                if (spp != 2 && spp != 5 && spp != 24 && spp != 64)
+                if (spp != 2 && spp != 5 && spp != 16 && spp != 24 && spp != 64)
                     continue;
                 const GradientImages images = render.images();
                 const auto estimate =
@@ -69,10 +69,11 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
                         .relative_mse;
             }
         }
-        // Where pixels share, whole tiles err alike: there are fewer errors to take the mean of. And of five
-        // samples so much is held back that how bright the picture is where is not well known.
+        // What both halves' numbers, which are nets by themselves, spare together is not seen: with PT that is
+        // much.
         for (const auto& [spp, error] : errors)
-            EXPECT_NEAR(estimates[spp] / error, 1, spp > 5 ? 0.25 : 0.4) << spp << " " << short_name(method);
+            EXPECT_NEAR(estimates[spp] / error, 1, method == Method::pt ? 0.35 : 0.2)
+                << spp << " " << short_name(method);
     }
 }
 

@@ -110,11 +110,9 @@ ZResult z_test(const Measured& a, const Measured& b) {
 }
 
 bool ZResult::passes() const {
-    // Channels and neighbours share their paths, so the effective number of tests is taken as a tenth. What lies
-    // evenly over few passes is often the same in nearly all runs, and seldom far off: the largest z have longer
-    // tails than normal ones.
+    // Channels and neighbours share their paths, so the effective number of tests is taken as a tenth.
     const double effective = count / 10.0;
-    return largest < 1.3 * limit && mean_square < 1 + 6 * std::sqrt(2 / effective) &&
+    return largest < 1.15 * limit && mean_square < 1 + 6 * std::sqrt(2 / effective) &&
            std::abs(shift) < 5 / std::sqrt(effective);
 }
 
