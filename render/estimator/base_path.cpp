@@ -205,16 +205,14 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
     gather(path);
 }
 
-} // namespace
-
-void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
-                     BasePath& path) {
+/// Begins a path with what its camera ray meets; false: nothing.
+bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
+                BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
-    ++tracer.counters.camera_paths;
     BaseVertex& primary = path.spare();
     if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera)) {
         path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
-        return;
+        return false;
     }
     path.keep();
     path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
@@ -222,8 +220,29 @@ void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pix
     path.own_width = path.pixel_width;
     path.albedo = primary.vertex.bsdf.albedo(primary.vertex.to_previous);
     path.very_direct = primary.vertex.light_toward(-camera_ray.direction).radiance;
+    return true;
+}
+
+} // namespace
+
+void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
+                     BasePath& path) {
+    ++tracer.counters.camera_paths;
+    if (!begin_path(tracer, camera_ray, pixel_width, random, path))
+        return;
     trace_onward(tracer, tracer.settings.max_depth - 1, {RayKind::bounce, RayKind::light}, path);
     tracer.counters.path_vertices += static_cast<std::uint64_t>(path.size());
+}
+
+void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
+                        BasePath& path) {
+    if (!begin_path(tracer, camera_ray, pixel_width, random, path))
+        return;
+    for (int i = 1; i < tracer.settings.max_depth && path[i - 1].vertex.bsdf.is_mirror(); ++i)
+        if (!extend(tracer, i, RayKind::bounce, path))
+            break;
+    take_mirrored_light(path);
+    path.cut();
 }
 
 void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path) {

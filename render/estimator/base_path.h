@@ -79,6 +79,8 @@ struct BasePath {
     /// Room for one more vertex, which counts only once keep() is called. Old references end here.
     BaseVertex& spare();
     void keep() { ++size_; }
+    /// Leaves x_1 alone.
+    void cut() { size_ = 1; }
 
 private:
     std::size_t light_count() const { return static_cast<std::size_t>(light_samples_); }
@@ -95,6 +97,11 @@ private:
 /// @param pixel_width  of the camera ray's picture
 void trace_base_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
                      BasePath& path);
+
+/// What a pixel sees from one more position, from where it only receives light: x_1, and very direct light, which
+/// takes mirrors. It carries no light paths.
+void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
+                        BasePath& path);
 
 /// Traces the path that takes the numbers of `random` from x_1 of another path, which sees something: random
 /// replay.

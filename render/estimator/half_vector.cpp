@@ -1,4 +1,4 @@
-#include "render/estimator/half_vector.h"
+#include "render/estimator/shift.h"
 
 #include <cmath>
 

@@ -41,23 +41,7 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, Worker& worker) {
     worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0}, worker.number);
     if (worker.number == 0)
-        for_each_square(area, 1, [&](PixelRect p) {
-            note_light(pass, worker.base.at(p.x0, p.y0), worker.found);
-        });
-}
-
-/// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
-/// generalized path reusing [Bauszat 2017, 3.1].
-void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    const PixelRect area = block.clipped(pass.size);
-    trace_base_paths(pass, area, area, worker);
-    for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
-        share_light(pass, roulette_of(pass.settings), worker);
-        for (int i = 0; i < worker.set.size(); ++i) {
-            const glm::ivec2 p = worker.set.pixels[static_cast<std::size_t>(i)];
-            add_sample(pass, p.x, p.y, worker.set.sample(i, worker.reuse), worker, film);
-        }
-    });
+        for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
 }
 
 /// Adds what a pixel got in all sets of the block that it is in, or, for its primal, by its own base path alone.
@@ -72,7 +56,7 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
                        worker.set_means.reuse(x, y),
                        worker.reuse.arriving_luminance(path)};
     sample.own = path.radiance();
-    if (pass.settings.primal == PrimalSource::reuse && worker.set_means.has(x, y))
+    if (!has_own_primal(pass.settings) && worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
         sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
@@ -80,11 +64,45 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     add_sample(pass, x, y, sample, worker, film);
 }
 
-/// Lets the pixels of worker.set, a rectangle, share.
-void share_in_set(const Pass& pass, PixelRect all, Worker& worker, const Film& film) {
+/// Lets the pixels of worker.set share at one of the positions from which it is seen, if it is from so many.
+/// @param all  the rectangle that T is; empty: it is none, and has no gradients
+void share_in_set(const Pass& pass, PixelRect all, int position, Worker& worker, const Film& film) {
+    SamplingSet& set = worker.set;
+    set.positions = pass.positions_of(set.pixels);
+    set.position = position;
+    if (position >= set.positions)
+        return;
     share_light(pass, roulette_of(pass.settings), worker);
-    worker.set.expand(film);
-    worker.set_means.add(worker.set, all);
+    set.expand(film);
+    worker.set_means.add(set, all);
+}
+
+/// Sees worker.base, the base paths of a block, from all positions in turn, and calls `visit(position)`; from one
+/// unless any of its pixels is mixed, and any of them shares.
+template <class Visit>
+void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&& visit) {
+    bool shares = false;
+    pass.grid.for_each_part(block, [&](PixelRect, int paths_alone) { shares = shares || paths_alone == 0; });
+    if (!shares || !worker.base.is_mixed())
+        return visit(0);
+    for (int position = 0; position < pass.settings.positions; ++position) {
+        worker.base.see_from(pass, worker.tracer, position);
+        visit(position);
+    }
+}
+
+/// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
+/// generalized path reusing [Bauszat 2017, 3.1].
+void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    const PixelRect area = block.clipped(pass.size);
+    trace_base_paths(pass, area, area, worker);
+    worker.set_means.begin(area, 0);
+    for_each_position(pass, block, worker, [&](int position) {
+        for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
+            share_in_set(pass, {0, 0, 0, 0}, position, worker, film);
+        });
+    });
+    for_each_square(area, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
 }
 
 /// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that share the
@@ -97,7 +115,7 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     worker.set_means.begin(area, part_count(pass.settings));
     for_each_square(area, 1, [&](PixelRect pixel) {
         for_each_gpt_set(pass, {pixel.x0, pixel.y0}, worker.set,
-                         [&](PixelRect all) { share_in_set(pass, all, worker, film); });
+                         [&](PixelRect all) { share_in_set(pass, all, 0, worker, film); });
     });
     for_each_square(area, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
 }
@@ -111,7 +129,7 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
         mean.add(pass, worker.base.at(p.x, p.y), paths);
         for (int i = 1; i < paths; ++i) {
             const int number = i * worker.samples + worker.number; // other ones than those of any other sample
-            trace_pixel(pass, worker.tracer, p.x, p.y, pass.camera_sample({inner.x0, inner.y0}, number),
+            trace_pixel(pass, worker.tracer, p.x, p.y, pass.base_sample(p, {inner.x0, inner.y0}, number),
                         worker.path, number);
             mean.add(pass, worker.path, paths);
         }
@@ -130,6 +148,8 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
                 sample.dx = worker.base.mean(x + 1, y).coefficient - here.coefficient;
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
+            sample.albedo_spread = here.albedo_squares - here.albedo * here.albedo;
+            sample.value_spread = here.albedo_values - here.albedo * here.radiance;
             sample.paths = count;
             sample.own = here.radiance;
             sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
@@ -144,11 +164,13 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
     worker.set_means.begin(area, part_count(pass.settings));
-    for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
-        if (paths_alone > 0)
-            take_means(pass, inner, paths_alone, worker);
-        else
-            share_in_set(pass, all, worker, film);
+    for_each_position(pass, block, worker, [&](int position) {
+        for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
+            if (paths_alone == 0)
+                share_in_set(pass, all, position, worker, film);
+            else if (position == 0)
+                take_means(pass, inner, paths_alone, worker);
+        });
     });
     pass.grid.for_each_part(block, [&](PixelRect inner, int paths_alone) {
         if (paths_alone > 0)

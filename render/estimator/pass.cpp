@@ -12,52 +12,6 @@
 
 namespace tessera {
 
-void SamplingSet::assign(PixelRect rect) {
-    clear();
-    for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x)
-            add(x, y);
-}
-
-void SamplingSet::collect(const Pass& pass, const BaseBlock& base) {
-    paths.clear();
-    albedo.clear();
-    for (glm::ivec2 p : pixels) {
-        paths.push_back(&base.at(p.x, p.y));
-        albedo.push_back(pass.albedo_of(*paths.back()));
-    }
-    radiance.assign(pixels.size(), Rgb(0));
-    reuse.assign(pixels.size(), {});
-    arriving.reset(is_expanded(pass.settings) ? pass.settings.basis : Basis::none, albedo);
-}
-
-void SamplingSet::expand(const Film& film) {
-    parts.resize(static_cast<std::size_t>(size() * arriving.parts()));
-    for (int i = 0; arriving.is_kept() && i < size(); ++i) {
-        const glm::ivec2 p = pixels[static_cast<std::size_t>(i)];
-        arriving.expand(i, coefficient(i), film.projection(p.x, p.y), parts.data() + i * arriving.parts());
-    }
-}
-
-void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
-    for (std::size_t m = 0; m < outcomes.size(); ++m)
-        if (m != static_cast<std::size_t>(k))
-            ++reuse[m].shifts[static_cast<std::size_t>(outcomes[m])];
-}
-
-void SamplingSet::count(const ReuseDecision& decision, int k) {
-    ReuseCounts& counts = reuse[static_cast<std::size_t>(k)];
-    if (!decision.is_dark())
-        ++(decision.survives() ? counts.reused : counts.skipped);
-}
-
-PixelSample SamplingSet::sample(int i, const PathReuse& estimator) const {
-    const auto m = static_cast<std::size_t>(i);
-    const BasePath& path = *paths[m];
-    return {
-        coefficient(i), Rgb(0), Rgb(0), path.very_direct, albedo[m], reuse[m], estimator.arriving_luminance(path)};
-}
-
 std::uint64_t Worker::bytes(const RenderSettings& settings) {
     constexpr int long_path = 16; // vertices: memory is for 2^n of them, and some of a block's paths are as long
     const auto edge = static_cast<std::uint64_t>(block_edge_of(settings) + 1); // with one more column and row
@@ -67,8 +21,9 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
         sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
                               (is_adaptive(settings) ? sizeof(PixelSample) : 0) +
-                              (has_gradients(settings.method) ? SetMeans::bytes(part_count(settings)) : 0);
-    return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex);
+                              (settings.method != Method::pt ? SetMeans::bytes(part_count(settings)) : 0);
+    const std::uint64_t a_glimpse = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
+    return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex + a_glimpse);
 }
 
 namespace {
@@ -92,7 +47,7 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       telling_share(telling_share_of(size_, settings_, plan.guiding(), index_)), projection_(camera, size_),
       has_lens_(camera.aperture_radius > 0),
-      numbers_(settings_.seed, index_, begins_of_nets(settings_, plan, index_)) {}
+      numbers_(settings_.seed, index_, begins_of_nets(settings_, plan, index_), settings_.positions) {}
 
 /// Blocks are moved with the grid of tiles. Those of a square begin at one place, so that few pixels change from
 /// one sequence to another, and see only parts of both.
@@ -102,9 +57,10 @@ std::uint32_t Pass::place_of(glm::ivec2 pixel) const {
     return static_cast<std::uint32_t>(at.y * size.x + at.x);
 }
 
-CameraSample Pass::camera_sample(glm::ivec2 pixel, int path) const {
-    const std::uint32_t place = place_of(pixel);
-    return {numbers_.subpixel(place, path), has_lens_ ? sample_disk(numbers_.lens(place, path)) : glm::vec2(0)};
+CameraSample Pass::sample_at(int position, glm::ivec2 inside, int path) const {
+    const std::uint32_t place = place_of(inside);
+    return {numbers_.subpixel(place, path, position),
+            has_lens_ ? sample_disk(numbers_.lens(place, path, position)) : glm::vec2(0)};
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -153,15 +109,46 @@ bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) 
     return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera);
 }
 
+namespace {
+void refuse_if_not_finite(const Pass& pass, const Tracer& tracer, glm::ivec2 pixel, BasePath& path) {
+    if (is_finite(path.radiance() + path.very_direct))
+        return;
+    tracer.counters.refuse({pass.index, pixel.y, pixel.x});
+    path.reset(path.random, path.light_samples());
+}
+} // namespace
+
 void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number) {
-    const CameraSample from = pass.camera_sample(inside, number);
     rect_ = rect;
+    inside_ = inside;
+    number_ = number;
+    mixed_.clear();
+    glimpse_of_.clear();
     const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     if (paths_.size() < count)
         paths_.resize(count);
     for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x)
-            trace_pixel(pass, tracer, x, y, from, paths_[index(x, y)], number);
+        for (int x = rect.x0; x < rect.x1; ++x) {
+            trace_pixel(pass, tracer, x, y, pass.base_sample({x, y}, inside, number), paths_[index(x, y)], number);
+            if (pass.is_mixed({x, y}))
+                mixed_.emplace_back(x, y);
+        }
+}
+
+void BaseBlock::see_from(const Pass& pass, const Tracer& tracer, int position) {
+    const CameraSample from = pass.sample_at(position, inside_, number_);
+    glimpse_of_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), -1);
+    if (glimpses_.size() < mixed_.size())
+        glimpses_.resize(mixed_.size());
+    for (std::size_t i = 0; i < mixed_.size(); ++i) {
+        const glm::ivec2 p = mixed_[i];
+        if (pass.turn(p) == position)
+            continue;
+        glimpse_of_[index(p.x, p.y)] = static_cast<std::int16_t>(i);
+        trace_first_vertex(tracer, pass.camera_ray(p.x, p.y, from), pass.pixel_width(),
+                           pass.random(p.x, p.y, number_), glimpses_[i]);
+        refuse_if_not_finite(pass, tracer, p, glimpses_[i]);
+    }
 }
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
@@ -188,16 +175,15 @@ void MeanOfPaths::add(const Pass& pass, const BasePath& path, int count) {
     coefficient += tessera::coefficient(path.radiance(), a) * share;
     radiance += path.radiance() * share;
     albedo += a * share;
+    albedo_squares += a * a * share;
+    albedo_values += a * path.radiance() * share;
     very_direct += path.very_direct * share;
 }
 
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number) {
     trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y, number), path);
-    if (is_finite(path.radiance() + path.very_direct))
-        return;
-    tracer.counters.refuse({pass.index, y, x});
-    path.reset(path.random, path.light_samples());
+    refuse_if_not_finite(pass, tracer, {x, y}, path);
 }
 
 bool tells_of_light(const Pass& pass, const Random& random) {
@@ -239,6 +225,17 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
         }
 }
 
+void take_first_looks(const Pass& pass, PixelRect block, Worker& worker, PixelLooks& looks) {
+    for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
+        for (int more = looks.wanted(p.x0, p.y0); more > 0; --more) {
+            const Look look = pass.look_at(worker.tracer, p.x0, p.y0, looks.count(p.x0, p.y0));
+            if (!look.is_finite())
+                worker.counters.refuse({pass.index, p.y0, p.x0});
+            looks.add(p.x0, p.y0, look.is_finite() ? look : Look{});
+        }
+    });
+}
+
 void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film) {
     // [Fang 2024, 4] takes 150 directions and more, drawn anew for every pixel; here all have the same.
     constexpr int directions = 40;
@@ -261,84 +258,6 @@ void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, F
                 project_evenly(basis, s);
             film.set_projection(x, y, s);
         }
-}
-
-void SampleMeans::begin(PixelRect area, int samples) {
-    area_ = area;
-    samples_ = samples;
-    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
-    means_.assign(samples > 1 ? pixels : 0,
-                  {Rgb(0), Rgb(0), Rgb(0), Rgb(0), Rgb(0), {}, -1, {}, {}, {}, Rgb(0), 0});
-}
-
-void SampleMeans::add(int x, int y, const PixelSample& sample) {
-    PixelSample& mean = means_[index(x, y)];
-    const float share = 1 / static_cast<float>(samples_);
-    const Rgb radiance =
-        mean.primal * mean.albedo + mean.beside + (sample.primal * sample.albedo + sample.beside) * share;
-    mean.primal += sample.primal * share;
-    mean.dx += sample.dx * share;
-    mean.dy += sample.dy * share;
-    mean.very_direct += sample.very_direct * share;
-    mean.albedo += sample.albedo * share;
-    mean.own += sample.own * share;
-    mean.beside = radiance - mean.primal * mean.albedo;
-    mean.reuse += sample.reuse;
-    mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;
-    mean.paths += sample.paths;
-}
-
-void SetMeans::begin(PixelRect area, int parts) {
-    area_ = area;
-    part_count_ = static_cast<std::size_t>(parts);
-    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
-    pixels_.assign(pixels, {});
-    for (std::vector<Rgb>* sums : {&parts_, &parts_dx_, &parts_dy_})
-        sums->assign(pixels * part_count_, Rgb(0));
-}
-
-void SetMeans::add(const SamplingSet& set, PixelRect all) {
-    for (int i = 0; i < set.size(); ++i) {
-        const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
-        if (!area_.contains(p))
-            continue;
-        const std::size_t at = index(p.x, p.y);
-        Pixel& pixel = pixels_[at];
-        pixel.reuse += set.reuse[static_cast<std::size_t>(i)];
-        add(set, {}, i, pixel.primal, parts_at(parts_, at));
-        if (p.x + 1 < all.x1)
-            add(set, i, i + 1, pixel.dx, parts_at(parts_dx_, at));
-        if (p.y + 1 < all.y1)
-            add(set, i, i + all.width(), pixel.dy, parts_at(parts_dy_, at));
-    }
-}
-
-/// Running means: sums of what is as bright as numbers go would be beyond them.
-void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
-    const auto pixels = static_cast<float>(set.size());
-    mean.pixels += pixels;
-    const float share = pixels / mean.pixels;
-    const auto move = [share](Rgb& value, Rgb here, Rgb there) {
-        value = value * (1 - share) + (there - here) * share;
-    };
-    move(mean.value, from ? set.coefficient(*from) : Rgb(0), set.coefficient(to));
-    for (std::size_t l = 0; l < parts.size(); ++l)
-        move(parts[l], from ? set.parts_of(*from)[l] : Rgb(0), set.parts_of(to)[l]);
-}
-
-void SetMeans::take_primal(int x, int y, PixelSample& sample) const {
-    const std::size_t at = index(x, y);
-    sample.primal = pixels_[at].primal.value;
-    sample.parts = parts_at(parts_, at);
-}
-
-void SetMeans::take_gradients(int x, int y, PixelSample& sample) const {
-    const std::size_t at = index(x, y);
-    const Pixel& pixel = pixels_[at];
-    sample.dx = pixel.dx.value;
-    sample.dy = pixel.dy.value;
-    sample.parts_dx = parts_at(parts_dx_, at);
-    sample.parts_dy = parts_at(parts_dy_, at);
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {

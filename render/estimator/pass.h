@@ -3,6 +3,7 @@
 #include "recon/image.h"
 #include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_policy.h"
+#include "render/estimator/sampling_set.h"
 #include "render/estimator/tile_grid.h"
 #include "render/film/film.h"
 #include "render/sampling/pass_numbers.h"
@@ -17,55 +18,6 @@
 #include <glm/vec2.hpp>
 
 namespace tessera {
-
-class BaseBlock;
-class Pass;
-
-/// T: the pixels whose base paths take part in one balance heuristic, and what each gets of their light. All lists
-/// have one entry a pixel.
-struct SamplingSet {
-    std::vector<glm::ivec2> pixels;
-    std::vector<const BasePath*> paths;
-    std::vector<Rgb> radiance;
-    std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
-    std::vector<ReuseCounts> reuse;
-    int number = 0;         ///< which of the paths that a pixel takes for itself alone (Pass::camera_sample)
-    float offset_rays = 0;  ///< that an offset took, in the mean (Counters::offset_work)
-    ArrivingLight arriving; ///< if the basis has parts
-    std::vector<Rgb> parts; ///< of the coefficients, part_count() a pixel, once they are expanded
-
-    int size() const { return static_cast<int>(pixels.size()); }
-
-    void clear() {
-        pixels.clear();
-        number = 0;
-    }
-    void add(int x, int y) { pixels.emplace_back(x, y); }
-    /// All pixels of a rectangle, row by row, and no others.
-    void assign(PixelRect rect);
-    bool contains(glm::ivec2 pixel) const {
-        return std::find(pixels.begin(), pixels.end(), pixel) != pixels.end();
-    }
-
-    /// Looks the base paths of `pixels` up, and sets all sums to 0.
-    void collect(const Pass& pass, const BaseBlock& base);
-    /// What entry i got, over its albedo: what primal and gradients are measured of.
-    Rgb coefficient(int i) const {
-        return tessera::coefficient(radiance[static_cast<std::size_t>(i)], albedo[static_cast<std::size_t>(i)]);
-    }
-    /// Works all parts out, if the film has projections.
-    void expand(const Film& film);
-    std::span<const Rgb> parts_of(int i) const {
-        const auto count = static_cast<std::size_t>(arriving.parts());
-        return {parts.data() + static_cast<std::size_t>(i) * count, count};
-    }
-    /// Counts how the shifts of base path k ended; none: no shift was tried.
-    void count(std::span<const ShiftOutcome> outcomes, int k);
-    /// Counts what the roulette on reuse decided on base path k.
-    void count(const ReuseDecision& decision, int k);
-    /// Entry i for the film, without gradients.
-    PixelSample sample(int i, const PathReuse& estimator) const;
-};
 
 /// Where a camera ray goes through its pixel and through the lens.
 struct CameraSample {
@@ -94,7 +46,27 @@ public:
     /// for a pixel of PT's, or for a square of 8 x 8 blocks, as an edge along which all pixels had the same few
     /// positions would be too bright, or too dark, all along.
     /// @param path  of several that a pixel takes for itself alone; the first, 0, is the one that can be shared
-    CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const;
+    CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const {
+        return sample_at(PassNumbers::only, pixel, path);
+    }
+
+    /// Whether a pixel sees several things: then the pass sees it from several positions where it receives light,
+    /// settings.positions, each the same for all such pixels of a block.
+    bool is_mixed(glm::ivec2 pixel) const { return has_positions(settings) && grid.is_mixed(pixel); }
+    /// From how many positions the pass sees a set of such pixels: one, if none of them is mixed.
+    int positions_of(std::span<const glm::ivec2> set) const {
+        return std::ranges::any_of(set, [&](glm::ivec2 p) { return is_mixed(p); }) ? settings.positions : 1;
+    }
+    /// At which of the positions the base path of a pixel is shared, where any pixel of its set is mixed.
+    int turn(glm::ivec2 pixel) const { return numbers_.turn(pixel); }
+    /// Where the base path of a pixel begins: if it is mixed, at its turn's position.
+    /// @param inside  any pixel of the block whose pixels get its light
+    CameraSample base_sample(glm::ivec2 pixel, glm::ivec2 inside, int path = 0) const {
+        return sample_at(is_mixed(pixel) ? turn(pixel) : PassNumbers::only, inside, path);
+    }
+    CameraSample base_sample(glm::ivec2 pixel, int path = 0) const { return base_sample(pixel, pixel, path); }
+    /// One of the positions of mixed pixels, or PassNumbers::only, that of all others.
+    CameraSample sample_at(int position, glm::ivec2 inside, int path) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
@@ -139,6 +111,7 @@ private:
 /// The mean of several base paths of a pixel.
 struct MeanOfPaths {
     Rgb coefficient{0}, radiance{0}, albedo{0}, very_direct{0};
+    Rgb albedo_squares{0}, albedo_values{0}; ///< of the albedo, and of it times radiance
 
     /// Adds one of `count` paths.
     void add(const Pass& pass, const BasePath& path, int count);
@@ -151,6 +124,19 @@ public:
     /// @param number  of the paths, as in Pass::camera_sample()
     void trace(const Pass& pass, const Tracer& tracer, PixelRect rect, glm::ivec2 inside, int number = 0);
     const BasePath& at(int x, int y) const { return paths_[index(x, y)]; }
+
+    /// Whether any of its pixels is mixed (Pass::is_mixed).
+    bool is_mixed() const { return !mixed_.empty(); }
+    /// Sees the mixed pixels from a position.
+    void see_from(const Pass& pass, const Tracer& tracer, int position);
+    /// What a pixel sees from the position of the last see_from(): its base path, or if it is mixed and that is
+    /// shared at another one, no more than x_1. The base path if there was no see_from() since trace().
+    const BasePath& seen(int x, int y) const {
+        const std::size_t i = index(x, y);
+        return i < glimpse_of_.size() && glimpse_of_[i] >= 0 ? glimpses_[static_cast<std::size_t>(glimpse_of_[i])]
+                                                             : paths_[i];
+    }
+
     /// What paths of its own alone bring a pixel that shares nothing; that of others is anything.
     MeanOfPaths& mean(int x, int y) {
         means_.resize(paths_.size());
@@ -165,73 +151,11 @@ private:
     PixelRect rect_{0, 0, 0, 0};
     std::vector<BasePath> paths_; // never shrinks, so that vertices keep their memory
     std::vector<MeanOfPaths> means_;
-};
-
-/// Means of the samples that the pixels of a block take in one pass, where these are several.
-class SampleMeans {
-public:
-    void begin(PixelRect area, int samples);
-    void add(int x, int y, const PixelSample& sample);
-    const PixelSample& at(int x, int y) const { return means_[index(x, y)]; }
-
-private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
-    }
-
-    PixelRect area_{0, 0, 0, 0};
-    int samples_ = 1;
-    std::vector<PixelSample> means_;
-};
-
-/// What the pixels of a block get in the sampling sets of G-PT and G-PR that are in it: means over all sets that a
-/// pixel is in, and of gradients over those that both pixels are in, each with the weight of its pixels, as so
-/// many base paths stand behind it. In a set that takes a pixel for its halo it shares like any other, so that
-/// this costs nothing.
-class SetMeans {
-public:
-    /// @param parts  of the basis; 0: none
-    void begin(PixelRect area, int parts);
-    /// Adds what the pixels of a set got, of those in the block. `all` is the rectangle of the set, row by row.
-    void add(const SamplingSet& set, PixelRect all);
-    /// How the shifts to a pixel ended.
-    const ReuseCounts& reuse(int x, int y) const { return pixels_[index(x, y)].reuse; }
-    /// Whether a pixel is in any set.
-    bool has(int x, int y) const { return pixels_[index(x, y)].primal.pixels > 0; }
-    /// Puts the primal into a sample; and the gradients, 0 where there is none. Parts are in memory of this until
-    /// the next begin().
-    void take_primal(int x, int y, PixelSample& sample) const;
-    void take_gradients(int x, int y, PixelSample& sample) const;
-    /// The memory that a pixel takes.
-    static std::size_t bytes(int parts) {
-        return sizeof(Pixel) + 3 * static_cast<std::size_t>(parts) * sizeof(Rgb);
-    }
-
-private:
-    struct Mean {
-        Rgb value{0};
-        float pixels = 0; ///< of all sets
-    };
-    struct Pixel {
-        Mean primal, dx, dy;
-        ReuseCounts reuse{};
-    };
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
-    }
-    std::span<Rgb> parts_at(std::vector<Rgb>& parts, std::size_t pixel) {
-        return {parts.data() + pixel * part_count_, part_count_};
-    }
-    std::span<const Rgb> parts_at(const std::vector<Rgb>& parts, std::size_t pixel) const {
-        return {parts.data() + pixel * part_count_, part_count_};
-    }
-    /// Adds what entry `to` got, less what entry `from` got, if there is one.
-    static void add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts);
-
-    PixelRect area_{0, 0, 0, 0};
-    std::size_t part_count_ = 0;
-    std::vector<Pixel> pixels_;
-    std::vector<Rgb> parts_, parts_dx_, parts_dy_;
+    glm::ivec2 inside_{0};
+    int number_ = 0;
+    std::vector<glm::ivec2> mixed_;        ///< pixels
+    std::vector<std::int16_t> glimpse_of_; ///< by pixels; -1: it sees its base path
+    std::vector<BasePath> glimpses_;       ///< never shrinks
 };
 
 /// What a worker carries from block to block: memory and counts.
@@ -283,6 +207,9 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
 /// 1: it shares nothing (methods.cpp).
 Image<float> sharers_of(const Pass& pass);
 
+/// Looks at each pixel of the block for the first time.
+void take_first_looks(const Pass& pass, PixelRect block, Worker& worker, PixelLooks& looks);
+
 /// Traces the path of one sample of this pass, from there in its pixel and on the lens. One that is not finite is
 /// refused, counted, and left empty: it would spoil all pixels that share it.
 /// @param number  of the path, as in Pass::camera_sample()
@@ -320,8 +247,8 @@ void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& work
 /// Whether base path k of worker.set is reused. Counted.
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);
 
-/// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths; the set then
-/// holds what each has got.
+/// Lets the pixels of worker.set, all of them in worker.base, share the light of their base paths, or if they are
+/// seen from several positions of those whose turn it is at the one at hand; the set then holds what each has got.
 /// @param kind  a path is reused with the probability q that this kind of ReuseRoulette gives it, and weighs 1/q;
 ///              a path that is not shares nothing [Bauszat 2017, 3.3]
 /// @param watch is called as watch(k, decision) when the light of path k has been shared out; worker.reuse then
@@ -330,10 +257,12 @@ template <class Watch>
 void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
     SamplingSet& set = worker.set;
     set.collect(pass, worker.base);
-    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.paths);
+    const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.base);
     worker.reuse.begin(set.paths);
     const std::uint64_t rays = worker.counters.offset_work();
     for (int k = 0; k < set.size(); ++k) {
+        if (set.positions > 1 && pass.turn(set.pixels[static_cast<std::size_t>(k)]) != set.position)
+            continue;
         const ReuseDecision decision = decide_on_reuse(k, roulette, worker);
         worker.reuse.share(k, decision.scale, set.radiance, set.arriving.is_kept() ? &set.arriving : nullptr);
         set.count(worker.reuse.outcomes(), k);

@@ -6,6 +6,7 @@
 #include "render/settings/settings.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -113,7 +114,13 @@ public:
     const PathGuiding* guiding() const { return guiding_.get(); }
     void set_guiding(std::shared_ptr<const PathGuiding> guiding) { guiding_ = std::move(guiding); }
 
-    /// All that it has learnt, but for where paths are guided to.
+    /// Whether a pixel sees several things (PixelLooks::mixed), so that a pass sees it from several positions.
+    bool is_mixed(glm::ivec2 pixel) const { return mixed_ && (*mixed_)(pixel.x, pixel.y) != 0; }
+    const std::shared_ptr<const Image<std::uint8_t>>& mixed() const { return mixed_; }
+    /// @param mixed  1 for each pixel that does; null: nobody asks
+    void set_mixed(std::shared_ptr<const Image<std::uint8_t>> mixed) { mixed_ = std::move(mixed); }
+
+    /// All that it has learnt from passes, but for where paths are guided to.
     Memory memory() {
         return {memory_of(first_pass_), memory_of(cells_), memory_of(gain_), memory_of(samples_),
                 memory_of(paths_alone_)};
@@ -135,6 +142,7 @@ private:
     Image<float> samples_; ///< a pass, by cells
     Image<float> gain_;    ///< of sharing, by cells
     std::shared_ptr<const PathGuiding> guiding_;
+    std::shared_ptr<const Image<std::uint8_t>> mixed_;
     int paths_alone_ = 4; ///< where pixels share nothing; as many as make halos and pilot cheap, if none does
 };
 

@@ -123,8 +123,8 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
         if (!beside_.empty())
             beside_(x, y) += glm::dvec3(sample.beside);
         sampled_albedo_(x, y) += a;
-        albedo_squares_(x, y) += a * a;
-        albedo_values_(x, y) += a * v;
+        albedo_squares_(x, y) += a * a + glm::dvec3(sample.albedo_spread);
+        albedo_values_(x, y) += a * v + glm::dvec3(sample.value_spread);
     }
     if (dx_.empty())
         return;
@@ -162,11 +162,9 @@ void Film::add(const Film& other) {
 }
 
 void Film::add_look(int x, int y, int pass, const Look& look, Counters& counters) {
-    const bool is_good = is_finite(look.albedo) && is_finite(look.guide.albedo) && is_finite(look.guide.normal) &&
-                         std::isfinite(look.guide.nearness) && std::isfinite(look.guide.roughness);
-    if (!is_good)
+    if (!look.is_finite())
         counters.refuse({pass, y, x});
-    looks_.add(x, y, is_good ? look : Look{});
+    looks_.add(x, y, look.is_finite() ? look : Look{});
 }
 
 void Film::finish(int pass) {

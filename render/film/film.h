@@ -34,11 +34,13 @@ struct PixelSample {
     /// such a basis, or no neighbour.
     std::span<const Rgb> parts{}, parts_dx{}, parts_dy{};
 
-    /// Radiance less primal times albedo: other than 0 where the sample is the mean of several paths, whose light
-    /// is not divided by one albedo.
+    /// Radiance less primal times albedo: other than 0 where the sample is the mean of several paths or
+    /// positions, whose light is not divided by one albedo.
     Rgb beside{0};
     int paths = 1; ///< base paths of its own that it is the mean of
     Rgb own{0};    ///< the radiance of these alone, without very direct light; where there are gradients
+    /// Within a sample that is such a mean: the variance of the albedo, and its covariance with radiance.
+    Rgb albedo_spread{0}, value_spread{0};
 };
 
 /// What a film keeps beside primal and very direct light.
@@ -49,7 +51,8 @@ struct FilmBuffers {
     bool luminance = false;  ///< for the plan, of the last pass
     bool lamp_edges = false; ///< of the lamps that the camera sees
     int parts = 0;           ///< of primal and gradients
-    bool means = false;      ///< samples may be means of several paths (PixelSample::beside), which are counted
+    bool means =
+        false; ///< samples may be means of several paths, which are counted, or positions (PixelSample::beside)
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -88,6 +91,9 @@ public:
     /// Adds one more look at a pixel, in pass `pass`. One that is not finite is refused and counted, and black
     /// takes its place, so that the next point is another.
     void add_look(int x, int y, int pass, const Look& look, Counters& counters);
+
+    /// Takes looks that were taken before, where it has fewer of its own.
+    void take_looks(const PixelLooks& looks) { looks_.take_more_of(looks); }
 
     /// To be called after each pass: it counts to one half or the other.
     void finish(int pass);

@@ -21,6 +21,11 @@ float square_of(const Guide& guide) {
 
 } // namespace
 
+bool Look::is_finite() const {
+    return tessera::is_finite(albedo) && tessera::is_finite(guide.albedo) && tessera::is_finite(guide.normal) &&
+           std::isfinite(guide.nearness) && std::isfinite(guide.roughness);
+}
+
 void PixelLooks::Points::operator+=(const Look& look) {
     const glm::dvec3 a(look.albedo);
     albedo += a;
@@ -47,6 +52,14 @@ double PixelLooks::Points::guide_variance() const {
     return variance_of(static_cast<double>(guide_squares), static_cast<double>(square_of(guide)), count);
 }
 
+PixelLooks::Points PixelLooks::around(int x, int y) const {
+    Points sum;
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, points_.height() - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, points_.width() - 1); ++i)
+            sum += points_(i, j);
+    return sum;
+}
+
 void PixelLooks::ask_for_more(int passes) {
     // The albedo's relative variance is to be well below that of the light, of which a sample has about 0.1 to 1
     // before the pixels around help. Tried on stability's texture: 0.002 is as good, 0.015 costs a fifth more
@@ -56,17 +69,22 @@ void PixelLooks::ask_for_more(int passes) {
     const auto needed = [](double variance, double enough) { return std::pow(variance / enough, 2 / 3.0); };
     for (int y = 0; y < points_.height(); ++y)
         for (int x = 0; x < points_.width(); ++x) {
-            // A few points of one pixel may well be alike by chance: the pixels around tell, too.
-            Points around;
-            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, points_.height() - 1); ++j)
-                for (int i = std::max(x - 1, 0); i <= std::min(x + 1, points_.width() - 1); ++i)
-                    around += points_(i, j);
+            const Points near = around(x, y);
             Points& here = points_(x, y);
-            double count = needed(around.guide_variance(), enough_of_guides);
+            double count = needed(near.guide_variance(), enough_of_guides);
             if (for_albedo_)
-                count = std::max(count, needed(around.relative_albedo_variance(), enough_of_one / passes));
+                count = std::max(count, needed(near.relative_albedo_variance(), enough_of_one / passes));
             here.wanted = static_cast<int>(std::clamp(count - here.count, 0.0, most));
         }
+}
+
+Image<std::uint8_t> PixelLooks::mixed() const {
+    constexpr double noticeable = 0.2; // 0.05 to 0.6 bring and cost about the same
+    Image<std::uint8_t> result(points_.width(), points_.height());
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 0; x < points_.width(); ++x)
+            result(x, y) = around(x, y).guide_variance() > noticeable;
+    return result;
 }
 
 void PixelLooks::take_more_of(const PixelLooks& other) {

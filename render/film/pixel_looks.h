@@ -15,6 +15,8 @@ namespace tessera {
 struct Look {
     Rgb albedo{0}; ///< at x_1; black where it meets nothing
     Guide guide;
+
+    bool is_finite() const;
 };
 
 /// What is known of the pixels from camera rays of their own, none of them a sample's. The points of a pixel are a
@@ -43,6 +45,9 @@ public:
     /// Between passes: finds out where more points are needed, for the means of so many passes.
     void ask_for_more(int passes);
 
+    /// Pixels that see several things, by the guides of theirs and of the pixels around them: 1, else 0.
+    Image<std::uint8_t> mixed() const;
+
     /// Takes those of another render of the same picture, whose points are the same ones, where it has more.
     void take_more_of(const PixelLooks& other);
 
@@ -70,6 +75,9 @@ private:
         double relative_albedo_variance() const;
         double guide_variance() const;
     };
+
+    /// Of a pixel and those around it: a few points of one may well be alike by chance.
+    Points around(int x, int y) const;
 
     Image<Points> points_;
     bool for_albedo_;

@@ -32,14 +32,17 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0}, worker.set.number);
     Onlooker onlooker(worker, static_cast<float>(pass.index) + 1, pixel ? result.index_of(*pixel) : -1, result);
     const bool is_alone = reuses_paths(pass.settings.method) && pass.grid.paths_alone_at(result.pixels[0]) > 0;
-    share_light(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
-    result.albedo = worker.set.albedo;
+    SamplingSet& set = worker.set;
+    set.positions = is_alone ? 1 : pass.positions_of(set.pixels);
+    result.coefficient.resize(result.pixels.size());
+    for (set.position = 0; set.position < set.positions; ++set.position) {
+        if (set.positions > 1)
+            worker.base.see_from(pass, worker.tracer, set.position);
+        share_light(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
+        for (int m = 0; m < set.size(); ++m)
+            result.coefficient[static_cast<std::size_t>(m)] += set.coefficient(m);
+    }
     return result;
-}
-
-/// Whether a pixel's primal is the light of its own base path.
-bool has_own_primal(const RenderSettings& s) {
-    return s.method == Method::pt || (has_gradients(s.method) && s.primal == PrimalSource::base);
 }
 
 /// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
@@ -49,7 +52,7 @@ bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings&
         return false;
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
-        return m >= 0 && !is_finite(coefficient(set.radiance(p), set.albedo[static_cast<std::size_t>(m)]));
+        return m >= 0 && !is_finite(set.coefficient[static_cast<std::size_t>(m)]);
     };
     return is_bad(pixel) || (has_gradients(settings.method) &&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
@@ -63,12 +66,28 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
         const int alone = pass.grid.block_at(p) == pass.grid.block_at(pixel) ? pass.grid.paths_alone_at(p) : 0;
         const int paths = std::max(alone, 1) * pass.grid.samples(pass.grid.block_at(pixel));
         for (int number = 0; number < paths; ++number) {
-            trace_pixel(pass, worker.tracer, p.x, p.y, pass.camera_sample(pixel, number), worker.path, number);
+            trace_pixel(pass, worker.tracer, p.x, p.y, pass.base_sample(p, pixel, number), worker.path, number);
             if (!is_finite(coefficient(worker.path.radiance(), pass.albedo_of(worker.path))))
                 return true;
         }
     }
     return false;
+}
+
+/// What the sample of worker.path, a pixel's base path, has of very direct light.
+Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number, Worker& worker) {
+    if (is_alone || has_own_primal(pass.settings) || !pass.is_mixed(pixel))
+        return worker.path.very_direct;
+    Rgb sum = worker.path.very_direct;
+    BasePath seen;
+    for (int position = 0; position < pass.settings.positions; ++position) {
+        if (position == pass.turn(pixel))
+            continue;
+        const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.sample_at(position, pixel, number));
+        trace_first_vertex(worker.tracer, ray, pass.pixel_width(), worker.path.random, seen);
+        sum += seen.very_direct;
+    }
+    return sum / static_cast<float>(pass.settings.positions);
 }
 
 /// @param d  of vertex i of the path
@@ -152,14 +171,14 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
                    const ReusePlan& plan, int index, glm::ivec2 pixel) {
     const Pass pass(scene, camera, size, settings, plan, index);
     Worker worker(scene, camera, size, settings, plan.guiding());
-    const CameraSample from = pass.camera_sample(pixel);
+    const CameraSample from = pass.base_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
     const int paths = std::max(paths_alone, 1) * pass.grid.samples(pass.grid.block_at(pixel));
     std::vector<Hit> hits;
     for (int number = 0; number < paths; ++number) {
         // Not by trace_pixel(), which empties a path that is to be refused.
-        const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.camera_sample(pixel, number));
+        const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.base_sample(pixel, number));
         worker.tracer.hits = number == 0 ? &hits : nullptr;
         trace_base_path(worker.tracer, ray, pass.pixel_width(), pass.random(pixel.x, pixel.y, number),
                         worker.path);
@@ -168,12 +187,13 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
             add_footprints(pass, pixel, from, worker, hits, result.path);
             result.radiance = worker.path.radiance();
         }
-        result.very_direct += worker.path.very_direct / static_cast<float>(paths);
+        worker.tracer.hits = nullptr;
+        const Rgb very_direct = very_direct_of(pass, pixel, paths_alone > 0, number, worker);
+        result.very_direct += very_direct / static_cast<float>(paths);
         const Rgb albedo = has_own_primal(settings) ? pass.albedo_of(worker.path) : Rgb(1);
         result.is_refused =
-            result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + worker.path.very_direct);
+            result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + very_direct);
     }
-    worker.tracer.hits = nullptr;
     for_each_set_with(pass, pixel, worker.set,
                       [&](PixelRect inner) { result.sets.push_back(inspect_set(pass, inner, pixel, worker)); });
     if (paths_alone > 0)
@@ -201,7 +221,7 @@ namespace {
 void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan& plan) {
     for (int y = seen.y0; y < seen.y1; ++y)
         for (int x = seen.x0; x < seen.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
+            trace_pixel(pass, worker.tracer, x, y, pass.base_sample({x, y}), worker.path);
             plan.learn(x, y, worker.reuse.arriving_luminance(worker.path));
         }
 }
@@ -217,11 +237,23 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
         for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
             if (!tells_of_light(pass, pass.random(p.x0, p.y0)))
                 return;
-            trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.camera_sample({p.x0, p.y0}), worker.path);
+            trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.base_sample({p.x0, p.y0}), worker.path);
             note_light(pass, worker.path, found.back());
         });
     }
     return found;
+}
+
+/// Which pixels of these places see several things, as a render finds it before its first pass.
+std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::span<const PixelRect> places,
+                                                        Worker& worker, const std::stop_token& stop) {
+    PixelLooks looks(pass.size.x, pass.size.y, is_demodulated(pass.settings));
+    for (const PixelRect& place : places) // with the pixels around, which tell, too
+        if (!stop.stop_requested())
+            take_first_looks(pass,
+                             {std::max(place.x0 - 1, 0), std::max(place.y0 - 1, 0), place.x1 + 1, place.y1 + 1},
+                             worker, looks);
+    return std::make_shared<const Image<std::uint8_t>>(looks.mixed());
 }
 
 } // namespace
@@ -247,10 +279,19 @@ ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size,
                 if (cuts)
                     cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
     }
+    const bool guides = settings.path_guiding != Guiding::off;
+    if (has_positions(settings)) {
+        std::vector<PixelRect> places{grid.block_at(pixel).with_halo(size)};
+        for (const int cell : cells)
+            places.push_back(plan.cell(cell));
+        if (guides) // all of whose base paths are traced again
+            places = {{0, 0, size.x, size.y}};
+        Worker worker(scene, camera, size, settings, nullptr);
+        plan.set_mixed(mixed_pixels({scene, camera, size, settings, plan, 0}, places, worker, stop));
+    }
     // Passes go by what all had told when there were last twice as many as the time before (Render).
     ReusePlan next = plan;
     GuidingLearner guiding;
-    const bool guides = settings.path_guiding != Guiding::off;
     const int told = static_cast<int>(std::bit_floor(static_cast<unsigned>(pass)));
     for (int i = cuts || guides ? 0 : told; i < told && !stop.stop_requested(); ++i) {
         Worker worker(scene, camera, size, settings, plan.guiding());

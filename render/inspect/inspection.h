@@ -88,8 +88,8 @@ struct InspectedBase {
 /// How the light of a sampling set was shared out. Lists have one entry a pixel.
 struct InspectedSet {
     std::vector<glm::ivec2> pixels;
-    std::vector<char> is_border; ///< 1: the pixel is not of the tile that the set is of, but beside it
-    std::vector<Rgb> albedo;     ///< what the pixel's light is divided by (Pass::albedo_of)
+    std::vector<char> is_border;  ///< 1: the pixel is not of the tile that the set is of, but beside it
+    std::vector<Rgb> coefficient; ///< what the pixel gets, over albedos (SamplingSet::coefficient)
     std::vector<InspectedBase> bases;
     std::vector<InspectedShift> shifts; ///< of base k to pixel m: [k * pixels.size() + m]; k = m: its own
 

@@ -83,6 +83,9 @@ void OffsetTrace::arrives(int m, const Vertex& y) {
 Onlooker::Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result)
     : worker_(worker), result_(result), samples_(samples), pixel_(pixel) {
     worker_.reuse.set_onlooker(&trace_);
+    const std::size_t pixels = result.pixels.size();
+    result_.bases.resize(pixels);
+    result_.shifts.resize(pixels * pixels);
 }
 
 Onlooker::~Onlooker() {
@@ -90,9 +93,10 @@ Onlooker::~Onlooker() {
 }
 
 void Onlooker::operator()(int base, const ReuseDecision& decision) {
-    result_.bases.push_back({inspect_path(path(base)), path(base).radiance(), decision});
-    for (int m = 0; m < worker_.set.size(); ++m)
-        result_.shifts.push_back(shift(base, m, decision.scale));
+    const int pixels = worker_.set.size();
+    result_.bases[static_cast<std::size_t>(base)] = {inspect_path(path(base)), path(base).radiance(), decision};
+    for (int m = 0; m < pixels; ++m)
+        result_.shifts[static_cast<std::size_t>(base * pixels + m)] = shift(base, m, decision.scale);
 }
 
 InspectedShift Onlooker::shift(int base, int m, float scale) const {

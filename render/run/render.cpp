@@ -28,7 +28,7 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             reuses_paths(s.method) && s.adapt_tile,
             s.very_direct_grid > 1,
             part_count(s),
-            finds_gain_of_sharing(s) || is_adaptive(s)};
+            finds_gain_of_sharing(s) || is_adaptive(s) || has_positions(s)};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -65,8 +65,12 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
     const bool learns = settings.path_guiding != Guiding::off;
     const std::uint64_t found = learns ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
     const std::uint64_t learnt = learns ? GuidingLearner::bytes_of_learnt() : 0;
-    return Film::bytes(size.x, size.y, buffers_of(settings)) + learnt +
-           std::max(means, bytes_of_threads(threads, settings) + found);
+    const bool looks = has_positions(settings); // before the first pass, with nothing found yet
+    const std::uint64_t first = looks ? PixelLooks::bytes(size.x, size.y) : 0;
+    const std::uint64_t mixed =
+        looks ? static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) : 0;
+    return Film::bytes(size.x, size.y, buffers_of(settings)) + learnt + mixed +
+           std::max(means, bytes_of_threads(threads, settings) + std::max(found, first));
 }
 
 /// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
@@ -151,20 +155,36 @@ bool Render::look_first(Workers& workers) {
     });
 }
 
+/// Which pixels see several things: by the first looks at each, which are the same whatever was looked at since,
+/// so that a render that goes on from a checkpoint finds the same. False: stopped.
+bool Render::find_mixed_pixels(Workers& workers) {
+    const Pass pass(*scene_, camera_, size_, settings_, plan_, 0);
+    const std::vector<PixelRect> blocks = blocks_of(pass);
+    PixelLooks first(size_.x, size_.y, is_demodulated(settings_));
+    if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {
+            take_first_looks(pass, blocks[static_cast<std::size_t>(i)], worker, first);
+        }))
+        return false;
+    film_.take_looks(first);
+    plan_.set_mixed(std::make_shared<const Image<std::uint8_t>>(first.mixed()));
+    next_plan_.set_mixed(plan_.mixed());
+    return true;
+}
+
 /// What sharing would bring, which the plan wants to know. Its samples are no part of the picture, so that their
 /// counts are none of the render's.
 bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share) {
     if (!plan_.wants_pilot())
         return true;
-    const Pilot pilot(*scene_, camera_, size_, settings_, plan_);
+    ReusePlan plan(size_, settings_); // not plan_, which may have been told before, if no pass followed
+    const Pilot pilot(*scene_, camera_, size_, settings_, plan);
     Workers workers(*this, pool, stop);
-    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan_.cell_count()));
+    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan.cell_count()));
     if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
-            found[static_cast<std::size_t>(i)] = pilot.explore(plan_.cell(i), worker);
+            found[static_cast<std::size_t>(i)] = pilot.explore(plan.cell(i), worker);
             share.add(1);
         }))
         return false;
-    ReusePlan plan(size_, settings_); // not next_plan_, which a pilot sent before may have told, if no pass followed
     plan.learn(found);
     plan_ = next_plan_ = plan;
     for (const auto& worker : workers.all())
@@ -190,6 +210,11 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     Workers workers(*this, pool, stop);
     if (!is_begun && !look_first(workers))
         return false;
+    if (has_positions(settings_) && (!is_begun || !plan_.mixed())) {
+        Workers again(*this, pool, stop); // of a render that goes on, these looks are counted already
+        if (!find_mixed_pixels(is_begun ? again : workers))
+            return false;
+    }
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
         if (is_done)

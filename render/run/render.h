@@ -68,6 +68,7 @@ private:
 
     bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share);
     bool look_first(Workers& workers);
+    bool find_mixed_pixels(Workers& workers);
     void learn_from_pass();
     GradientImages with_patch(GradientImages images) const;
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -23,23 +24,39 @@ public:
         int at_x1;
     };
 
-    PassNumbers(std::uint64_t seed, int pass, Begins begins) : seed_(seed), pass_(pass), begins_(begins) {
-        subpixel_ = point({begins.of_positions, 0}, 0);
-        lens_ = point({begins.of_positions, 1}, 0);
+    /// @param positions  from which a pass sees some pixels: those have a net of their own, with as many points
+    ///                   for each pass
+    PassNumbers(std::uint64_t seed, int pass, Begins begins, int positions)
+        : seed_(seed), pass_(pass),
+          begins_(begins), only_{point({begins.of_positions, 0}, 0), point({begins.of_positions, 1}, 0)},
+          first_turn_(static_cast<int>(Random::mix(Random::mix(seed + 2) + static_cast<std::uint64_t>(pass)) %
+                                       static_cast<std::uint64_t>(positions))) {
+        for (int i = 0; i < positions; ++i)
+            several_.push_back(position(i, positions));
         for (std::size_t v = 0; v < variants; ++v)
             for (std::size_t i = 0; i < at_x1_[v].size(); ++i)
-                at_x1_[v][i] = point({begins.at_x1, positions + i}, v);
+                at_x1_[v][i] = point({begins.at_x1, positions_of_nets + i}, v);
     }
 
+    /// In place of the number of a position: that of the pixels that the pass sees from one.
+    static constexpr int only = -1;
+
     /// Within a pixel, uniform in [0, 1)^2.
-    /// @param place  a number of those that begin there
-    /// @param path   of several of a pixel; each has numbers of its own
-    glm::vec2 subpixel(std::uint32_t place, int path) const {
-        return unit_square(subpixel_ ^ shift_of(place, path).digits(0, Draw::direction));
+    /// @param place     a number of those that begin there
+    /// @param path      of several of a pixel; each has numbers of its own
+    /// @param position  of several from which a pixel is seen; or `only`
+    glm::vec2 subpixel(std::uint32_t place, int path, int position = only) const {
+        return unit_square(at(position).subpixel ^ shift_of(place, path).digits(0, Draw::direction));
     }
     /// Uniform in [0, 1)^2, to be mapped to the lens.
-    glm::vec2 lens(std::uint32_t place, int path) const {
-        return unit_square(lens_ ^ shift_of(place, path).digits(1, Draw::direction));
+    glm::vec2 lens(std::uint32_t place, int path, int position = only) const {
+        return unit_square(at(position).lens ^ shift_of(place, path).digits(1, Draw::direction));
+    }
+    /// At which of several positions the base path of a pixel is shared: any is as likely, whatever the numbers
+    /// are, and pixels side by side have different ones (a lattice of rank 1).
+    int turn(glm::ivec2 pixel) const {
+        const int count = static_cast<int>(several_.size()), row = (3 * count + 4) / 8;
+        return (pixel.x + row * pixel.y + first_turn_) % count;
     }
     /// Those that a pixel's path draws. Of two nets taken together some effects are measured worse than by chance,
     /// and others exactly; so pixels have one of several variants, which have nothing to do with each other.
@@ -50,8 +67,13 @@ public:
     }
 
 private:
-    static constexpr std::size_t variants = 16, positions = 2,
-                                 nets = positions + std::tuple_size_v<Random::Points>;
+    static constexpr std::size_t variants = 16, positions_of_nets = 2,
+                                 nets = positions_of_nets + std::tuple_size_v<Random::Points>;
+
+    /// Digits of points, as net_point() has them.
+    struct Position {
+        std::uint64_t subpixel, lens;
+    };
 
     struct Net {
         int begin;
@@ -62,6 +84,15 @@ private:
         const std::uint64_t number = static_cast<std::uint64_t>(net.begin) * nets + net.number;
         return net_point(static_cast<std::uint32_t>(pass_ - net.begin),
                          Random::mix(Random::mix(seed_ + 1) + number) + variant);
+    }
+
+    const Position& at(int position) const {
+        return position == only ? only_ : several_[static_cast<std::size_t>(position)];
+    }
+    Position position(int i, int count) const {
+        const auto index = static_cast<std::uint32_t>((pass_ - begins_.of_positions) * count + i);
+        const std::uint64_t key = Random::mix(seed_ + 3) + 2 * static_cast<std::uint64_t>(begins_.of_positions);
+        return {net_point(index, Random::mix(key)), net_point(index, Random::mix(key + 1))};
     }
 
     std::uint64_t seed_of(int path) const {
@@ -76,7 +107,9 @@ private:
     std::uint64_t seed_;
     int pass_;
     Begins begins_;
-    std::uint64_t subpixel_, lens_; // digits of points, as net_point() has them
+    Position only_;
+    std::vector<Position> several_;
+    int first_turn_;
     std::array<Random::Points, variants> at_x1_;
 };
 

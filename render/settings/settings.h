@@ -11,6 +11,7 @@ namespace tessera {
 
 inline constexpr int most_edges = 64; ///< of a light path
 inline constexpr int most_tile = 16;  ///< pixels along a tile's edge
+inline constexpr int most_positions = 16;
 
 /// Over what textures of reflectances, and lamps that the camera sees, are filtered.
 enum class TextureFilter : std::uint8_t {
@@ -113,7 +114,9 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
     float q_min = 0.1f;         ///< least probability that a path is reused
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
-    int very_direct_grid = 4;   ///< camera rays along each edge of a pixel at a lamp's edge
+    int positions =
+        4; ///< from which a pass sees a pixel that shares, if it sees several things [1, most_positions]
+    int very_direct_grid = 4; ///< camera rays along each edge of a pixel at a lamp's edge
     PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
@@ -132,6 +135,11 @@ inline bool reuses_paths(Method method) {
     return method == Method::pr || method == Method::gpr;
 }
 
+/// Whether the primal is the light that a pixel's own base path finds, and no other's.
+inline bool has_own_primal(const RenderSettings& s) {
+    return s.method == Method::pt || (has_gradients(s.method) && s.primal == PrimalSource::base);
+}
+
 /// Whether what it measures is divided by albedos. (PT has nothing that could gain by it.)
 inline bool is_demodulated(const RenderSettings& s) {
     return s.method != Method::pt && s.basis != Basis::none;
@@ -140,6 +148,12 @@ inline bool is_demodulated(const RenderSettings& s) {
 /// Whether it is measured in parts. (PR's picture needs no gradients, and so no parts.)
 inline bool is_expanded(const RenderSettings& s) {
     return has_gradients(s.method) && s.basis > Basis::albedo;
+}
+
+/// Whether a pass sees some of its pixels from several positions: those that share, as each has the light of many
+/// base paths. (Of parts there are means of one position only.)
+inline bool has_positions(const RenderSettings& s) {
+    return reuses_paths(s.method) && s.positions > 1 && !is_expanded(s);
 }
 
 /// Whether some pixels take more samples a pass than others. (Of parts there are none but single samples.)

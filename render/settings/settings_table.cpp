@@ -236,6 +236,11 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          one_of(guidings, s.path_guiding), true, true},
         {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
          Setting::Whole{&s.light_samples, 1, 16}, true, true},
+        {"positions", "Positions",
+         "Where a pixel sees several things, as at edges, a pass sees it from so many places within it, and each "
+         "base path is shared at one of them. 1: all are shared at the same, and an edge is as rough as one "
+         "sample.",
+         Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method), true},
         {"very_direct_grid", "Lamp grid",
          "Where lamps that the camera sees have their edges, a sample looks for them with a grid of this many "
          "rays along each edge of the pixel. 1: with the ray of its path.",

@@ -227,10 +227,9 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
 
 class PartsOfScene : public testing::TestWithParam<std::string> {};
 TEST_P(PartsOfScene, AreThoseOfTheJudge) {
-    const int effort = GetParam() == "glossy" ? 4 : 1; // a few bright paths decide on the parts of its lamp
-    expect_parts_of_the_judge(GetParam(), 60 * effort, 40'000 * effort);
+    expect_parts_of_the_judge(GetParam(), 60, 40'000);
 }
-INSTANTIATE_TEST_SUITE_P(scenes, PartsOfScene, testing::Values("texture_edges", "black_texels", "glossy"),
+INSTANTIATE_TEST_SUITE_P(scenes, PartsOfScene, testing::Values("texture_edges", "black_texels", "rough_plastic"),
                          [](const auto& p) { return p.param; });
 
 /// Where light seldom comes, standard errors of few runs are too small.
@@ -238,7 +237,8 @@ class SlowPartsOfScene : public testing::TestWithParam<std::string> {};
 TEST_P(SlowPartsOfScene, AreThoseOfTheJudge) {
     expect_parts_of_the_judge(GetParam(), 300, 200'000);
 }
-INSTANTIATE_TEST_SUITE_P(scenes, SlowPartsOfScene, testing::Values("shining_wall", "translucent", "mirror"),
+INSTANTIATE_TEST_SUITE_P(scenes, SlowPartsOfScene,
+                         testing::Values("shining_wall", "translucent", "mirror", "glossy", "brushed"),
                          [](const auto& p) { return p.param; });
 
 /// Those of the film are means over points of a pixel, not sums.

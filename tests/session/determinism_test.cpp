@@ -74,6 +74,9 @@ std::vector<Variant> variants() {
     add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on, s.adaptive = true; });
     add("adaptive", Method::gpr, [](S& s) { s.adaptive = true; });
     add("adaptive_pairs", Method::gpt, [](S& s) { s.adaptive = true; });
+    add("positions", Method::gpr, [](S& s) { s.positions = 7; });
+    add("one_position", Method::gpr, [](S& s) { s.positions = 1; });
+    add("positions_of_rooks", Method::pr, [](S& s) { s.pattern = Pattern::rooks, s.positions = 16; });
     add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
     return list;
 }

@@ -67,8 +67,8 @@ TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
             otherwise += sample(ReusePlan(size, settings)) != own;
         }
     }
-    EXPECT_EQ(otherwise > 0,
-              (settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding == Guiding::on);
+    EXPECT_EQ(otherwise > 0, (settings.adapt_tile && has_tiles_to_cut(settings)) ||
+                                 settings.path_guiding == Guiding::on || has_positions(settings));
 }
 
 RenderSettings settings_of(Method method, int tile = 6) {

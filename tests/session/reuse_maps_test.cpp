@@ -126,7 +126,7 @@ TEST(ShiftOutcomes, AddUpToTheCounters) {
 }
 
 TEST(ShiftOutcomes, AreAllSeen) {
-    const Outcome o = render(settings_of(Method::pr, RouletteKind::none), 16, full_of_obstacles());
+    const Outcome o = render(settings_of(Method::pr, RouletteKind::none), 64, full_of_obstacles());
     const Sums sums = sums_of(o.maps);
     for (std::size_t i = 0; i < sums.size(); ++i)
         EXPECT_GT(sums[i], 0u) << to_string(static_cast<ShiftOutcome>(i));

@@ -6,11 +6,13 @@ namespace tessera {
 
 namespace {
 
-/// Nothing that came after the papers: each pixel the radiance itself, all spikes, all edges joined, tiles whole.
+/// Nothing that came after the papers: each pixel the radiance itself, from one position, all spikes, all edges
+/// joined, tiles whole.
 PaneSettings plain() {
     PaneSettings s;
     s.render.adapt_tile = false;
     s.render.adaptive = false;
+    s.render.positions = 1;
     s.render.basis = Basis::none;
     s.render.shift_distance = 0;
     s.render.weight_threshold = 0;

@@ -1,0 +1,159 @@
+#include "render/estimator/sampling_set.h"
+
+#include "render/estimator/pass.h"
+
+namespace tessera {
+
+void SamplingSet::assign(PixelRect rect) {
+    clear();
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+            add(x, y);
+}
+
+void SamplingSet::collect(const Pass& pass, const BaseBlock& block) {
+    paths.clear();
+    base.clear();
+    albedo.clear();
+    for (glm::ivec2 p : pixels) {
+        paths.push_back(&block.seen(p.x, p.y));
+        base.push_back(&block.at(p.x, p.y));
+        albedo.push_back(pass.albedo_of(*paths.back()));
+    }
+    radiance.assign(pixels.size(), Rgb(0));
+    reuse.assign(pixels.size(), {});
+    arriving.reset(is_expanded(pass.settings) ? pass.settings.basis : Basis::none, albedo);
+}
+
+void SamplingSet::expand(const Film& film) {
+    parts.resize(static_cast<std::size_t>(size() * arriving.parts()));
+    for (int i = 0; arriving.is_kept() && i < size(); ++i) {
+        const glm::ivec2 p = pixels[static_cast<std::size_t>(i)];
+        arriving.expand(i, coefficient(i), film.projection(p.x, p.y), parts.data() + i * arriving.parts());
+    }
+}
+
+void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
+    for (std::size_t m = 0; m < outcomes.size(); ++m)
+        if (m != static_cast<std::size_t>(k))
+            ++reuse[m].shifts[static_cast<std::size_t>(outcomes[m])];
+}
+
+void SamplingSet::count(const ReuseDecision& decision, int k) {
+    ReuseCounts& counts = reuse[static_cast<std::size_t>(k)];
+    if (!decision.is_dark())
+        ++(decision.survives() ? counts.reused : counts.skipped);
+}
+
+void SampleMeans::begin(PixelRect area, int samples) {
+    area_ = area;
+    samples_ = samples;
+    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
+    means_.assign(samples > 1 ? pixels : 0,
+                  {Rgb(0), Rgb(0), Rgb(0), Rgb(0), Rgb(0), {}, -1, {}, {}, {}, Rgb(0), 0});
+}
+
+void SampleMeans::add(int x, int y, const PixelSample& sample) {
+    PixelSample& mean = means_[index(x, y)];
+    const float share = 1 / static_cast<float>(samples_);
+    const Rgb of_mean = mean.primal * mean.albedo + mean.beside,
+              of_sample = sample.primal * sample.albedo + sample.beside;
+    const Rgb radiance = of_mean + of_sample * share;
+    const Rgb squares = mean.albedo_spread + mean.albedo * mean.albedo +
+                        (sample.albedo_spread + sample.albedo * sample.albedo) * share;
+    const Rgb values =
+        mean.value_spread + mean.albedo * of_mean + (sample.value_spread + sample.albedo * of_sample) * share;
+    mean.primal += sample.primal * share;
+    mean.dx += sample.dx * share;
+    mean.dy += sample.dy * share;
+    mean.very_direct += sample.very_direct * share;
+    mean.albedo += sample.albedo * share;
+    mean.own += sample.own * share;
+    mean.beside = radiance - mean.primal * mean.albedo;
+    mean.albedo_spread = squares - mean.albedo * mean.albedo;
+    mean.value_spread = values - mean.albedo * radiance;
+    mean.reuse += sample.reuse;
+    mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;
+    mean.paths += sample.paths;
+}
+
+void SetMeans::begin(PixelRect area, int parts) {
+    area_ = area;
+    part_count_ = static_cast<std::size_t>(parts);
+    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
+    pixels_.assign(pixels, {});
+    for (std::vector<Rgb>* sums : {&parts_, &parts_dx_, &parts_dy_})
+        sums->assign(pixels * part_count_, Rgb(0));
+}
+
+void SetMeans::add(const SamplingSet& set, PixelRect all) {
+    for (int i = 0; i < set.size(); ++i) {
+        const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
+        if (!area_.contains(p))
+            continue;
+        const std::size_t at = index(p.x, p.y);
+        Pixel& pixel = pixels_[at];
+        pixel.reuse += set.reuse[static_cast<std::size_t>(i)];
+        add(set, {}, i, pixel.primal, parts_at(parts_, at));
+        if (set.positions > 1)
+            see(set, i, pixel);
+        if (p.x + 1 < all.x1)
+            add(set, i, i + 1, pixel.dx, parts_at(parts_dx_, at));
+        if (p.y + 1 < all.y1)
+            add(set, i, i + all.width(), pixel.dy, parts_at(parts_dy_, at));
+    }
+}
+
+/// Running means: sums of what is as bright as numbers go would be beyond them. At the first position, where all
+/// sets are, they come to weigh what they do; at others, what a set gets is added with that weight.
+void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
+    const auto pixels = static_cast<float>(set.size());
+    if (set.position == 0)
+        mean.pixels += pixels;
+    const float share = pixels / mean.pixels, kept = set.position == 0 ? 1 - share : 1;
+    const auto move = [=](Rgb& value, Rgb here, Rgb there) { value = value * kept + (there - here) * share; };
+    move(mean.value, from ? set.coefficient(*from) : Rgb(0), set.coefficient(to));
+    for (std::size_t l = 0; l < parts.size(); ++l)
+        move(parts[l], from ? set.parts_of(*from)[l] : Rgb(0), set.parts_of(to)[l]);
+}
+
+/// After add() of the primal.
+void SetMeans::see(const SamplingSet& set, int i, Pixel& pixel) {
+    const auto entry = static_cast<std::size_t>(i);
+    const float share = static_cast<float>(set.size()) / pixel.primal.pixels,
+                kept = set.position == 0 ? 1 - share : 1, seen_share = share / static_cast<float>(set.positions);
+    Seen& seen = pixel.seen;
+    seen.radiance = seen.radiance * kept + set.radiance[entry] * share;
+    seen.albedo = seen.albedo * kept + set.albedo[entry] * seen_share;
+    const Rgb a = set.albedo[entry];
+    seen.albedo_squares = seen.albedo_squares * kept + a * a * seen_share;
+    seen.albedo_values = seen.albedo_values * kept + a * set.radiance[entry] * share;
+    seen.very_direct = seen.very_direct * kept + set.paths[entry]->very_direct * seen_share;
+    // What has been the same from everywhere would differ by rounding alone.
+    pixel.is_mixed = pixel.is_mixed || set.paths[entry] != set.base[entry];
+}
+
+void SetMeans::take_primal(int x, int y, PixelSample& sample) const {
+    const std::size_t at = index(x, y);
+    const Pixel& pixel = pixels_[at];
+    sample.primal = pixel.primal.value;
+    sample.parts = parts_at(parts_, at);
+    if (!pixel.is_mixed)
+        return;
+    sample.very_direct = pixel.seen.very_direct;
+    sample.albedo = pixel.seen.albedo;
+    sample.albedo_spread = pixel.seen.albedo_squares - sample.albedo * sample.albedo;
+    sample.value_spread = pixel.seen.albedo_values - sample.albedo * pixel.seen.radiance;
+    sample.beside = pixel.seen.radiance - sample.primal * sample.albedo;
+}
+
+void SetMeans::take_gradients(int x, int y, PixelSample& sample) const {
+    const std::size_t at = index(x, y);
+    const Pixel& pixel = pixels_[at];
+    sample.dx = pixel.dx.value;
+    sample.dy = pixel.dy.value;
+    sample.parts_dx = parts_at(parts_dx_, at);
+    sample.parts_dy = parts_at(parts_dy_, at);
+}
+
+} // namespace tessera

@@ -1,0 +1,154 @@
+// Pixels that see several things, and the positions from which a pass sees them. (That it is no bias: the judge.)
+#include "render/estimator/pass.h"
+#include "render/run/render.h"
+#include "tests/support/mixed_pixels.h"
+#include "tests/support/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(32, 24);
+
+/// A grey wall under an even sky, and before it a white pole thinner than a pixel.
+std::shared_ptr<const Scene> pole_before_a_wall(float aperture_radius = 0) {
+    SceneBuilder b;
+    b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.diffuse(Rgb(0.1f)));
+    b.quad({0.11f, -4, 0.5f}, {0.03f, 0, 0.01f}, {0, 8, 0}, b.diffuse(Rgb(0.9f)));
+    b.environment(std::vector<Rgb>(8, Rgb(1)), 4);
+    Camera camera{look_at({0, 0, 4}, {0, 0, 0}), 40, FovAxis::x};
+    camera.aperture_radius = aperture_radius;
+    camera.focus_distance = 4;
+    b.camera(camera);
+    return b.build();
+}
+
+RenderSettings settings_of(int positions, std::uint64_t seed = 0) {
+    RenderSettings s;
+    s.positions = positions;
+    s.max_depth = 2;
+    s.seed = seed;
+    return s;
+}
+
+RgbImage picture(const std::shared_ptr<const Scene>& scene, const RenderSettings& settings, int passes) {
+    Render render(scene, scene->camera(), size, settings);
+    ThreadPool pool(1);
+    for (int pass = 0; pass < passes; ++pass)
+        render.pass(pool);
+    return render.images().demodulation.value;
+}
+
+/// Of pictures of one pass, over all pixels that are mixed, and how far their mean is from the truth in standard
+/// deviations.
+struct Errors {
+    double squared = 0, z = 0;
+};
+Errors errors(const std::shared_ptr<const Scene>& scene, RenderSettings s, const RgbImage& truth,
+              const Image<std::uint8_t>& mixed) {
+    constexpr int renders = 64;
+    double sum = 0, squares = 0;
+    Errors result;
+    for (int i = 1; i <= renders; ++i) {
+        s.seed = static_cast<std::uint64_t>(i);
+        const RgbImage image = picture(scene, s, 1);
+        double light = 0;
+        for (std::size_t p = 0; p < image.size(); ++p)
+            if (mixed.data()[p]) {
+                const double d = luminance(image.data()[p]) - luminance(truth.data()[p]);
+                result.squared += d * d;
+                light += d;
+            }
+        sum += light;
+        squares += light * light;
+    }
+    result.z = sum / std::sqrt(squares);
+    return result;
+}
+
+} // namespace
+
+TEST(Positions, AreSeveralWherePixelsSeeSeveralThings) {
+    const auto scene = pole_before_a_wall();
+    const auto mixed = mixed_pixels(*scene, size, settings_of(4));
+    int column = 0; // of the pole
+    for (int x = 0; x < size.x; ++x)
+        for (int y = 0; y < size.y; ++y)
+            if ((*mixed)(x, y)) {
+                EXPECT_NEAR(x, 17, 1.5) << y;
+                ++column;
+            }
+    EXPECT_GE(column, 2 * size.y);
+}
+
+TEST(Positions, HaveEachBasePathAtOneOfThem) {
+    for (const int count : {1, 2, 3, 4, 7, 8, 16}) {
+        std::map<int, int> turns_of_a_pixel;
+        for (int index = 0; index < 4000; ++index) {
+            const PassNumbers numbers(3, index, {0, 0}, count);
+            std::set<int> side_by_side;
+            for (int x = 0; x < count; ++x)
+                side_by_side.insert(numbers.turn({x, 5}));
+            ASSERT_EQ(side_by_side.size(), static_cast<std::size_t>(count));
+            ++turns_of_a_pixel[numbers.turn({5, 7})];
+        }
+        for (int turn = 0; turn < count; ++turn) // 5 standard deviations at least
+            EXPECT_NEAR(turns_of_a_pixel[turn], 4000.0 / count, 5 * 32) << count << " positions, " << turn;
+    }
+}
+
+TEST(Positions, AreANetOverThePasses) {
+    // Of 16 passes of four positions, each of 64 columns and rows has one.
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        std::set<int> columns, rows;
+        for (int index = 0; index < 16; ++index) {
+            const PassNumbers numbers(seed, index, {0, 0}, 4);
+            for (int i = 0; i < 4; ++i) {
+                const glm::vec2 at = numbers.subpixel(9, 0, i);
+                columns.insert(static_cast<int>(at.x * 64));
+                rows.insert(static_cast<int>(at.y * 64));
+            }
+        }
+        EXPECT_EQ(columns.size(), 64u);
+        EXPECT_EQ(rows.size(), 64u);
+    }
+}
+
+TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
+    for (const Method method : {Method::pr, Method::gpr}) {
+        const auto scene = pole_before_a_wall();
+        RenderSettings s = settings_of(1);
+        s.method = method;
+        const auto mixed = mixed_pixels(*scene, size, s);
+        const RgbImage truth = picture(scene, settings_of(16, 99), 256);
+        const Errors one = errors(scene, s, truth, *mixed);
+        s.positions = 8;
+        const Errors several = errors(scene, s, truth, *mixed);
+        EXPECT_LT(3 * several.squared, one.squared);
+        EXPECT_LT(std::abs(one.z), 4);
+        EXPECT_LT(std::abs(several.z), 4);
+    }
+}
+
+TEST(Positions, GoThroughPointsOfTheLensOfTheirOwn) {
+    const auto scene = pole_before_a_wall(0.5f);
+    const ReusePlan plan(size, settings_of(4));
+    const Pass pass(*scene, scene->camera(), size, settings_of(4), plan, 5);
+    std::set<float> lens;
+    for (int i = 0; i < 4; ++i)
+        lens.insert(pass.sample_at(i, {3, 3}, 0).lens.x);
+    EXPECT_EQ(lens.size(), 4u);
+}
+
+} // namespace tessera::test
