@@ -48,6 +48,8 @@ void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<fl
 
 /// How albedo, value and coefficient of entry i changed from sample to sample. With S for sums over products of
 /// differences to the means, the coefficient that follows the albedo explains S_ea^2 / S_aa of S_ee; a v / a is v.
+/// (Of samples that are means, S_aa has what is within them, too, and S_ea has not: then less is explained than
+/// could be.)
 void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
     const double n = passes;
     const glm::dvec3 a = sampled_albedo_.data()[i] / n, v = value_.data()[i] / n, e = primal_.data()[i].sum / n;
