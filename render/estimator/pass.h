@@ -258,7 +258,7 @@ void share_light(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     SamplingSet& set = worker.set;
     set.collect(pass, worker.base);
     const ReuseRoulette roulette(kind, pass.settings, worker.reuse, set.base);
-    worker.reuse.begin(set.paths);
+    worker.reuse.begin(set.paths, set.counts);
     const std::uint64_t rays = worker.counters.offset_work();
     for (int k = 0; k < set.size(); ++k) {
         if (set.positions > 1 && pass.turn(set.pixels[static_cast<std::size_t>(k)]) != set.position)

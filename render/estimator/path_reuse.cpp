@@ -10,17 +10,21 @@ namespace tessera {
 // The largest tile, with the column and row that G-PR adds to it.
 static_assert((most_tile + 1) * (most_tile + 1) <= most_lanes);
 
-void PathReuse::begin(std::span<const BasePath* const> set) {
+void PathReuse::begin(std::span<const BasePath* const> set, std::span<const float> counts) {
     // Lanes are looked up without a check. Settings are checked long before; this is for who assembles sets anew.
     if (set.size() > most_lanes)
         throw std::logic_error(
             fmt::format("a sampling set of {} pixels, where there are lanes for {}", set.size(), most_lanes));
     set_ = set;
+    if (counts.empty())
+        ones_.assign(set.size(), 1);
+    counts_ = counts.empty() ? std::span<const float>(ones_) : counts;
     primary_.reset(0);
 }
 
 void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving) {
     const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    base_ = base;
     tried_ = false;
     if (path.empty())
         return;
@@ -160,9 +164,9 @@ void PathReuse::judge(int base) {
 
 float PathReuse::ratio_sum(int slot) const {
     const OffsetRow& row = paths_.row(slot);
-    float sum = 1; // the base itself: its ratio is one by definition
+    float sum = counts_[static_cast<std::size_t>(base_)]; // the base itself: its ratio is one by definition
     for (int m = 0; m < paths_.offsets(); ++m)
-        sum += row.ratio[m];
+        sum += counts_[static_cast<std::size_t>(m)] * row.ratio[m];
     return sum;
 }
 

@@ -11,7 +11,8 @@ namespace tessera {
 
 /// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
 /// pixel m
-///   sum over base paths k in T and their light paths x of  c_m(x) / R(x),  R(x) = sum over n in T of r_n(x)
+///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x),  R(x) = sum over n in T of g_n
+///   r_n(x)
 /// where c_m and r_m are value and ratio of x shifted to m (OffsetRow): the balance heuristic over all pixels of T
 /// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T;
 /// differences between pixels of one T are gradients.
@@ -26,8 +27,11 @@ public:
 
     /// Begins with another sampling set.
     /// Throws std::logic_error for more than most_lanes pixels.
-    /// @param set  the base paths of T, one a pixel; they must stay until the next begin()
-    void begin(std::span<const BasePath* const> set);
+    /// @param set     the base paths of T, one a pixel; they must stay until the next begin()
+    /// @param counts  g, as how many samples each of them counts (SamplingSet::counts), which must stay, too;
+    /// empty:
+    ///                1
+    void begin(std::span<const BasePath* const> set, std::span<const float> counts = {});
 
     /// @param base      the path whose light is shared out, an index into the set
     /// @param scale     factor on what is shared: one over the probability that this path is reused; 0: it is
@@ -59,10 +63,11 @@ public:
 
     const LightPaths& light_paths() const { return light_; }
     const OffsetPaths& offset_paths() const { return paths_; }
-    /// 1/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
+    /// g/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
     /// shared out.
     float weight(int slot, float scale) const {
-        return is_shared(slot) ? scale * slot_scale_[static_cast<std::size_t>(slot)] / ratio_sum(slot) : 0;
+        const float count = counts_[static_cast<std::size_t>(base_)];
+        return is_shared(slot) ? scale * count * slot_scale_[static_cast<std::size_t>(slot)] / ratio_sum(slot) : 0;
     }
     /// @param onlooker  is told of all that the next share() do; null: nobody is
     void set_onlooker(ShiftOnlooker* onlooker) {
@@ -91,6 +96,9 @@ private:
     ShiftSettings settings_;
     float weight_threshold_;
     std::span<const BasePath* const> set_;
+    std::span<const float> counts_;
+    std::vector<float> ones_;
+    int base_ = 0;            ///< of the last share()
     PrimaryVertices primary_; ///< what the pixels of T see; empty until it is needed
     Shift shift_;
     LightPaths light_;

@@ -20,9 +20,22 @@ void SamplingSet::collect(const Pass& pass, const BaseBlock& block) {
         base.push_back(&block.at(p.x, p.y));
         albedo.push_back(pass.albedo_of(*paths.back()));
     }
+    counts.assign(pixels.size(), 1);
+    if (positions > 1)
+        balance_turns(pass);
     radiance.assign(pixels.size(), Rgb(0));
     reuse.assign(pixels.size(), {});
     arriving.reset(is_expanded(pass.settings) ? pass.settings.basis : Basis::none, albedo);
+}
+
+void SamplingSet::balance_turns(const Pass& pass) {
+    std::array<int, most_positions> turns{};
+    for (glm::ivec2 p : pixels)
+        ++turns[static_cast<std::size_t>(pass.turn(p))];
+    const auto taken = static_cast<float>(std::ranges::count_if(turns, [](int n) { return n > 0; }));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        counts[i] = static_cast<float>(size()) /
+                    (taken * static_cast<float>(turns[static_cast<std::size_t>(pass.turn(pixels[i]))]));
 }
 
 void SamplingSet::expand(const Film& film) {
@@ -40,9 +53,9 @@ void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
 }
 
 void SamplingSet::count(const ReuseDecision& decision, int k) {
-    ReuseCounts& counts = reuse[static_cast<std::size_t>(k)];
+    ReuseCounts& of_path = reuse[static_cast<std::size_t>(k)];
     if (!decision.is_dark())
-        ++(decision.survives() ? counts.reused : counts.skipped);
+        ++(decision.survives() ? of_path.reused : of_path.skipped);
 }
 
 void SampleMeans::begin(PixelRect area, int samples) {

@@ -6,6 +6,7 @@
 #include "render/film/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,6 +25,9 @@ struct SamplingSet {
     std::vector<glm::ivec2> pixels;
     std::vector<const BasePath*> paths; ///< what each sees from the position at hand
     std::vector<const BasePath*> base;  ///< base paths, whosever turn it is
+    /// g, as how many samples a base path counts: 1, or if those whose turn it is at one position are fewer or
+    /// more than at others, so many times more or less that each position has as many.
+    std::vector<float> counts;
     std::vector<Rgb> radiance;
     std::vector<Rgb> albedo; ///< what radiance is divided by, at the set's place within each pixel
     std::vector<ReuseCounts> reuse;
@@ -54,6 +58,8 @@ struct SamplingSet {
     Rgb coefficient(int i) const {
         return tessera::coefficient(radiance[static_cast<std::size_t>(i)], albedo[static_cast<std::size_t>(i)]);
     }
+    /// Works `counts` out, for several positions.
+    void balance_turns(const Pass& pass);
     /// Works all parts out, if the film has projections.
     void expand(const Film& film);
     std::span<const Rgb> parts_of(int i) const {

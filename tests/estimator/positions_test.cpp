@@ -141,6 +141,33 @@ TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
     }
 }
 
+/// However many pixels of a set have their turn at one: else light would differ from position to position, and so
+/// go with the albedo there.
+TEST(Positions, HaveAsManyBasePathsEach) {
+    const auto scene = pole_before_a_wall();
+    const RenderSettings s = settings_of(4);
+    ReusePlan plan(size, s);
+    plan.set_mixed(std::make_shared<const Image<std::uint8_t>>(size.x, size.y, std::uint8_t{1}));
+    const Pass pass(*scene, scene->camera(), size, s, plan, 0);
+    Worker worker(*scene, scene->camera(), size, s, nullptr);
+    worker.base.trace(pass, worker.tracer, {0, 0, 8, 8}, {0, 0});
+    for (const int edge : {1, 2, 3, 5, 7}) {
+        SamplingSet& set = worker.set;
+        set.assign({1, 0, 1 + edge, edge});
+        set.positions = 4;
+        std::map<int, float> counts; // of each position
+        set.collect(pass, worker.base);
+        for (int i = 0; i < set.size(); ++i)
+            counts[pass.turn(set.pixels[static_cast<std::size_t>(i)])] += set.counts[static_cast<std::size_t>(i)];
+        float sum = 0;
+        for (const auto& [turn, count] : counts) {
+            EXPECT_NEAR(count, static_cast<float>(set.size()) / static_cast<float>(counts.size()), 1e-4f) << edge;
+            sum += count;
+        }
+        EXPECT_NEAR(sum, static_cast<float>(set.size()), 1e-3f);
+    }
+}
+
 TEST(Positions, GoThroughPointsOfTheLensOfTheirOwn) {
     const auto scene = pole_before_a_wall(0.5f);
     const ReusePlan plan(size, settings_of(4));
