@@ -227,12 +227,9 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
 
 void take_first_looks(const Pass& pass, PixelRect block, Worker& worker, PixelLooks& looks) {
     for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
-        for (int more = looks.wanted(p.x0, p.y0); more > 0; --more) {
-            const Look look = pass.look_at(worker.tracer, p.x0, p.y0, looks.count(p.x0, p.y0));
-            if (!look.is_finite())
+        for (int more = looks.wanted(p.x0, p.y0); more > 0; --more)
+            if (!looks.add(p.x0, p.y0, pass.look_at(worker.tracer, p.x0, p.y0, looks.count(p.x0, p.y0))))
                 worker.counters.refuse({pass.index, p.y0, p.x0});
-            looks.add(p.x0, p.y0, look.is_finite() ? look : Look{});
-        }
     });
 }
 

@@ -16,9 +16,7 @@ void PathReuse::begin(std::span<const BasePath* const> set, std::span<const floa
         throw std::logic_error(
             fmt::format("a sampling set of {} pixels, where there are lanes for {}", set.size(), most_lanes));
     set_ = set;
-    if (counts.empty())
-        ones_.assign(set.size(), 1);
-    counts_ = counts.empty() ? std::span<const float>(ones_) : counts;
+    counts_ = counts;
     primary_.reset(0);
 }
 

@@ -11,8 +11,8 @@ namespace tessera {
 
 /// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
 /// pixel m
-///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x),  R(x) = sum over n in T of g_n
-///   r_n(x)
+///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x),
+///   R(x) = sum over n in T of g_n r_n(x),
 /// where c_m and r_m are value and ratio of x shifted to m (OffsetRow): the balance heuristic over all pixels of T
 /// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T;
 /// differences between pixels of one T are gradients.
@@ -28,10 +28,8 @@ public:
     /// Begins with another sampling set.
     /// Throws std::logic_error for more than most_lanes pixels.
     /// @param set     the base paths of T, one a pixel; they must stay until the next begin()
-    /// @param counts  g, as how many samples each of them counts (SamplingSet::counts), which must stay, too;
-    /// empty:
-    ///                1
-    void begin(std::span<const BasePath* const> set, std::span<const float> counts = {});
+    /// @param counts  g, as how many samples each of them counts (SamplingSet::counts); likewise
+    void begin(std::span<const BasePath* const> set, std::span<const float> counts);
 
     /// @param base      the path whose light is shared out, an index into the set
     /// @param scale     factor on what is shared: one over the probability that this path is reused; 0: it is
@@ -97,7 +95,6 @@ private:
     float weight_threshold_;
     std::span<const BasePath* const> set_;
     std::span<const float> counts_;
-    std::vector<float> ones_;
     int base_ = 0;            ///< of the last share()
     PrimaryVertices primary_; ///< what the pixels of T see; empty until it is needed
     Shift shift_;

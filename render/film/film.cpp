@@ -162,9 +162,8 @@ void Film::add(const Film& other) {
 }
 
 void Film::add_look(int x, int y, int pass, const Look& look, Counters& counters) {
-    if (!look.is_finite())
+    if (!looks_.add(x, y, look))
         counters.refuse({pass, y, x});
-    looks_.add(x, y, look.is_finite() ? look : Look{});
 }
 
 void Film::finish(int pass) {

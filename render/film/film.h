@@ -51,8 +51,7 @@ struct FilmBuffers {
     bool luminance = false;  ///< for the plan, of the last pass
     bool lamp_edges = false; ///< of the lamps that the camera sees
     int parts = 0;           ///< of primal and gradients
-    bool means =
-        false; ///< samples may be means of several paths, which are counted, or positions (PixelSample::beside)
+    bool means = false;      ///< samples may be means (PixelSample::beside); paths are counted
 };
 
 /// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
@@ -88,8 +87,7 @@ public:
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
     const PixelLooks& looks() const { return looks_; }
-    /// Adds one more look at a pixel, in pass `pass`. One that is not finite is refused and counted, and black
-    /// takes its place, so that the next point is another.
+    /// Adds one more look at a pixel, in pass `pass`. One that is not finite is refused and counted.
     void add_look(int x, int y, int pass, const Look& look, Counters& counters);
 
     /// Takes looks that were taken before, where it has fewer of its own.

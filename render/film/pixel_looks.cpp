@@ -19,11 +19,18 @@ float square_of(const Guide& guide) {
            guide.roughness * guide.roughness;
 }
 
+bool is_good(const Look& look) {
+    return is_finite(look.albedo) && is_finite(look.guide.albedo) && is_finite(look.guide.normal) &&
+           std::isfinite(look.guide.nearness) && std::isfinite(look.guide.roughness);
+}
+
 } // namespace
 
-bool Look::is_finite() const {
-    return tessera::is_finite(albedo) && tessera::is_finite(guide.albedo) && tessera::is_finite(guide.normal) &&
-           std::isfinite(guide.nearness) && std::isfinite(guide.roughness);
+bool PixelLooks::add(int x, int y, const Look& look) {
+    const bool good = is_good(look);
+    points_(x, y) += good ? look : Look{};
+    --points_(x, y).wanted;
+    return good;
 }
 
 void PixelLooks::Points::operator+=(const Look& look) {

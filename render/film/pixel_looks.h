@@ -15,8 +15,6 @@ namespace tessera {
 struct Look {
     Rgb albedo{0}; ///< at x_1; black where it meets nothing
     Guide guide;
-
-    bool is_finite() const;
 };
 
 /// What is known of the pixels from camera rays of their own, none of them a sample's. The points of a pixel are a
@@ -37,10 +35,8 @@ public:
         constexpr int most = 16; // a pass: all pixels are to have some soon
         return std::min(points_(x, y).wanted, most);
     }
-    void add(int x, int y, const Look& look) {
-        points_(x, y) += look;
-        --points_(x, y).wanted;
-    }
+    /// False: it is not finite, and black takes its place, so that the next point is another.
+    bool add(int x, int y, const Look& look);
 
     /// Between passes: finds out where more points are needed, for the means of so many passes.
     void ask_for_more(int passes);

@@ -164,7 +164,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
     worker.counters = {};
     for (auto _ : state)
         for (SamplingSet& set : sets) {
-            worker.reuse.begin(set.paths);
+            worker.reuse.begin(set.paths, set.counts);
             for (int k = 0; k < set.size(); ++k)
                 worker.reuse.share(k, 1, set.radiance);
         }

@@ -1,7 +1,6 @@
 // Pixels that see several things, and the positions from which a pass sees them. (That it is no bias: the judge.)
 #include "render/estimator/pass.h"
 #include "render/run/render.h"
-#include "tests/support/mixed_pixels.h"
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>
@@ -40,6 +39,15 @@ RenderSettings settings_of(int positions, std::uint64_t seed = 0) {
     s.max_depth = 2;
     s.seed = seed;
     return s;
+}
+
+/// As a render finds them before its first pass.
+std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const std::shared_ptr<const Scene>& scene,
+                                                        const RenderSettings& settings) {
+    Render render(scene, scene->camera(), size, settings);
+    ThreadPool pool(1);
+    render.pass(pool);
+    return render.newest_plan()->mixed();
 }
 
 RgbImage picture(const std::shared_ptr<const Scene>& scene, const RenderSettings& settings, int passes) {
@@ -81,7 +89,7 @@ Errors errors(const std::shared_ptr<const Scene>& scene, RenderSettings s, const
 
 TEST(Positions, AreSeveralWherePixelsSeeSeveralThings) {
     const auto scene = pole_before_a_wall();
-    const auto mixed = mixed_pixels(*scene, size, settings_of(4));
+    const auto mixed = mixed_pixels(scene, settings_of(4));
     int column = 0; // of the pole
     for (int x = 0; x < size.x; ++x)
         for (int y = 0; y < size.y; ++y)
@@ -130,7 +138,7 @@ TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
         const auto scene = pole_before_a_wall();
         RenderSettings s = settings_of(1);
         s.method = method;
-        const auto mixed = mixed_pixels(*scene, size, s);
+        const auto mixed = mixed_pixels(scene, settings_of(4));
         const RgbImage truth = picture(scene, settings_of(16, 99), 256);
         const Errors one = errors(scene, s, truth, *mixed);
         s.positions = 8;

@@ -67,7 +67,7 @@ public:
             std::vector<Rgb> radiance(set.size(), Rgb(0));
             for (std::size_t k = 0; k < set.size(); ++k) {
                 if (k == 0 || begins_anew)
-                    reuse_.begin(set);
+                    reuse_.begin(set, ones_);
                 reuse_.share(static_cast<int>(k), 1, radiance);
             }
             result.radiance.insert(result.radiance.end(), radiance.begin(), radiance.end());
@@ -117,7 +117,7 @@ private:
     std::vector<Rgb> share(Set set, std::size_t k, const BasePath& path) {
         set[k] = &path;
         std::vector<Rgb> radiance(set.size(), Rgb(0));
-        reuse_.begin(set);
+        reuse_.begin(set, ones_);
         reuse_.share(static_cast<int>(k), 1, radiance);
         return radiance;
     }
@@ -173,6 +173,7 @@ private:
     ShiftSettings settings_;
     Tracer tracer_;
     PathReuse reuse_;
+    const std::vector<float> ones_ = std::vector<float>(most_lanes, 1);
     Tally tally_;
 };
 
@@ -242,8 +243,8 @@ TEST(PathReuse, RefusesASetThatHasNoLanes) {
     PathReuse reuse(tracer, settings, 0);
     const BasePath path;
     const std::vector<const BasePath*> most(most_lanes, &path), too_many(most_lanes + 1, &path);
-    EXPECT_NO_THROW(reuse.begin(most));
-    EXPECT_THROW(reuse.begin(too_many), std::logic_error);
+    EXPECT_NO_THROW(reuse.begin(most, {}));
+    EXPECT_THROW(reuse.begin(too_many, {}), std::logic_error);
 }
 
 } // namespace

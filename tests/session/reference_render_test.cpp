@@ -170,7 +170,7 @@ TEST_F(References, TheFileHasAVarianceForEachPixel) {
 /// Whatever is to be chosen from, the halves of the one of least error are those in the file, whose header names
 /// it.
 TEST_F(References, TakeTheNormOfLeastError) {
-    recipe.spp = 8;
+    recipe.spp = 8; // with 12, relative to brightness and to a fixed epsilon another one has less
     std::map<Norm, double> errors;
     for (Norm norm : {Norm::l2, Norm::none}) {
         recipe.norms = {norm};
