@@ -207,9 +207,9 @@ void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>&
     }
 }
 
-int very_direct_looks(const Pass& pass) {
+int very_direct_looks(const Pass& pass, const Scene& scene) {
     const int n = pass.settings.very_direct_grid;
-    return n == 1 ? 0 : pass.has_lens() ? n * n : 1;
+    return n == 1 ? 0 : pass.has_lens() ? n * n : scene.has_masks() ? n : 1;
 }
 
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture) {
@@ -220,8 +220,10 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const glm::vec2 cell((x + 1 + look) % n, (y + 1 + look / n) % n);
-            const glm::vec2 lens = sample_disk((cell + 0.5f) / static_cast<float>(n));
-            picture(x + 1, y + 1) = tracer.very_direct_along(pass.camera_ray(x, y, {glm::vec2(0.5f), lens}));
+            const glm::vec2 in_cell = (cell + 0.5f) / static_cast<float>(n);
+            const glm::vec2 subpixel = tracer.scene.has_masks() ? in_cell : glm::vec2(0.5f);
+            const Ray ray = pass.camera_ray(x, y, {subpixel, sample_disk(in_cell)});
+            picture(x + 1, y + 1) = tracer.very_direct_along(ray);
         }
 }
 

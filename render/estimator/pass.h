@@ -223,12 +223,14 @@ bool tells_of_light(const Pass& pass, const Random& random);
 void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
 
 /// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
-/// it blurs is seen through some of its points only.
-int very_direct_looks(const Pass& pass);
+/// it blurs is seen through some of its points only; a few where surfaces may be there for one ray and not for
+/// another, behind which a lamp has edges everywhere.
+int very_direct_looks(const Pass& pass, const Scene& scene);
 
 /// Very direct light of the block's pixels, and of those beside it beyond the image's borders, along a ray through
 /// the middle of each. Pixels side by side look through different parts of the lens, and differ where a lamp is
-/// blurred, too; over all looks each sees through every part.
+/// blurred, too; over all looks each sees through every part. Where there are masks, rays are not in the middle, as
+/// the same ray sees the same.
 /// @param picture  with a pixel more than the image on all four sides
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 

@@ -87,8 +87,9 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     measure();
     lights_ = LightTable(description_, radius_);
     const auto start = std::chrono::steady_clock::now();
-    intersector_ =
-        Intersector(description_.shapes, opacities_of(description_), description_.groups, description_.instances);
+    const std::vector<const Texture*> opacities = opacities_of(description_);
+    has_masks_ = std::ranges::any_of(opacities, [](const Texture* opacity) { return opacity; });
+    intersector_ = Intersector(description_.shapes, opacities, description_.groups, description_.instances);
     bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (const std::vector<double> factors = learn_light_factors(*this); !factors.empty())
         lights_ = LightTable(description_, radius_, factors);

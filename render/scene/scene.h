@@ -73,6 +73,8 @@ public:
 
     /// Whether anything may be a mirror (Material::may_be_mirror).
     bool has_mirrors() const { return has_mirrors_; }
+    /// Whether any shape is there for one ray and not for another, by its opacity.
+    bool has_masks() const { return has_masks_; }
 
     /// A sphere around all triangles.
     glm::vec3 center() const { return center_; }
@@ -87,7 +89,7 @@ private:
     LightTable lights_;
     Intersector intersector_;
     std::vector<ShapeRecord> records_;
-    bool has_mirrors_ = false;
+    bool has_mirrors_ = false, has_masks_ = false;
     glm::vec3 center_{0};
     float radius_ = 1;
     double bvh_seconds_ = 0;

@@ -5,6 +5,7 @@
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/geometric.hpp>
@@ -98,6 +99,32 @@ TEST(LampEdges, AreFoundInTheOutermostPixels) {
         for (int x = 0; x < 16; ++x)
             EXPECT_NEAR(image(x, 0).r, 0.3f, 0.21f) << x; // one or two of the grid's four rows see it
     }
+}
+
+/// Before a lamp, a surface that is not opaque, which one ray meets and another does not: edges everywhere.
+TEST(LampEdges, AreEverywhereBehindMasks) {
+    constexpr float opacity = 0.84f;
+    SceneBuilder b;
+    b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.diffuse(Rgb(0.5f)), b.light(Texture(Rgb(1))));
+    Material mask;
+    mask.opacity = Texture(Rgb(opacity));
+    b.quad({-4, -4, 1}, {8, 0, 0}, {0, 8, 0}, b.material(mask));
+    b.camera({0, 0, 3}, {0, 0, 0}, 40);
+    const auto scene = b.build();
+    RenderSettings settings;
+    settings.method = Method::pt;
+    settings.max_depth = 1;
+    Render render(scene, scene->camera(), {64, 64}, settings);
+    ThreadPool pool(1);
+    constexpr int passes = 16;
+    for (int pass = 0; pass < passes; ++pass)
+        render.pass(pool);
+    const RgbImage image = render.images().very_direct;
+    double squares = 0;
+    for (Rgb pixel : image)
+        squares += std::pow(static_cast<double>(pixel.g + opacity - 1), 2);
+    const double of_one_ray = static_cast<double>(opacity * (1 - opacity)) / passes; // a sample, not a grid of 16
+    EXPECT_LT(squares / static_cast<double>(image.size()), of_one_ray / 12);
 }
 
 /// In a mirror, a lamp is as sharp and as free of noise as beside it.
