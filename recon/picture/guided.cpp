@@ -1,6 +1,7 @@
 #include "recon/picture/guided.h"
 
 #include "recon/picture/guide_kernel.h"
+#include "recon/picture/guide_regression.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
@@ -24,9 +25,11 @@ constexpr int levels = 6;
 constexpr float noise_width = 16; // of brightness, in variances of its noise
 constexpr int noise_radius = 6;   // of the squares that tell noise,
 constexpr int trust_radius = 6;   // and how far a difference is more than that; wider by the level's step
+constexpr int weight_radius = 1;  // of the brightness that the regression's errors are held against,
+constexpr int fit_radius = 3;     // the same for the difference to the regression, which is of 5x5 pixels
 
 /// Three channels of a picture and three of its noise, each for itself.
-using Planes = std::array<Plane, 6>;
+using Planes = RegressedPlanes;
 
 /// Planes that are used at every level: memory that is new each time costs a quarter of the smoothing.
 struct Scratch {
@@ -151,20 +154,54 @@ float least_brightness(const Planes& light) {
     return least < std::numeric_limits<float>::min() ? 0 : least;
 }
 
-/// Radiance of the light that is the sum of both, and of its noise. Where a difference that stays stands on one
-/// that goes, a dark pixel may come out below black: not below what it was.
-void write_radiance(const Planes& differences, const Planes& light, const GuideImages& guides,
-                    NoisyPicture& picture, const ParallelFor& parallel_for) {
+/// Makes differences, and the light that they are differences to, the radiance of their sum.
+void make_radiance(const Planes& light, const GuideImages& guides, const ParallelFor& parallel_for,
+                   Planes& differences) {
+    for_pixels(light[0].width(), light[0].height(), parallel_for, [&](std::size_t i) {
+        const Rgb albedo = seen_albedo(guides, i);
+        for (std::size_t c = 0; c < light.size(); ++c) {
+            float& value = differences[c].data()[i];
+            value = (value + light[c].data()[i]) * albedo[static_cast<int>(c % 3)];
+        }
+    });
+}
+
+/// One over the square of the brightness around each pixel, so that errors count beside it. To be asked of what is
+/// smooth: pixels that noise makes dark would count more, and the picture would be darker.
+void write_relative_weights(const Planes& radiance, float least, const ParallelFor& parallel_for, Plane& rows,
+                            Plane& weights) {
+    write_brightness(radiance, least, parallel_for, weights);
+    take_wide_means(weights, weight_radius, rows, parallel_for);
+    for_pixels(weights.width(), weights.height(), parallel_for, [&](std::size_t i) {
+        float& weight = weights.data()[i]; // at most 1, so that sums of them are numbers
+        weight = (least / weight) * (least / weight);
+    });
+}
+
+/// Radiance becomes what its regression on guides makes of it, and their difference as far as it stands out.
+/// @param fitted  of the picture's size, anything
+void regress(const GuidePlanes& guides, const ParallelFor& parallel_for, Scratch& scratch, Planes& fitted,
+             Planes& radiance) {
+    const float least = least_brightness(radiance);
+    if (least == 0)
+        return;
+    write_relative_weights(radiance, least, parallel_for, scratch.rows, scratch.sizes);
+    write_regressions(radiance, guides, scratch.sizes, parallel_for, scratch.coarser);
+    fitted = scratch.coarser;
+    add_difference(radiance, fit_radius, least, parallel_for, scratch, fitted);
+    std::swap(fitted, radiance);
+}
+
+/// Where a difference that stays stands on one that goes, a dark pixel may come out below black: not below what it
+/// was.
+void write_picture(const Planes& radiance, const ParallelFor& parallel_for, NoisyPicture& picture) {
     for_pixels(picture.image.width(), picture.image.height(), parallel_for, [&](std::size_t i) {
         Rgb &colour = picture.image.data()[i], &noise = picture.noise.data()[i];
-        const Rgb least = glm::min(colour, Rgb(0)), albedo = seen_albedo(guides, i);
-        for (std::size_t c = 0; c < light.size(); ++c) {
-            const auto channel = static_cast<int>(c % 3);
-            const float radiance = (differences[c].data()[i] + light[c].data()[i]) * albedo[channel];
-            if (c < 3)
-                colour[channel] = std::max(radiance, least[channel]);
-            else
-                noise[channel] = radiance;
+        const Rgb least = glm::min(colour, Rgb(0));
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto channel = static_cast<int>(c);
+            colour[channel] = std::max(radiance[c].data()[i], least[channel]);
+            noise[channel] = radiance[c + 3].data()[i];
         }
     });
 }
@@ -191,7 +228,11 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
         add_difference(finer, trust_radius + (1 << l), least, parallel_for, scratch, differences);
         std::swap(finer, scratch.coarser);
     }
-    write_radiance(differences, finer, guides, picture, parallel_for);
+    Planes& radiance = differences;
+    make_radiance(finer, guides, parallel_for, radiance);
+    if (!guides.empty())
+        regress(alike, parallel_for, scratch, finer, radiance);
+    write_picture(radiance, parallel_for, picture);
     return picture;
 }
 

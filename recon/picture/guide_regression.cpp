@@ -1,0 +1,173 @@
+#include "recon/picture/guide_regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace tessera {
+
+namespace {
+
+constexpr int radius = 2, edge = 2 * radius + 1;
+constexpr int terms = guide_count + 1; // the slope in each guide, and then the constant
+constexpr float lambda = 1e-5f;        // guides are over their widths;
+constexpr float rounding = 3e-6f;      // and so much of each one's own variance more, as floats tell no less
+constexpr float own_share = 1e-3f;     // of its square, a pixel counts so much more
+
+/// Pixels of a row that are fitted side by side, and a number of each.
+constexpr int lanes = 16;
+using Lanes = float __attribute__((vector_size(lanes * sizeof(float))));
+
+/// A part of a row of the picture, from `radius` to the left of lane 0 on; 0 beyond the picture.
+struct Stretch {
+    static constexpr int width = lanes + 2 * radius;
+    float values[width];
+
+    Stretch(const Plane& plane, int x, int y) {
+        const int begin = std::max(0, radius - x), end = std::min(width, plane.width() - x + radius);
+        std::fill_n(values, width, 0.0f);
+        std::copy(plane.row(y) + x - radius + begin, plane.row(y) + x - radius + end, values + begin);
+    }
+
+    /// From i of its numbers on.
+    Lanes from(int i) const {
+        Lanes part;
+        std::memcpy(&part, values + i, sizeof part);
+        return part;
+    }
+};
+
+/// A row of each square: the weights of its pixels, and what they bring: guides beside the middle pixel's, and 1.
+/// Rows are taken as a whole, as each sum would else be fetched and put back for each pixel.
+struct Row {
+    Lanes weights[edge], brings[edge][terms];
+};
+
+/// Squares around pixels of a row, and their fits.
+struct Squares {
+    int x, y, begin, end; ///< of lane 0; and the rows that are in the picture
+    Row rows[edge];
+    Lanes matrix[terms][terms], solution[terms]; ///< normal equations: the lower triangle of a symmetric matrix
+    Lanes own;                                   ///< what the pixel itself counts beside its weight
+};
+
+void look_at(const GuidePlanes& guides, const Plane& weights, Squares& squares) {
+    const int x = squares.x;
+    squares.begin = std::max(0, squares.y - radius);
+    squares.end = std::min(squares.y + radius + 1, weights.height());
+    for (int y = squares.begin; y < squares.end; ++y) {
+        Row& row = squares.rows[y - squares.begin];
+        const Stretch weight(weights, x, y);
+        for (int p = 0; p < edge; ++p) {
+            row.weights[p] = weight.from(p);
+            row.brings[p][guide_count] = Lanes{} + 1;
+        }
+        for (int k = 0; k < guide_count; ++k) {
+            const Stretch guide(guides[k], x, y);
+            const Lanes middle = Stretch(guides[k], x, squares.y).from(radius);
+            for (int p = 0; p < edge; ++p)
+                row.brings[p][k] = guide.from(p) - middle;
+        }
+    }
+}
+
+void add_row(const Row& row, Lanes (&matrix)[terms][terms]) {
+    for (int i = 0; i < terms; ++i) {
+        Lanes weighted[edge];
+        for (int p = 0; p < edge; ++p)
+            weighted[p] = row.weights[p] * row.brings[p][i];
+        for (int j = 0; j <= i; ++j) {
+            Lanes sum = matrix[i][j];
+            for (int p = 0; p < edge; ++p)
+                sum += weighted[p] * row.brings[p][j];
+            matrix[i][j] = sum;
+        }
+    }
+}
+
+void set_up(Squares& squares) {
+    auto& m = squares.matrix;
+    for (auto& row : m)
+        std::fill_n(row, terms, Lanes{});
+    for (int y = squares.begin; y < squares.end; ++y)
+        add_row(squares.rows[y - squares.begin], m);
+    Lanes& all = m[guide_count][guide_count];
+    for (int k = 0; k < guide_count; ++k)
+        m[k][k] += lambda * all + rounding * m[k][k];
+    squares.own = own_share * all;
+    all += squares.own;
+}
+
+Lanes root(Lanes values) {
+    for (int l = 0; l < lanes; ++l)
+        values[l] = std::sqrt(values[l]);
+    return values;
+}
+
+/// By Cholesky's decomposition, for the last unit vector: the last row of the inverse says what a is of the
+/// values, sum over q of w_q (solution . what q brings) x_q.
+void solve(Squares& squares) {
+    auto& m = squares.matrix;
+    for (int j = 0; j < terms; ++j) {
+        for (int k = 0; k < j; ++k)
+            for (int i = j; i < terms; ++i)
+                m[i][j] -= m[i][k] * m[j][k];
+        const Lanes scale = 1 / root(m[j][j]);
+        for (int i = j; i < terms; ++i)
+            m[i][j] *= scale;
+    }
+    for (int i = terms - 1; i >= 0; --i) {
+        Lanes sum = i == terms - 1 ? 1 / m[i][i] : Lanes{};
+        for (int j = i + 1; j < terms; ++j)
+            sum -= m[j][i] * squares.solution[j];
+        squares.solution[i] = sum / m[i][i];
+    }
+}
+
+/// Shares sum to 1 but for rounding, which is made up for.
+void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlanes& fitted) {
+    const int x = squares.x;
+    Lanes all = squares.own * squares.solution[guide_count], sums[std::tuple_size_v<RegressedPlanes>];
+    for (std::size_t c = 0; c < values.size(); ++c)
+        sums[c] = all * Stretch(values[c], x, squares.y).from(radius);
+    for (int y = squares.begin; y < squares.end; ++y) {
+        const Row& row = squares.rows[y - squares.begin];
+        Lanes shares[edge];
+        for (int p = 0; p < edge; ++p) {
+            shares[p] = Lanes{};
+            for (int k = 0; k < terms; ++k)
+                shares[p] += squares.solution[k] * row.brings[p][k];
+            shares[p] *= row.weights[p];
+            all += shares[p];
+        }
+        for (std::size_t c = 0; c < values.size(); ++c) {
+            const Stretch value(values[c], x, y);
+            for (int p = 0; p < edge; ++p)
+                sums[c] += shares[p] * value.from(p);
+        }
+    }
+    const int count = std::min(lanes, values[0].width() - x);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        const Lanes mean = sums[c] / all;
+        std::memcpy(fitted[c].row(squares.y) + x, &mean, count * sizeof(float));
+    }
+}
+
+} // namespace
+
+void write_regressions(const RegressedPlanes& values, const GuidePlanes& guides, const Plane& weights,
+                       const ParallelFor& parallel_for, RegressedPlanes& fitted) {
+    parallel_for(weights.height(), [&](int y) {
+        Squares squares;
+        squares.y = y;
+        for (squares.x = 0; squares.x < weights.width(); squares.x += lanes) {
+            look_at(guides, weights, squares);
+            set_up(squares);
+            solve(squares);
+            apply(values, squares, fitted);
+        }
+    });
+}
+
+} // namespace tessera

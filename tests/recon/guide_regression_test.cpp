@@ -1,0 +1,185 @@
+// Radiance as a first-order function of guides: what it must be, and that it takes the noise of edges.
+#include "recon/picture/guide_regression.h"
+#include "recon/picture/guided.h"
+#include "tests/recon/test_images.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+Plane random_plane(int width, int height, std::uint32_t seed, float mean, float deviation) {
+    const RgbImage image = random_image(width, height, seed, mean, deviation);
+    Plane plane(width, height);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        plane.data()[i] = image.data()[i].g;
+    return plane;
+}
+
+struct Case {
+    GuidePlanes guides;
+    RegressedPlanes values;
+    Plane weights;
+
+    Case(int width, int height) {
+        std::uint32_t seed = 0;
+        for (Plane& guide : guides)
+            guide = random_plane(width, height, ++seed, 1, 1);
+        std::fill(guides[3].begin(), guides[3].end(), 0.7f); // one says nothing
+        for (Plane& value : values)
+            value = random_plane(width, height, ++seed, 1, 1);
+        weights = random_plane(width, height, ++seed, 0, 2);
+        for (float& w : weights)
+            w = std::exp(w);
+    }
+
+    RegressedPlanes fitted(const ParallelFor& parallel_for = serial_for) const {
+        RegressedPlanes fitted;
+        make_planes(fitted, weights.width(), weights.height());
+        write_regressions(values, guides, weights, parallel_for, fitted);
+        return fitted;
+    }
+};
+
+using Equations = std::array<std::array<double, guide_count + 2>, guide_count + 1>;
+
+/// By elimination with pivots: the last unknown.
+double last_unknown(Equations e) {
+    constexpr std::size_t n = guide_count + 1;
+    for (std::size_t j = 0; j < n; ++j) {
+        std::size_t pivot = j;
+        for (std::size_t i = j; i < n; ++i)
+            if (std::abs(e[i][j]) > std::abs(e[pivot][j]))
+                pivot = i;
+        std::swap(e[j], e[pivot]);
+        for (std::size_t i = j + 1; i < n; ++i)
+            for (std::size_t k = n + 1; k-- > j;)
+                e[i][k] -= e[i][j] / e[j][j] * e[j][k];
+    }
+    return e[n - 1][n] / e[n - 1][n - 1];
+}
+
+/// The definition, in double, for one pixel and channel.
+double naive(const Case& c, std::size_t channel, int x, int y) {
+    Equations e{};
+    double all = 0;
+    const auto add = [&](int qx, int qy, double w) {
+        double terms[guide_count + 2];
+        for (std::size_t k = 0; k < guide_count; ++k)
+            terms[k] = static_cast<double>(c.guides[k](qx, qy) - c.guides[k](x, y));
+        terms[guide_count] = 1;
+        terms[guide_count + 1] = static_cast<double>(c.values[channel](qx, qy));
+        for (std::size_t i = 0; i <= guide_count; ++i)
+            for (std::size_t j = 0; j < guide_count + 2; ++j)
+                e[i][j] += w * terms[i] * terms[j];
+    };
+    for (int qy = std::max(0, y - 2); qy <= std::min(c.weights.height() - 1, y + 2); ++qy)
+        for (int qx = std::max(0, x - 2); qx <= std::min(c.weights.width() - 1, x + 2); ++qx) {
+            add(qx, qy, static_cast<double>(c.weights(qx, qy)));
+            all += static_cast<double>(c.weights(qx, qy));
+        }
+    add(x, y, 1e-3 * all);
+    for (std::size_t k = 0; k < guide_count; ++k)
+        e[k][k] += 1e-5 * all + 3e-6 * e[k][k];
+    return last_unknown(e);
+}
+
+TEST(GuideRegression, IsTheLeastSquaresOfEachSquare) {
+    for (const auto& [width, height] : {std::pair(37, 9), std::pair(16, 5), std::pair(3, 2), std::pair(1, 1)}) {
+        const Case c(width, height);
+        const RegressedPlanes fitted = c.fitted();
+        for (std::size_t channel = 0; channel < 6; ++channel)
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    ASSERT_NEAR(fitted[channel](x, y), naive(c, channel, x, y), 1e-3)
+                        << width << 'x' << height << ": " << x << ',' << y;
+    }
+}
+
+/// Whatever the guides and weights are, also those of a pixel that is a million times as bright as its neighbours.
+TEST(GuideRegression, KeepsWhatIsTheSameEverywhere) {
+    Case c(35, 12);
+    for (Plane& value : c.values)
+        std::fill(value.begin(), value.end(), 2.0f);
+    c.weights(7, 5) = 1e-14f;
+    for (const Plane& plane : c.fitted())
+        for (float a : plane)
+            ASSERT_NEAR(a, 2, 1e-5);
+}
+
+TEST(GuideRegression, FindsWhatGuidesTell) {
+    Case c(40, 20);
+    for (std::size_t i = 0; i < c.weights.size(); ++i)
+        c.values[0].data()[i] = 3 + 2 * c.guides[1].data()[i] - c.guides[6].data()[i];
+    const RegressedPlanes fitted = c.fitted();
+    for (std::size_t i = 0; i < c.weights.size(); ++i)
+        EXPECT_NEAR(fitted[0].data()[i], c.values[0].data()[i], 0.1);
+}
+
+TEST(GuideRegression, SameBitsInAnyOrder) {
+    const Case c(50, 30);
+    const RegressedPlanes forward = c.fitted(), backward = c.fitted([](int count, const auto&body) {
+        for (int i = count; i-- > 0;)
+            body(i);
+    });
+    for (std::size_t channel = 0; channel < 6; ++channel)
+        EXPECT_EQ(std::memcmp(forward[channel].data(), backward[channel].data(),
+                              forward[channel].size() * sizeof(float)),
+                  0);
+}
+
+/// Pixels that show shares of two surfaces, no two of them the same: no kernel of pixels that look alike finds
+/// others for them.
+struct Edges {
+    static constexpr int width = 64, height = 64;
+    GuideImages guides{RgbImage(width, height), RgbImage(width, height, Rgb(0, 0, 1)),
+                       Image<float>(width, height, 1), Image<float>(width, height, 0.1f)};
+    RgbImage truth{width, height};
+
+    Edges() {
+        const Plane shares = random_plane(width, height, 77, 0, 1);
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const float share = 1 / (1 + std::exp(-3 * shares.data()[i]));
+            guides.albedo.data()[i] = Rgb(0.1f + 0.8f * share);
+            guides.normal.data()[i] = (1 - share) * Rgb(0, 0, 1) + share * Rgb(1, 0, 0);
+            truth.data()[i] = Rgb(0.2f + 2 * share, 0.5f, 1.5f - share);
+        }
+    }
+
+    /// Of the smoothed picture, over that of the noisy one.
+    double error_left(float deviation) const {
+        RgbImage picture = truth;
+        const RgbImage noise = random_image(width, height, 1, 0, deviation);
+        for (std::size_t i = 0; i < picture.size(); ++i)
+            picture.data()[i] += noise.data()[i];
+        const double before = relative_rms_difference(picture, truth);
+        const NoisyPicture smooth = smooth_by_guides(
+            {std::move(picture), random_image(width, height, 2, 0, deviation)}, guides, serial_for);
+        return relative_rms_difference(smooth.image, truth) / before;
+    }
+};
+
+TEST(GuideRegression, TakesTheNoiseOfEdges) {
+    EXPECT_LT(Edges().error_left(0.1f), 0.6);
+}
+
+/// What guides do not tell is not lost as noise goes.
+TEST(GuideRegression, IsConsistent) {
+    Edges edges;
+    const RgbImage other = random_image(Edges::width, Edges::height, 5, 0, 0.2f);
+    for (std::size_t i = 0; i < other.size(); ++i)
+        edges.truth.data()[i] += glm::abs(other.data()[i]);
+    EXPECT_LT(edges.error_left(1e-3f), 1.1);
+}
+
+} // namespace
+
+} // namespace tessera::test
