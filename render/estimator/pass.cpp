@@ -219,7 +219,8 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
     const int n = pass.settings.very_direct_grid;
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            const glm::vec2 cell((x + 1 + look) % n, (y + 1 + look / n) % n);
+            const int row = pass.has_lens() ? look / n : look; // all cells, or some on a diagonal
+            const glm::vec2 cell((x + 1 + look) % n, (y + 1 + row) % n);
             const glm::vec2 in_cell = (cell + 0.5f) / static_cast<float>(n);
             const glm::vec2 subpixel = tracer.scene.has_masks() ? in_cell : glm::vec2(0.5f);
             const Ray ray = pass.camera_ray(x, y, {subpixel, sample_disk(in_cell)});

@@ -48,7 +48,7 @@ std::vector<const Texture*> opacities_of(const SceneDescription& description) {
     std::vector<const Texture*> opacities;
     for_each_shape(description, [&](const Shape& shape) {
         const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
-        opacities.push_back(material.opacity && shape.area_light < 0 ? &*material.opacity : nullptr);
+        opacities.push_back(material.is_mask() && shape.area_light < 0 ? &*material.opacity : nullptr);
     });
     return opacities;
 }

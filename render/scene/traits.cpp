@@ -117,10 +117,6 @@ Lobes lobes_of(const Material& m) {
     return std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
 }
 
-bool is_mask(const Material& m) {
-    return m.opacity && !(m.opacity->is_constant() && std::get<Rgb>(m.opacity->kind) == Rgb(1));
-}
-
 bool looks_up_attributes(const Material& m) {
     const std::vector<const Texture*> all = m.textures();
     return std::any_of(all.begin(), all.end(),
@@ -135,7 +131,7 @@ void add(const Material& m, SceneTraits& traits) {
     traits.textures += m.is_textured();
     traits.mesh_attributes += looks_up_attributes(m);
     traits.relief += m.relief.has_value();
-    traits.masks += is_mask(m);
+    traits.masks += m.is_mask();
 }
 
 } // namespace

@@ -200,6 +200,10 @@ bool Material::is_textured() const {
     return std::any_of(all.begin(), all.end(), [](const Texture* t) { return !t->is_constant(); });
 }
 
+bool Material::is_mask() const {
+    return opacity && !(opacity->is_constant() && std::get<Rgb>(opacity->kind) == Rgb(1));
+}
+
 bool Material::is_anisotropic() const {
     return std::visit([](const auto& m) { return tessera::is_anisotropic(m); }, kind);
 }

@@ -172,6 +172,9 @@ struct Material {
     /// Whether its BSDF may be a mirror (Bsdf::is_mirror).
     bool may_be_mirror() const { return std::holds_alternative<ConductorMaterial>(kind); }
 
+    /// Whether it is there for one ray and not for another, by an opacity other than 1.
+    bool is_mask() const;
+
     /// Whether light gets through (holes by its opacity do not count).
     bool is_transparent() const;
 };
