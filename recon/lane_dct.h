@@ -1,32 +1,11 @@
-// Cosine transforms of many lines at a time, from the vector register up: numbers side by side, their Fourier
-// transform, and the cosine transform made of it.
+// Cosine transforms of many lines at a time: their Fourier transform, and the cosine transform made of it.
 #pragma once
 
-#include <cstring>
+#include "recon/lanes.h"
+
 #include <vector>
 
 namespace tessera {
-
-/// Numbers that are worked on together: what a vector register of the processor holds.
-#ifdef __AVX__
-inline constexpr int lanes = 8;
-#else
-inline constexpr int lanes = 4;
-#endif
-
-/// `lanes` floats with the arithmetic of one: a vector type of GCC and Clang, which compiles for any processor.
-using Lanes = float __attribute__((vector_size(lanes * sizeof(float))));
-
-/// `lanes` values from `from` on, aligned as floats are.
-inline Lanes load(const float* from) {
-    Lanes value;
-    std::memcpy(&value, from, sizeof(value));
-    return value;
-}
-
-inline void store(float* to, const Lanes& value) {
-    std::memcpy(to, &value, sizeof(value));
-}
 
 /// Transposes rows[l][j] into rows[j][l].
 #ifdef __AVX__

@@ -1,9 +1,10 @@
 #include "recon/picture/guide_regression.h"
 
+#include "recon/lanes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 namespace tessera {
 
@@ -12,12 +13,8 @@ namespace {
 constexpr int radius = 2, edge = 2 * radius + 1;
 constexpr int terms = guide_count + 1; // the slope in each guide, and then the constant
 constexpr float lambda = 1e-5f;        // guides are over their widths;
-constexpr float rounding = 3e-6f;      // and so much of each one's own variance more, as floats tell no less
-constexpr float own_share = 1e-3f;     // of its square, a pixel counts so much more
-
-/// Pixels of a row that are fitted side by side, and a number of each.
-constexpr int lanes = 16;
-using Lanes = float __attribute__((vector_size(lanes * sizeof(float))));
+constexpr float rounding = 1e-5f;      // and so much more of what each sums up to, as floats tell no less
+constexpr float own_share = 1e-3f;     // of the weights of its square, a pixel counts so much more
 
 /// A part of a row of the picture, from `radius` to the left of lane 0 on; 0 beyond the picture.
 struct Stretch {
@@ -31,11 +28,7 @@ struct Stretch {
     }
 
     /// From i of its numbers on.
-    Lanes from(int i) const {
-        Lanes part;
-        std::memcpy(&part, values + i, sizeof part);
-        return part;
-    }
+    Lanes from(int i) const { return load(values + i); }
 };
 
 /// A row of each square: the weights of its pixels, and what they bring: guides beside the middle pixel's, and 1.
@@ -125,12 +118,16 @@ void solve(Squares& squares) {
     }
 }
 
-/// Shares sum to 1 but for rounding, which is made up for.
+/// Shares sum to 1 but for rounding, which is made up for. Where guides are beyond what floats can square, a pixel
+/// stays what it is.
 void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlanes& fitted) {
     const int x = squares.x;
-    Lanes all = squares.own * squares.solution[guide_count], sums[std::tuple_size_v<RegressedPlanes>];
-    for (std::size_t c = 0; c < values.size(); ++c)
-        sums[c] = all * Stretch(values[c], x, squares.y).from(radius);
+    Lanes all = squares.own * squares.solution[guide_count];
+    Lanes own[std::tuple_size_v<RegressedPlanes>], sums[std::tuple_size_v<RegressedPlanes>];
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        own[c] = Stretch(values[c], x, squares.y).from(radius);
+        sums[c] = all * own[c];
+    }
     for (int y = squares.begin; y < squares.end; ++y) {
         const Row& row = squares.rows[y - squares.begin];
         Lanes shares[edge];
@@ -147,10 +144,10 @@ void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlane
                 sums[c] += shares[p] * value.from(p);
         }
     }
-    const int count = std::min(lanes, values[0].width() - x);
     for (std::size_t c = 0; c < values.size(); ++c) {
-        const Lanes mean = sums[c] / all;
-        std::memcpy(fitted[c].row(squares.y) + x, &mean, count * sizeof(float));
+        sums[c] /= all;
+        for (int l = 0; l < lanes && x + l < values[c].width(); ++l)
+            fitted[c](x + l, squares.y) = std::isfinite(sums[c][l]) ? sums[c][l] : own[c][l];
     }
 }
 

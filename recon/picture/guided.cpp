@@ -25,8 +25,9 @@ constexpr int levels = 6;
 constexpr float noise_width = 16; // of brightness, in variances of its noise
 constexpr int noise_radius = 6;   // of the squares that tell noise,
 constexpr int trust_radius = 6;   // and how far a difference is more than that; wider by the level's step
-constexpr int weight_radius = 1;  // of the brightness that the regression's errors are held against,
-constexpr int fit_radius = 3;     // the same for the difference to the regression, which is of 5x5 pixels
+// Of the regression, which is of 5x5 pixels:
+constexpr int weight_radius = 2; // of the brightness that errors are held against,
+constexpr int fit_radius = 3;    // and of the squares that tell how far a difference is more than noise
 
 /// Three channels of a picture and three of its noise, each for itself.
 using Planes = RegressedPlanes;
@@ -166,8 +167,8 @@ void make_radiance(const Planes& light, const GuideImages& guides, const Paralle
     });
 }
 
-/// One over the square of the brightness around each pixel, so that errors count beside it. To be asked of what is
-/// smooth: pixels that noise makes dark would count more, and the picture would be darker.
+/// One over the square of the brightness around each pixel, so that errors count beside it. Around, as pixels that
+/// noise makes dark would else count more, and the picture would be darker.
 void write_relative_weights(const Planes& radiance, float least, const ParallelFor& parallel_for, Plane& rows,
                             Plane& weights) {
     write_brightness(radiance, least, parallel_for, weights);
@@ -222,12 +223,14 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
     make_planes(differences, width, height);
     Scratch scratch = scratch_of(width, height);
     for (int l = 0; l < levels; ++l) {
-        if (!watch.goes_on(l, levels))
+        if (!watch.goes_on(l, levels + 1))
             return {};
         write_next_level(finer, alike, least, 1 << l, parallel_for, scratch);
         add_difference(finer, trust_radius + (1 << l), least, parallel_for, scratch, differences);
         std::swap(finer, scratch.coarser);
     }
+    if (!watch.goes_on(levels, levels + 1))
+        return {};
     Planes& radiance = differences;
     make_radiance(finer, guides, parallel_for, radiance);
     if (!guides.empty())

