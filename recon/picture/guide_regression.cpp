@@ -12,9 +12,9 @@ namespace {
 
 constexpr int radius = 2, edge = 2 * radius + 1;
 constexpr int terms = guide_count + 1; // the slope in each guide, and then the constant
-constexpr float lambda = 1e-5f;        // guides are over their widths;
-constexpr float rounding = 1e-5f;      // and so much more of what each sums up to, as floats tell no less
-constexpr float own_share = 1e-3f;     // of the weights of its square, a pixel counts so much more
+constexpr float lambda = 1e-5f; // draws slopes to 0, beside the weights of a square; guides are over their widths
+constexpr float rounding = 1e-5f;  // likewise, beside a guide's own sum of squares: floats tell no less
+constexpr float own_share = 1e-3f; // of the weights of its square, a pixel counts so much more
 
 /// A part of a row of the picture, from `radius` to the left of lane 0 on; 0 beyond the picture.
 struct Stretch {
