@@ -108,6 +108,7 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
 
 /// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
 /// roots: in means of squares, the few pixels beside a lamp would decide on all that are near.
+/// @param sum  may be scratch.coarser itself
 void add_difference(const Planes& finer, int radius, float least, const ParallelFor& parallel_for,
                     Scratch& scratch, Planes& sum) {
     const Planes& coarser = scratch.coarser;
@@ -180,17 +181,14 @@ void write_relative_weights(const Planes& radiance, float least, const ParallelF
 }
 
 /// Radiance becomes what its regression on guides makes of it, and their difference as far as it stands out.
-/// @param fitted  of the picture's size, anything
-void regress(const GuidePlanes& guides, const ParallelFor& parallel_for, Scratch& scratch, Planes& fitted,
-             Planes& radiance) {
+void regress(const GuidePlanes& guides, const ParallelFor& parallel_for, Scratch& scratch, Planes& radiance) {
     const float least = least_brightness(radiance);
     if (least == 0)
         return;
     write_relative_weights(radiance, least, parallel_for, scratch.rows, scratch.sizes);
     write_regressions(radiance, guides, scratch.sizes, parallel_for, scratch.coarser);
-    fitted = scratch.coarser;
-    add_difference(radiance, fit_radius, least, parallel_for, scratch, fitted);
-    std::swap(fitted, radiance);
+    add_difference(radiance, fit_radius, least, parallel_for, scratch, scratch.coarser);
+    std::swap(radiance, scratch.coarser);
 }
 
 /// Where a difference that stays stands on one that goes, a dark pixel may come out below black: not below what it
@@ -234,7 +232,7 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
     Planes& radiance = differences;
     make_radiance(finer, guides, parallel_for, radiance);
     if (!guides.empty())
-        regress(alike, parallel_for, scratch, finer, radiance);
+        regress(alike, parallel_for, scratch, radiance);
     write_picture(radiance, parallel_for, picture);
     return picture;
 }
