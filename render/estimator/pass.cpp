@@ -63,21 +63,6 @@ CameraSample Pass::sample_at(int position, glm::ivec2 inside, int path) const {
             has_lens_ ? sample_disk(numbers_.lens(place, path, position)) : glm::vec2(0)};
 }
 
-Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
-    const int n = settings.very_direct_grid;
-    const auto cells = static_cast<float>(n);
-    const glm::vec2 in_cell = numbers_.subpixel(place_of({x, y}), 0), on_lens = numbers_.lens(place_of({x, y}), 0);
-    Rgb sum(0);
-    for (int i = 0; i < n * n; ++i) {
-        // A row of cells of the pixel goes with a column of the lens; rotated by the block's own position, each
-        // cell sees all of the lens over the passes.
-        const glm::vec2 subpixel = (glm::vec2(i % n, i / n) + in_cell) / cells;
-        const glm::vec2 lens = sample_disk(glm::fract(on_lens + glm::vec2(i / n, i % n) / cells));
-        sum += tracer.very_direct_along(camera_ray(x, y, {subpixel, lens}));
-    }
-    return sum / static_cast<float>(n * n);
-}
-
 namespace {
 
 // Keys of nets, over the looks of a pixel.
@@ -86,17 +71,33 @@ constexpr std::uint64_t looks_in_pixel = 0x6c6f'6f6b'7069'786cu, looks_on_lens =
 } // namespace
 
 /// @param subpixel, lens  digits that points are shifted by
-CameraSample Pass::look_from(std::uint64_t subpixel, std::uint64_t lens, int point) const {
+CameraSample Pass::look_from(std::uint64_t subpixel, std::uint64_t lens, std::uint32_t point) const {
     const auto at = [&](std::uint64_t shift, std::uint64_t net) {
-        return unit_square(shift ^ net_point(static_cast<std::uint32_t>(point), net));
+        return unit_square(shift ^ net_point(point, net));
     };
     return {at(subpixel, looks_in_pixel), has_lens_ ? sample_disk(at(lens, looks_on_lens)) : glm::vec2(0)};
 }
 
+/// Shifts of digits for all looks at a pixel, which are no pass's.
+Random Pass::shift_of_looks(int x, int y) const {
+    return {settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu};
+}
+
+Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
+    const Random shift = shift_of_looks(x, y);
+    const std::uint64_t subpixel = shift.digits(2, Draw::direction), lens = shift.digits(3, Draw::direction);
+    const auto rays = static_cast<std::uint32_t>(settings.very_direct_rays);
+    const std::uint32_t first = static_cast<std::uint32_t>(index) * rays;
+    Rgb sum(0);
+    for (std::uint32_t i = 0; i < rays; ++i)
+        sum += tracer.very_direct_along(camera_ray(x, y, look_from(subpixel, lens, first + i)));
+    return sum / static_cast<float>(rays);
+}
+
 Look Pass::look_at(const Tracer& tracer, int x, int y, int point) const {
-    const Random shift(settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu); // no pass's
-    const CameraSample sample =
-        look_from(shift.digits(0, Draw::direction), shift.digits(1, Draw::direction), point);
+    const Random shift = shift_of_looks(x, y);
+    const CameraSample sample = look_from(shift.digits(0, Draw::direction), shift.digits(1, Draw::direction),
+                                          static_cast<std::uint32_t>(point));
     const Random numbers(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
                          0xfffffffcu - static_cast<std::uint32_t>(point)); // no pass's either
     return look_along(tracer, camera_ray(x, y, sample), numbers);
@@ -104,8 +105,8 @@ Look Pass::look_at(const Tracer& tracer, int x, int y, int point) const {
 
 bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) const {
     constexpr std::uint64_t middle = 0x8000'0000'8000'0000u; // where the first look is
-    const CameraSample sample =
-        look_from(middle ^ net_point(0, looks_in_pixel), middle ^ net_point(0, looks_on_lens), point);
+    const CameraSample sample = look_from(middle ^ net_point(0, looks_in_pixel),
+                                          middle ^ net_point(0, looks_on_lens), static_cast<std::uint32_t>(point));
     return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera);
 }
 
@@ -207,16 +208,21 @@ void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>&
     }
 }
 
+namespace {
+constexpr int cells_along = 4; // of the grid, of a pixel and of the lens, by which edges of lamps are looked for
+}
+
 int very_direct_looks(const Pass& pass, const Scene& scene) {
-    const int n = pass.settings.very_direct_grid;
-    return n == 1 ? 0 : pass.has_lens() ? n * n : scene.has_masks() ? n : 1;
+    if (pass.settings.very_direct_rays == 1)
+        return 0;
+    return pass.has_lens() ? cells_along * cells_along : scene.has_masks() ? cells_along : 1;
 }
 
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture) {
     const PixelRect inside = block.clipped(pass.size);
     const PixelRect area{inside.x0 - (inside.x0 == 0), inside.y0 - (inside.y0 == 0),
                          inside.x1 + (inside.x1 == pass.size.x), inside.y1 + (inside.y1 == pass.size.y)};
-    const int n = pass.settings.very_direct_grid;
+    constexpr int n = cells_along;
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             const int row = pass.has_lens() ? look / n : look; // all cells, or some on a diagonal

@@ -72,8 +72,9 @@ public:
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
     }
 
-    /// Very direct light of a pixel by a grid of camera rays, each where the pixel's base path is in its cell,
-    /// through points that cover the lens as well.
+    /// Very direct light of a pixel by settings.very_direct_rays camera rays. Their points in the pixel, and on
+    /// the lens, are a net over the passes, each pixel's own: along an upright or level edge, as those of windows,
+    /// no two rays are in one place, as they would be in a grid.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
     /// What a base path's radiance is divided by: the albedo at x_1, black where it sees nothing; or 1, where
@@ -101,7 +102,8 @@ public:
 
 private:
     std::uint32_t place_of(glm::ivec2 pixel) const; // for PassNumbers
-    CameraSample look_from(std::uint64_t subpixel, std::uint64_t lens, int point) const;
+    Random shift_of_looks(int x, int y) const;
+    CameraSample look_from(std::uint64_t subpixel, std::uint64_t lens, std::uint32_t point) const;
 
     Projection projection_;
     bool has_lens_;
@@ -222,15 +224,15 @@ bool tells_of_light(const Pass& pass, const Random& random);
 /// Notes what light the base path of a pixel has found, if it is to tell of it.
 void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
 
-/// How many looks it takes to find the edges of lamps: with a lens as many as there are rays in the grid, as what
+/// How many looks it takes to find the edges of lamps: with a lens one through each of 16 parts, as what
 /// it blurs is seen through some of its points only; a few where surfaces may be there for one ray and not for
 /// another, behind which a lamp has edges everywhere.
 int very_direct_looks(const Pass& pass, const Scene& scene);
 
 /// Very direct light of the block's pixels, and of those beside it beyond the image's borders, along a ray through
 /// the middle of each. Pixels side by side look through different parts of the lens, and differ where a lamp is
-/// blurred, too; over all looks each sees through every part. Where there are masks, rays are not in the middle, as
-/// the same ray sees the same.
+/// blurred, too; over all looks each sees through every part. Where there are masks, rays are not in the middle,
+/// as the same ray sees the same.
 /// @param picture  with a pixel more than the image on all four sides
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 

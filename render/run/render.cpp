@@ -26,7 +26,7 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             is_demodulated(s),
             s.method != Method::pt || is_adaptive(s),
             reuses_paths(s.method) && s.adapt_tile,
-            s.very_direct_grid > 1,
+            s.very_direct_rays > 1,
             part_count(s),
             finds_gain_of_sharing(s) || is_adaptive(s) || has_positions(s)};
 }

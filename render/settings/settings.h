@@ -116,7 +116,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
     int positions =
         4; ///< from which a pass sees a pixel that shares, if it sees several things [1, most_positions]
-    int very_direct_grid = 4; ///< camera rays along each edge of a pixel at a lamp's edge
+    int very_direct_rays = 16; ///< camera rays of a sample at a lamp's edge; 1: its path's own
     PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;

@@ -241,10 +241,11 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "base path is shared at one of them. 1: all are shared at the same, and an edge is as rough as one "
          "sample.",
          Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method), true},
-        {"very_direct_grid", "Lamp grid",
-         "Where lamps that the camera sees have their edges, a sample looks for them with a grid of this many "
-         "rays along each edge of the pixel. 1: with the ray of its path.",
-         Setting::Whole{&s.very_direct_grid, 1, 8}, true, true},
+        {"very_direct_rays", "Lamp rays",
+         "Where lamps that the camera sees have their edges, a sample looks for them with so many rays; powers of "
+         "two "
+         "lie most evenly. 1: with the ray of its path.",
+         Setting::Whole{&s.very_direct_rays, 1, 64}, true, true},
         {"roulette_depth", "RR depth",
          "Edges beyond which a path goes on with a probability that follows the reflectance it meets (at most "
          "0.95). 0: it goes on to the max depth.",

@@ -82,7 +82,7 @@ PaneSettings with_own(PaneSettings preset, const PaneSettings& pane) {
     preset.render.seed = pane.render.seed;
     preset.render.max_depth = pane.render.max_depth;
     preset.render.light_samples = pane.render.light_samples;
-    preset.render.very_direct_grid = pane.render.very_direct_grid;
+    preset.render.very_direct_rays = pane.render.very_direct_rays;
     preset.buffer = pane.buffer;
     preset.comparison = pane.comparison;
     return preset;

@@ -18,7 +18,7 @@ struct Preset {
 /// All presets; the program's own is the first.
 std::span<const Preset> presets();
 
-/// Gives a pane the preset's settings. Its method and its depth, seed, light samples and lamp grid stay, which are
+/// Gives a pane the preset's settings. Its method and its depth, seed, light samples and lamp rays stay, which are
 /// the scene's or the user's, and so do its buffer and comparison.
 void apply(const Preset& preset, PaneSettings& pane);
 
