@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -52,6 +54,35 @@ inline float linear_to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+/// Memory of pixels that need not be filled before something is written there.
+template <class Pixel>
+struct PixelAllocator : std::allocator<Pixel> {
+    template <class Other>
+    struct rebind {
+        using other = PixelAllocator<Other>;
+    };
+
+    PixelAllocator() = default;
+    template <class Other>
+    PixelAllocator(const PixelAllocator<Other>&) noexcept {}
+
+    template <class Any, class... Arguments>
+    void construct(Any* at, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) == 0)
+            ::new (static_cast<void*>(at)) Any; // numbers are left what they are
+        else
+            ::new (static_cast<void*>(at)) Any(std::forward<Arguments>(arguments)...);
+    }
+};
+
+/// Beware: resize() leaves new pixels what they are.
+template <class Pixel>
+using PixelVector = std::vector<Pixel, PixelAllocator<Pixel>>;
+
+/// Instead of a colour: pixels are anything. For an image all of which is written before it is read: a large one
+/// is then touched first by the threads that write it, side by side, and not by the one that asks for it.
+struct Unfilled {};
+
 /// A raster of pixels, row by row from the top left. An image of width or height 0 is empty.
 template <class Pixel>
 class Image {
@@ -59,6 +90,20 @@ public:
     Image() = default;
     Image(int width, int height, Pixel fill = Pixel{})
         : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, fill) {}
+    Image(int width, int height, Unfilled)
+        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
+    Image(const Image&) = default;
+    Image& operator=(const Image&) = default;
+    /// The other one is empty then.
+    Image(Image&& other) noexcept
+        : width_(std::exchange(other.width_, 0)), height_(std::exchange(other.height_, 0)),
+          pixels_(std::move(other.pixels_)) {}
+    Image& operator=(Image&& other) noexcept {
+        width_ = std::exchange(other.width_, 0);
+        height_ = std::exchange(other.height_, 0);
+        pixels_ = std::exchange(other.pixels_, {});
+        return *this;
+    }
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -73,7 +118,7 @@ public:
     const Pixel* data() const { return pixels_.data(); }
 
     /// Gives the pixels away, row by row: it is empty then.
-    std::vector<Pixel> take_pixels() {
+    PixelVector<Pixel> take_pixels() {
         width_ = height_ = 0;
         return std::move(pixels_);
     }
@@ -86,7 +131,7 @@ public:
 private:
     int width_ = 0;
     int height_ = 0;
-    std::vector<Pixel> pixels_;
+    PixelVector<Pixel> pixels_;
 };
 
 using RgbImage = Image<Rgb>;

@@ -34,7 +34,9 @@ struct EdgeWeights {
 /// lost.
 ///
 /// Sample variances are noisy, too, so they are blended with those around; primal variances more so, since nobody
-/// should trust a gradient for the sake of a firefly beside it.
+/// should trust a gradient for the sake of a firefly beside it. What is blended are variances over the square of
+/// the brightness: a groove's pixels know how dark they are, however noisy the bright boards on both sides. (Those
+/// that are taken from neighbours are blended as they are: a single sample may be dark by chance.)
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha,
                                  const ParallelFor& parallel_for = serial_for);
 

@@ -1,6 +1,7 @@
 #include "recon/picture/bounds.h"
 
 #include "recon/picture/demodulation.h"
+#include "recon/pixel_loops.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
@@ -22,13 +23,13 @@ constexpr float most = 1e30f;          // of variances, so that squares stay fin
 Image<float> squared_errors(const Image<float>& variances, const AlikePixels& alike,
                             const ParallelFor& parallel_for) {
     const int width = variances.width(), height = variances.height();
-    Image<float> roots(width, height); // of s
+    Image<float> roots(width, height, Unfilled()); // of s
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x)
             roots(x, y) = std::sqrt(std::sqrt(std::min(variances(x, y), most)));
     });
     alike.take_means(wide_levels, roots, parallel_for);
-    Image<float> squares(width, height);
+    Image<float> squares(width, height, Unfilled());
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const float around = roots(x, y) * roots(x, y);
@@ -40,17 +41,19 @@ Image<float> squared_errors(const Image<float>& variances, const AlikePixels& al
 
 /// The share of the pixels around of which any sample has found light.
 Image<float> lit_shares(const RgbImage& radiance, const ParallelFor& parallel_for) {
-    Image<float> lit(radiance.width(), radiance.height());
-    for (std::size_t i = 0; i < lit.size(); ++i)
-        lit.data()[i] = is_black(radiance.data()[i]) ? 0.0f : 1.0f;
+    Image<float> lit(radiance.width(), radiance.height(), Unfilled());
+    for_pixels(lit.width(), lit.height(), parallel_for,
+               [&](std::size_t i) { lit.data()[i] = is_black(radiance.data()[i]) ? 0.0f : 1.0f; });
     return square_means(lit, lit_radius, 0, 0, parallel_for);
 }
 
 /// Looks that lead nowhere, in mirrors and through glass, too, are at no distance.
-Image<std::uint8_t> black_pixels(const GuideImages& guides, const RgbImage& found) {
-    Image<std::uint8_t> black(found.width(), found.height());
-    for (std::size_t i = 0; i < found.size(); ++i)
+Image<std::uint8_t> black_pixels(const GuideImages& guides, const RgbImage& found,
+                                 const ParallelFor& parallel_for) {
+    Image<std::uint8_t> black(found.width(), found.height(), Unfilled());
+    for_pixels(found.width(), found.height(), parallel_for, [&](std::size_t i) {
         black.data()[i] = guides.nearness.data()[i] == 0 && found.data()[i] == Rgb(0);
+    });
     return black;
 }
 
@@ -64,13 +67,13 @@ UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, co
                          const ParallelFor& parallel_for) {
     UpperBounds bounds;
     if (!images.guides.empty())
-        bounds.black = black_pixels(images.guides, found);
+        bounds.black = black_pixels(images.guides, found, parallel_for);
     if (!can_bound(images))
         return bounds;
     const Image<float> squares = squared_errors(images.primal_variance, alike, parallel_for);
     const Image<float> lit = lit_shares(images.radiance(), parallel_for);
-    bounds.light = images.primal;
-    bounds.error = RgbImage(squares.width(), squares.height());
+    bounds.light = copy_of(images.primal, parallel_for);
+    bounds.error = RgbImage(squares.width(), squares.height(), Unfilled());
     const bool is_demodulated = !images.demodulation.empty();
     if (is_demodulated)
         remodulate(images, false, bounds.light, parallel_for);
@@ -86,9 +89,10 @@ UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, co
 }
 
 RgbImage take_excess(const UpperBounds& bounds, float reach, RgbImage& image, const ParallelFor& parallel_for) {
-    RgbImage excess(image.width(), image.height(), Rgb(0));
+    RgbImage excess(image.width(), image.height(), Unfilled());
     parallel_for(image.height(), [&](int y) {
         for (int x = 0; x < image.width(); ++x) {
+            excess(x, y) = Rgb(0);
             if (!bounds.light.empty())
                 excess(x, y) = glm::max(image(x, y) - (bounds.light(x, y) + reach * bounds.error(x, y)), Rgb(0));
             if (!bounds.black.empty() && bounds.black(x, y))
@@ -103,9 +107,10 @@ RgbImage room_below(const UpperBounds& bounds, float reach, const RgbImage& imag
                     const ParallelFor& parallel_for) {
     if (bounds.empty())
         return {};
-    RgbImage room(image.width(), image.height(), Rgb(most));
+    RgbImage room(image.width(), image.height(), Unfilled());
     parallel_for(image.height(), [&](int y) {
         for (int x = 0; x < image.width(); ++x) {
+            room(x, y) = Rgb(most);
             if (!bounds.light.empty())
                 room(x, y) = bounds.light(x, y) + reach * bounds.error(x, y) - image(x, y);
             if (!bounds.black.empty() && bounds.black(x, y))

@@ -106,7 +106,7 @@ void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image,
     }
     RgbImage rho;
     if (!images.primal_variance.empty()) {
-        rho = RgbImage(width, height);
+        rho = RgbImage(width, height, Unfilled());
         parallel_for(height, [&](int y) { write_covariance(images, image, y, rho); });
     }
     multiply_by_known_albedo(d, image, parallel_for);

@@ -39,9 +39,8 @@ GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for
         return planes;
     const int width = guides.albedo.width(), height = guides.albedo.height();
     make_planes(planes, width, height);
-    double sum = 0;
-    for (float nearness : guides.nearness)
-        sum += static_cast<double>(nearness);
+    const double sum =
+        sum_over_pixels(width, height, parallel_for, [&](std::size_t i) { return guides.nearness.data()[i]; });
     const float least = sum > 0 ? static_cast<float>(1e-3 * sum / static_cast<double>(guides.nearness.size())) : 1;
     for_pixels(width, height, parallel_for, [&](std::size_t i) {
         for (int c = 0; c < 3; ++c) {

@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
+#include "recon/pixel_loops.h"
 
 #include <algorithm>
 #include <array>
@@ -21,20 +22,11 @@ namespace tessera {
 
 using Plane = Image<float>;
 
-/// Empty planes of a size.
+/// Planes of a size, with anything in them.
 template <std::size_t count>
 void make_planes(std::array<Plane, count>& planes, int width, int height) {
     for (Plane& plane : planes)
-        plane = Plane(width, height);
-}
-
-/// Calls visit(i) for all pixels of a picture.
-template <class Visit>
-void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& visit) {
-    parallel_for(height, [&](int y) {
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
-            visit(i);
-    });
+        plane = Plane(width, height, Unfilled());
 }
 
 /// Guides over the widths of what counts as alike. Empty planes: there are none, and all pixels look alike.

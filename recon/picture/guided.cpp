@@ -44,7 +44,7 @@ Scratch scratch_of(int width, int height) {
     make_planes(scratch.coarser, width, height);
     make_planes(scratch.weights, width, height);
     for (Plane* plane : {&scratch.brightness, &scratch.noise, &scratch.sizes, &scratch.rows})
-        *plane = Plane(width, height);
+        *plane = Plane(width, height, Unfilled());
     return scratch;
 }
 
@@ -106,6 +106,32 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
     write_kernel_means(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
+/// The roots of how large differences are beside the brightness, of the picture and of its noise.
+void write_root_sizes(const Planes& finer, const Planes& coarser, const Plane& brightness,
+                      const ParallelFor& parallel_for, Plane& sizes, Plane& noise) {
+    const int width = brightness.width();
+    parallel_for(brightness.height(), [&](int y) {
+        for (int x = 0; x < width; x += kernel_chunk) {
+            const int count = std::min(kernel_chunk, width - x);
+            float squares[2][kernel_chunk] = {};
+            for (std::size_t c = 0; c < finer.size(); ++c) {
+                const float *fine = finer[c].row(y) + x, *coarse = coarser[c].row(y) + x;
+                const float* bright = brightness.row(y) + x;
+                float* sum = squares[c / 3];
+                for (int i = 0; i < count; ++i) {
+                    const float d = (fine[i] - coarse[i]) / bright[i];
+                    sum[i] += d * d;
+                }
+            }
+            float *size = sizes.row(y) + x, *of_noise = noise.row(y) + x;
+            for (int i = 0; i < count; ++i) {
+                size[i] = std::sqrt(std::sqrt(squares[0][i]));
+                of_noise[i] = std::sqrt(std::sqrt(squares[1][i]));
+            }
+        }
+    });
+}
+
 /// Adds c (finer - scratch.coarser) to the sum, where c is trusted over squares of such a radius, by means of
 /// roots: in means of squares, the few pixels beside a lamp would decide on all that are near.
 /// @param sum  may be scratch.coarser itself
@@ -116,15 +142,7 @@ void add_difference(const Planes& finer, int radius, float least, const Parallel
     Plane &sizes = scratch.sizes, &noise = scratch.noise;
     const int width = noise.width(), height = noise.height();
     write_brightness(coarser, least, parallel_for, scratch.brightness);
-    for_pixels(width, height, parallel_for, [&](std::size_t i) {
-        float here[2] = {};
-        for (std::size_t c = 0; c < 6; ++c) {
-            const float d = (finer[c].data()[i] - coarser[c].data()[i]) / brightness.data()[i];
-            here[c / 3] += d * d;
-        }
-        sizes.data()[i] = std::sqrt(std::sqrt(here[0]));
-        noise.data()[i] = std::sqrt(std::sqrt(here[1]));
-    });
+    write_root_sizes(finer, coarser, brightness, parallel_for, sizes, noise);
     take_wide_means(sizes, radius, scratch.rows, parallel_for);
     take_wide_means(noise, radius, scratch.rows, parallel_for);
     Plane& trust = noise;
@@ -142,16 +160,19 @@ void add_difference(const Planes& finer, int radius, float least, const Parallel
     });
 }
 
-bool can_be_squared(Rgb c) {
+bool can_be_squared(const RgbImage& image, const ParallelFor& parallel_for) {
     constexpr float most = 1e28f;
-    return std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most;
+    const auto is_large = [&](std::size_t i) {
+        const Rgb c = image.data()[i];
+        return !(std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most);
+    };
+    return sum_over_pixels(image.width(), image.height(), parallel_for, is_large) == 0;
 }
 
 /// What the brightness of any pixel counts as more; 0: there is as good as no light.
-float least_brightness(const Planes& light) {
-    double sum = 0;
-    for (std::size_t i = 0; i < light[0].size(); ++i)
-        sum += std::max(0.0, static_cast<double>(mean_of(light, 0, i)));
+float least_brightness(const Planes& light, const ParallelFor& parallel_for) {
+    const double sum = sum_over_pixels(light[0].width(), light[0].height(), parallel_for,
+                                       [&](std::size_t i) { return std::max(0.0f, mean_of(light, 0, i)); });
     const float least = dark * static_cast<float>(sum / static_cast<double>(light[0].size()));
     return least < std::numeric_limits<float>::min() ? 0 : least;
 }
@@ -182,7 +203,7 @@ void write_relative_weights(const Planes& radiance, float least, const ParallelF
 
 /// Radiance becomes what its regression on guides makes of it, and their difference as far as it stands out.
 void regress(const GuidePlanes& guides, const ParallelFor& parallel_for, Scratch& scratch, Planes& radiance) {
-    const float least = least_brightness(radiance);
+    const float least = least_brightness(radiance, parallel_for);
     if (least == 0)
         return;
     write_relative_weights(radiance, least, parallel_for, scratch.rows, scratch.sizes);
@@ -209,16 +230,20 @@ void write_picture(const Planes& radiance, const ParallelFor& parallel_for, Nois
 
 NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
                               const SolveWatch& watch) {
-    if (!std::ranges::all_of(picture.image, can_be_squared) || !std::ranges::all_of(picture.noise, can_be_squared))
+    if (!can_be_squared(picture.image, parallel_for) || !can_be_squared(picture.noise, parallel_for))
         return picture;
     Planes finer = light_of(picture, guides, parallel_for);
-    const float least = least_brightness(finer);
+    const float least = least_brightness(finer, parallel_for);
     if (least == 0)
         return picture;
     const int width = picture.image.width(), height = picture.image.height();
     const GuidePlanes alike = planes_of(guides, parallel_for);
     Planes differences;
     make_planes(differences, width, height);
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        for (Plane& plane : differences)
+            plane.data()[i] = 0;
+    });
     Scratch scratch = scratch_of(width, height);
     for (int l = 0; l < levels; ++l) {
         if (!watch.goes_on(l, levels + 1))

@@ -23,24 +23,20 @@ void set_colour(Channels& channels, std::size_t i, Rgb colour) {
         channels[c].data()[i] = colour[static_cast<int>(c)];
 }
 
-double sum_of_sizes(const RgbImage& image) {
-    double sum = 0;
-    for (Rgb c : image)
-        sum += static_cast<double>(size_of(c));
-    return sum;
+double sum_of_sizes(const RgbImage& image, const ParallelFor& parallel_for) {
+    return sum_over_pixels(image.width(), image.height(), parallel_for,
+                           [&](std::size_t i) { return size_of(image.data()[i]); });
 }
 
 /// S: albedo times light, and a little more. As much more as keeps its quotients with what is spread finite.
 Channels spreading_by(const RgbImage& image, const RgbImage& spread, const GuideImages& guides,
                       const ParallelFor& parallel_for) {
     const int width = image.width(), height = image.height();
-    Image<float> light(width, height);
+    Image<float> light(width, height, Unfilled());
     for_pixels(width, height, parallel_for,
                [&](std::size_t i) { light.data()[i] = brightness_of(light_at(image, guides, i)); });
-    double sum = 0;
-    for (float l : light)
-        sum += static_cast<double>(l);
-    sum = std::max(dark * sum, 1e-6 * sum_of_sizes(spread));
+    double sum = sum_over_pixels(width, height, parallel_for, [&](std::size_t i) { return light.data()[i]; });
+    sum = std::max(dark * sum, 1e-6 * sum_of_sizes(spread, parallel_for));
     const auto more = static_cast<float>(sum / static_cast<double>(image.size()));
     Channels brightness;
     make_planes(brightness, width, height);
@@ -52,17 +48,20 @@ Channels spreading_by(const RgbImage& image, const RgbImage& spread, const Guide
 
 /// The most that each pixel is given: a tenth of S, and no more than it has room for. S becomes less where that is
 /// less, so that others are given it.
-Channels take_limits(const RgbImage& room, Channels& brightness) {
-    Channels most = brightness;
-    for (std::size_t c = 0; c < most.size(); ++c)
-        for (std::size_t i = 0; i < most[c].size(); ++i) {
+Channels take_limits(const RgbImage& room, Channels& brightness, const ParallelFor& parallel_for) {
+    const int width = brightness[0].width(), height = brightness[0].height();
+    Channels most;
+    make_planes(most, width, height);
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        for (std::size_t c = 0; c < most.size(); ++c) {
             float &m = most[c].data()[i], &s = brightness[c].data()[i];
-            m *= stands_out;
+            m = stands_out * s;
             if (room.empty())
                 continue;
             m = std::clamp(room.data()[i][static_cast<int>(c)], 0.0f, m);
             s = std::max(m / stands_out, passes_on * s);
         }
+    });
     return most;
 }
 
@@ -93,7 +92,7 @@ AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const Paral
 }
 
 void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const {
-    std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height())};
+    std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height(), Unfilled())};
     for (std::size_t level = 0; level < levels; ++level) {
         write_kernel_means(from, weights_[level], steps[level], parallel_for, to);
         std::swap(from, to);
@@ -103,11 +102,11 @@ void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFo
 
 void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike, const GuideImages& guides,
                      const RgbImage& room, const ParallelFor& parallel_for) {
-    if (!(sum_of_sizes(light) > 0))
+    if (!(sum_of_sizes(light, parallel_for) > 0))
         return;
     const int width = image.width(), height = image.height();
     Channels brightness = spreading_by(image, light, guides, parallel_for);
-    const Channels most = take_limits(room, brightness);
+    const Channels most = take_limits(room, brightness, parallel_for);
     Channels spread, ratio;
     make_planes(spread, width, height);
     make_planes(ratio, width, height);
@@ -182,7 +181,7 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
     const float share = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));
     const std::size_t row_numbers = channels * static_cast<std::size_t>(width);
-    Image<Pixel> other(width, height);
+    Image<Pixel> other(width, height, Unfilled());
     for (int round = 0; round < 3; ++round) {
         parallel_for(height, [&](int y) {
             std::vector<Pixel> padded(static_cast<std::size_t>(width + 2 * r_x));
@@ -207,21 +206,21 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
 /// The brightness about each pixel; 0 where it is black.
 Plane brightness_about(const RgbImage& image, const AlikePixels& alike, const Image<std::uint8_t>& black,
                        const ParallelFor& parallel_for) {
-    double sum = 0;
-    for (Rgb c : image)
-        sum += std::max(0.0, static_cast<double>(luminance(c)));
+    const int width = image.width(), height = image.height();
+    const double sum = sum_over_pixels(width, height, parallel_for,
+                                       [&](std::size_t i) { return std::max(0.0f, luminance(image.data()[i])); });
     // Where a whole neighbourhood is black, light is spread evenly; as in a picture that is black.
     const auto least = sum > 0 ? static_cast<float>(1e-4 * sum / static_cast<double>(image.size())) : 1.0f;
-    Plane brightness(image.width(), image.height());
-    for (std::size_t i = 0; i < image.size(); ++i)
-        brightness.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
-    Plane plain = brightness;
+    Plane brightness(width, height, Unfilled()), plain(width, height, Unfilled());
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        brightness.data()[i] = plain.data()[i] = std::max(luminance(image.data()[i]), 0.0f) + least;
+    });
     blur(plain, near_radius, parallel_for);
     alike.take_means(near_levels, brightness, parallel_for);
-    for (std::size_t i = 0; i < image.size(); ++i) {
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
         const float both = (1 - of_all) * brightness.data()[i] + of_all * plain.data()[i];
         brightness.data()[i] = black.empty() || !black.data()[i] ? both : 0;
-    }
+    });
     return brightness;
 }
 
@@ -229,19 +228,21 @@ Plane brightness_about(const RgbImage& image, const AlikePixels& alike, const Im
 
 void spread_around(const RgbImage& light, const RgbImage& shown, const AlikePixels& alike,
                    const Image<std::uint8_t>& black, RgbImage& image, const ParallelFor& parallel_for) {
-    const double sum = sum_of_sizes(light);
+    const double sum = sum_of_sizes(light, parallel_for);
     if (!(sum > 0))
         return;
     const auto least = static_cast<float>(1e-30 * sum); // so that quotients are finite
     const Plane brightness = brightness_about(shown, alike, black, parallel_for);
-    Plane around = brightness;
+    Plane around = copy_of(brightness, parallel_for);
     blur(around, spread_radius, parallel_for);
-    RgbImage ratio = light;
-    for (std::size_t i = 0; i < image.size(); ++i)
-        ratio.data()[i] = around.data()[i] > least ? ratio.data()[i] / around.data()[i] : Rgb(0);
+    const int width = image.width(), height = image.height();
+    RgbImage ratio(width, height, Unfilled());
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        ratio.data()[i] = around.data()[i] > least ? light.data()[i] / around.data()[i] : Rgb(0);
+    });
     blur(ratio, spread_radius, parallel_for);
-    for (std::size_t i = 0; i < image.size(); ++i)
-        image.data()[i] += brightness.data()[i] * ratio.data()[i];
+    for_pixels(width, height, parallel_for,
+               [&](std::size_t i) { image.data()[i] += brightness.data()[i] * ratio.data()[i]; });
 }
 
 } // namespace tessera

@@ -8,6 +8,7 @@
 #include "recon/picture/parts.h"
 #include "recon/picture/shrinkage.h"
 #include "recon/picture/spikes.h"
+#include "recon/pixel_loops.h"
 #include "recon/poisson_direct.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
@@ -57,17 +58,15 @@ void check_sizes(const GradientImages& images) {
     }
 }
 
-void add(RgbImage& sum, const RgbImage& image) {
-    for (std::size_t i = 0; i < image.size(); ++i)
-        sum.data()[i] += image.data()[i];
+void add(RgbImage& sum, const RgbImage& image, const ParallelFor& parallel_for) {
+    for_pixels(image.width(), image.height(), parallel_for,
+               [&](std::size_t i) { sum.data()[i] += image.data()[i]; });
 }
 
 /// Of all luminances.
-double sum_of(const RgbImage& image) {
-    double sum = 0;
-    for (Rgb c : image)
-        sum += static_cast<double>(luminance(c));
-    return sum;
+double sum_of(const RgbImage& image, const ParallelFor& parallel_for) {
+    return sum_over_pixels(image.width(), image.height(), parallel_for,
+                           [&](std::size_t i) { return luminance(image.data()[i]); });
 }
 
 /// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
@@ -95,12 +94,13 @@ void hold_to_bounds(const UpperBounds& bounds, RgbImage& picture, const Parallel
 }
 
 /// Gives the picture the light that it had, by one factor.
-void keep_light(double before, RgbImage& picture) {
-    const double after = sum_of(picture);
+void keep_light(double before, RgbImage& picture, const ParallelFor& parallel_for) {
+    const double after = sum_of(picture, parallel_for);
     if (!(before > 0 && after > 0))
         return;
-    for (Rgb& pixel : picture)
-        pixel *= static_cast<float>(before / after);
+    const auto factor = static_cast<float>(before / after);
+    for_pixels(picture.width(), picture.height(), parallel_for,
+               [&](std::size_t i) { picture.data()[i] *= factor; });
 }
 
 } // namespace
@@ -138,9 +138,9 @@ struct Reconstructor::Limits {
 /// all is black, and hardly any goes where it is known to be dark. Without bounds, only what is held.
 void Reconstructor::Limits::spread(const GuideImages& guides, RgbImage& image,
                                    const ParallelFor& parallel_for) const {
-    RgbImage light = held;
+    RgbImage light = copy_of(held, parallel_for);
     if (!bounds.empty())
-        add(light, take_excess(bounds, reach, image, parallel_for));
+        add(light, take_excess(bounds, reach, image, parallel_for), parallel_for);
     const RgbImage room = room_below(bounds, reach, image, parallel_for);
     spread_to_alike(light, image, alike, guides, room, parallel_for);
     spread_around(light, image, alike, bounds.black, image, parallel_for);
@@ -207,7 +207,7 @@ int Reconstructor::solve_weighted(const GradientImages& images, const PoissonPro
 RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
                                  const Limits* limits, const RgbImage& picture, const ParallelFor& parallel_for,
                                  const SolveWatch& watch) {
-    RgbImage noise = images.halves.primal;
+    RgbImage noise;
     if (images.has_gradients() && settings.norm != Norm::smoothed) {
         const float alpha = alpha_of_patches(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
@@ -215,12 +215,15 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
         constexpr WeightedSettings quick{.cold_iterations = 3, .warm_iterations = 2};
         solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
         solvers_->weights = {};
+    } else {
+        noise = copy_of(images.halves.primal, parallel_for);
     }
     multiply_by_known_albedo(images.demodulation, noise, parallel_for);
     if (limits && !images.brightest.half.empty()) {
-        RgbImage held = limits->held;
-        for (std::size_t i = 0; i < held.size(); ++i)
-            held.data()[i] *= images.brightest.half.data()[i];
+        RgbImage held(picture.width(), picture.height(), Unfilled());
+        for_pixels(held.width(), held.height(), parallel_for, [&](std::size_t i) {
+            held.data()[i] = limits->held.data()[i] * images.brightest.half.data()[i];
+        });
         // To pixels that look alike farther away, too, is level.
         spread_around(held, picture, limits->alike, limits->bounds.black, noise, parallel_for);
     }
@@ -249,7 +252,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     switch (images.has_gradients() ? settings.norm : Norm::none) {
     case Norm::none:
     case Norm::smoothed:
-        result.image = images.primal;
+        result.image = copy_of(images.primal, parallel_for);
         break;
     case Norm::l2:
         solvers_->made(solvers_->l2).solve(problem, result.image, parallel_for);
@@ -296,7 +299,7 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
     const bool has_gradients = images.has_gradients();
     const bool smooths = settings.norm == Norm::smoothed ||
                          (has_gradients && (settings.norm == Norm::guided || settings.norm == Norm::oidn));
-    const double light = sum_of(picture);
+    const double light = sum_of(picture, parallel_for);
     RgbImage noise;
     if (smooths && !images.guides.empty() && !images.halves.empty()) {
         noise = noise_of(images, settings, limits, picture, parallel_for, watch);
@@ -306,7 +309,8 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
         noise = std::move(smooth.noise);
         if (limits && !picture.empty())
             hold_to_bounds(limits->bounds, picture, parallel_for);
-        keep_light(light, picture); // pixels do not get of others what they give them, and bounds take some
+        // Pixels do not get of others what they give them, and bounds take some.
+        keep_light(light, picture, parallel_for);
     }
     if (settings.norm == Norm::oidn && !watch.is_stopped()) {
         const bool has_own = has_gradients && !images.own.empty();
@@ -315,7 +319,7 @@ void Reconstructor::finish(const GradientImages& images, const ReconstructionSet
         if (limits)
             hold_to_bounds(limits->bounds, picture, parallel_for); // of the target's light in the dark, too
         if (has_gradients)
-            keep_light(light, picture);
+            keep_light(light, picture, parallel_for);
     }
     if (watch.is_stopped())
         picture = {};
@@ -342,14 +346,14 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
         UpperBounds bounds = upper_bounds(counted, images.radiance(), alike, parallel_for);
         limits.emplace(std::move(held), std::move(alike), std::move(bounds));
         limits->spread(images.guides, result.image, parallel_for);
-        const double all = sum_of(images.radiance());
-        result.held_share = all > 0 ? sum_of(limits->held) / all : 0;
+        const double all = sum_of(images.radiance(), parallel_for);
+        result.held_share = all > 0 ? sum_of(limits->held, parallel_for) / all : 0;
     }
     if (!result.image.empty())
         finish(counted, settings, limits ? &*limits : nullptr, result.image, parallel_for, watch);
     solvers_->weights = {};
     if (!result.image.empty())
-        add(result.image, images.very_direct);
+        add(result.image, images.very_direct, parallel_for);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

@@ -1,6 +1,7 @@
 #include "recon/picture/spikes.h"
 
 #include "recon/picture/light_spreader.h"
+#include "recon/pixel_loops.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +31,12 @@ glm::dvec3 mean_of_others(const RgbImage& mean, const RgbImage& brightest, std::
 }
 
 /// mu of the primal, before it is blurred.
-Image<float> sizes_of_others(const GradientImages& images) {
-    Image<float> sizes(images.primal.width(), images.primal.height());
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-        sizes.data()[i] = static_cast<float>(
-            size_of(Rgb(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples))));
+Image<float> sizes_of_others(const GradientImages& images, const ParallelFor& parallel_for) {
+    Image<float> sizes(images.primal.width(), images.primal.height(), Unfilled());
+    for_pixels(sizes.width(), sizes.height(), parallel_for, [&](std::size_t i) {
+        sizes.data()[i] =
+            size_of(Rgb(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples)));
+    });
     return sizes;
 }
 
@@ -109,12 +111,34 @@ void limit_halves(HalfDifferences& halves, const BrightestSamples& b, std::size_
 
 template <class Visit>
 void for_each_limited(const GradientImages& images, const ParallelFor& parallel_for, Visit&& visit) {
-    const Image<float> sizes = sizes_of_others(images);
+    const Image<float> sizes = sizes_of_others(images, parallel_for);
     parallel_for(sizes.height(), [&](int y) {
         for (int x = 0; x < sizes.width(); ++x)
             if (const Limits t = limits_of(images, sizes, x, y); t.primal < 1 || t.gradients < 1)
                 visit(index_of(sizes, x, y), t);
     });
+}
+
+/// All that a picture is made of but parts and very direct light; of the brightest samples, which halves they are
+/// in.
+GradientImages copied(const GradientImages& images, const ParallelFor& parallel_for) {
+    const auto copy = [&](const auto& image) { return copy_of(image, parallel_for); };
+    const Demodulation& d = images.demodulation;
+    const HalfDifferences& h = images.halves;
+    const GuideImages& g = images.guides;
+    GradientImages result{copy(images.primal), copy(images.dx), copy(images.dy), {}};
+    result.primal_variance = copy(images.primal_variance);
+    result.dx_variance = copy(images.dx_variance);
+    result.dy_variance = copy(images.dy_variance);
+    result.demodulation = {
+        copy(d.value),         copy(d.albedo),           copy(d.sampled_albedo),   copy(d.albedo_variance),
+        copy(d.sampled_share), copy(d.sampled_variance), copy(d.value_covariance), copy(d.unexplained_variance)};
+    result.brightest.half = copy(images.brightest.half);
+    result.halves = {copy(h.primal), copy(h.dx), copy(h.dy)};
+    result.guides = {copy(g.albedo), copy(g.normal), copy(g.nearness), copy(g.roughness)};
+    result.own = copy(images.own);
+    result.patch = images.patch;
+    return result;
 }
 
 } // namespace
@@ -125,8 +149,9 @@ bool can_limit(const GradientImages& images) {
 
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for) {
     const BrightestSamples& b = images.brightest;
-    held = RgbImage(images.primal.width(), images.primal.height(), Rgb(0));
-    GradientImages result = images;
+    held = RgbImage(images.primal.width(), images.primal.height(), Unfilled());
+    for_pixels(held.width(), held.height(), parallel_for, [&](std::size_t i) { held.data()[i] = Rgb(0); });
+    GradientImages result = copied(images, parallel_for);
     for_each_limited(images, parallel_for, [&](std::size_t i, Limits t) {
         const double n = b.samples;
         limit_halves(result.halves, b, i, t);
@@ -156,9 +181,8 @@ RgbImage held_light(const GradientImages& images) {
 
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
     const std::size_t copies = (has_gradients ? 4 : 1) * sizeof(Rgb) + (has_gradients ? 3 : 1) * sizeof(float) +
-                               sizeof(Rgb) + (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
-                               BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
-                               GuideImages::bytes_a_pixel;
+                               (is_demodulated ? Demodulation::bytes_a_pixel : 0) + sizeof(float) +
+                               HalfDifferences::bytes_a_pixel + GuideImages::bytes_a_pixel;
     // Two images of light to be spread, and two of the bounds.
     return copies + 4 * sizeof(Rgb) + bytes_to_spread_a_pixel;
 }

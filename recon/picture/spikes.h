@@ -27,7 +27,9 @@ namespace tessera {
 /// Whether there are brightest samples to look at, and any others to judge them by. Parts have none.
 bool can_limit(const GradientImages& images);
 
-/// The images with limited samples: primal, gradients, and what of a Demodulation depends on them.
+/// The images with limited samples: primal, gradients, halves, and what of a Demodulation depends on them. Left
+/// out are very direct light, parts, of which there are none, and the brightest samples but for their halves:
+/// nothing is left to limit.
 /// @param held  becomes the radiance that is held back; black where there is nothing
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for);
 

@@ -55,8 +55,8 @@ private:
     template <class T>
     requires is_plain<T>
     void take(const T& value) { sum_ = tessera::checksum(std::as_bytes(std::span(&value, 1)), sum_); }
-    template <class T>
-    void take(const std::vector<T>& values) {
+    template <class T, class Memory>
+    void take(const std::vector<T, Memory>& values) {
         take(values.size());
         if constexpr (is_plain<T>)
             sum_ = tessera::checksum(std::as_bytes(std::span(values)), sum_);

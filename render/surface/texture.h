@@ -36,7 +36,7 @@ struct Bitmap {
     int height = 0;
     bool srgb = true;                ///< bytes are sRGB encoded; else they are linear
     std::vector<std::uint8_t> bytes; ///< 3 a pixel, rows from the top; empty when `floats` is used
-    std::vector<Rgb> floats;         ///< linear; empty when `bytes` is used
+    PixelVector<Rgb> floats;         ///< linear; empty when `bytes` is used
     MipLevels mips{};                ///< what Texture::filtered() has made of it
 
     /// Linear colour of a pixel inside the image.

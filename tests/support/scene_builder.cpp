@@ -108,7 +108,7 @@ void SceneBuilder::environment(const std::vector<Rgb>& pixels, int width, glm::m
     Bitmap bitmap;
     bitmap.width = width;
     bitmap.height = static_cast<int>(pixels.size()) / width;
-    bitmap.floats = pixels;
+    bitmap.floats.assign(pixels.begin(), pixels.end());
     description_.environment.map = {std::make_shared<const Bitmap>(std::move(bitmap)), 1, to_world};
 }
 

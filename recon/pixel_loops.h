@@ -1,0 +1,44 @@
+// Loops over the pixels of images by the threads that a caller lends: the same bits for any of these.
+#pragma once
+
+#include "recon/image.h"
+#include "recon/parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace tessera {
+
+/// Calls visit(i) for all pixels of a picture, by their place in its rows.
+template <class Visit>
+void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& visit) {
+    parallel_for(height, [&](int y) {
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
+            visit(i);
+    });
+}
+
+/// The sum of term(i), a number, over all pixels: of each row for itself, then of the rows.
+template <class Term>
+double sum_over_pixels(int width, int height, const ParallelFor& parallel_for, Term&& term) {
+    std::vector<double> rows(static_cast<std::size_t>(height));
+    parallel_for(height, [&](int y) {
+        double sum = 0;
+        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
+            sum += static_cast<double>(term(i));
+        rows[static_cast<std::size_t>(y)] = sum;
+    });
+    return std::accumulate(rows.begin(), rows.end(), 0.0);
+}
+
+/// The same pixels once more.
+template <class Pixel>
+Image<Pixel> copy_of(const Image<Pixel>& image, const ParallelFor& parallel_for) {
+    Image<Pixel> copy(image.width(), image.height(), Unfilled());
+    parallel_for(image.height(), [&](int y) { std::copy_n(image.row(y), image.width(), copy.row(y)); });
+    return copy;
+}
+
+} // namespace tessera
