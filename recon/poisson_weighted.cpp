@@ -23,7 +23,8 @@ constexpr int gradient_radius = 1, primal_radius = 2;
 constexpr float gradient_share = 0.5f, primal_share = 0.2f; // of the own variance against the mean around
 
 constexpr float largest_variance = 1e30f; // sums of some dozens stay finite
-constexpr float dark = 0.2f;              // of the mean brightness: what every pixel has besides its own
+// Of the mean brightness, what every pixel has besides its own: as much as the smoothing by guides gives it.
+constexpr float dark = 0.2f;
 
 /// Variances where nobody has measured them, from how much the values differ in the square of 3x3 pixels around
 /// each: the sample variance, summed over the channels. What the picture itself varies by counts as noise. Like

@@ -242,9 +242,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "sample.",
          Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method), true},
         {"very_direct_rays", "Lamp rays",
-         "Where lamps that the camera sees have their edges, a sample looks for them with so many rays; powers of "
-         "two "
-         "lie most evenly. 1: with the ray of its path.",
+         "Where lamps that the camera sees have their edges, a sample looks for them with so many rays, of which "
+         "powers of two lie most evenly. 1: with the ray of its path.",
          Setting::Whole{&s.very_direct_rays, 1, 64}, true, true},
         {"roulette_depth", "RR depth",
          "Edges beyond which a path goes on with a probability that follows the reflectance it meets (at most "
