@@ -2,7 +2,7 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
-#include "recon/picture/light_spreader.h"
+#include "recon/picture/guide_kernel.h"
 
 #include <cstdint>
 

@@ -46,13 +46,19 @@ struct SlopeSums {
     Rgb covariance, variance;
 };
 
-/// b: how v changes with a; as little as the samples know of it, it is E.
+/// b: how v changes with a; as little as the samples know of it, it is E. E counts for more, the less the samples
+/// vary beside the points of this pixel: neighbours whose albedo hardly changes, while light does, say nothing of
+/// one whose albedo does.
 Rgb slope(const GradientImages& images, const SlopeSums& sums, Rgb light, int x, int y) {
     constexpr float prior = 0.1f;  // of a pixel's variance
     constexpr float least = 1e-4f; // of the squared albedo: below, differences say nothing, and may be rounding
+    constexpr float most = 1e10f;  // products stay numbers, whatever a file says
     const Demodulation& d = images.demodulation;
     const Rgb albedo = known_albedo(d, x, y);
-    const Rgb weight = prior * d.albedo_variance(x, y) / 3 + least * albedo * albedo;
+    const float all = sums.variance.r + sums.variance.g + sums.variance.b;
+    const float variance = std::min(d.albedo_variance(x, y), most);
+    const float beside = std::clamp(variance / std::max(all, 1 / most), 1.0f, most);
+    const Rgb weight = prior * beside * variance / 3 + least * albedo * albedo;
     return (sums.covariance + weight * light) / glm::max(sums.variance + weight, 1e-20f);
 }
 
@@ -73,21 +79,22 @@ void write_covariance(const GradientImages& images, const RgbImage& light, int y
     }
 }
 
-/// k of the pixels of row y.
+/// k of the pixels of row y. The noise is told by means of roots: in means of squares one noisy pixel would hide
+/// what stands out in all that are around. Where albedos vary in few of the nine pixels, as at edges, that is less
+/// than all of the noise, and better than all by what was measured (RESULTS.md, "Light over albedo").
 std::vector<float> trust(const GradientImages& images, const RgbImage& rho, int y) {
     const Demodulation& d = images.demodulation;
-    // As if each channel had a third of both variances.
-    const std::vector<double> noise = sums_around<double>(y, rho.width(), rho.height(), [&](int x, int j) {
-        return static_cast<double>(d.albedo_variance(x, j)) * static_cast<double>(d.unexplained_variance(x, j)) /
-               3;
-    });
-    const std::vector<double> squares = sums_around<double>(y, rho.width(), rho.height(), [&](int x, int j) {
+    const auto sums = sums_around<glm::dvec3>(y, rho.width(), rho.height(), [&](int x, int j) {
         const glm::dvec3 r(rho(x, j));
-        return glm::dot(r, r);
+        // As if each channel had a third of both variances.
+        const double noise =
+            static_cast<double>(d.albedo_variance(x, j)) * static_cast<double>(d.unexplained_variance(x, j)) / 3;
+        return glm::dvec3(std::sqrt(std::max(noise, 0.0)), glm::dot(r, r), 1);
     });
-    std::vector<float> result(noise.size());
-    std::ranges::transform(noise, squares, result.begin(), [](double n, double s) {
-        return s > 0 ? static_cast<float>(std::max(0.0, 1 - n / s)) : 0.0f;
+    std::vector<float> result(sums.size());
+    std::ranges::transform(sums, result.begin(), [](const glm::dvec3& sum) {
+        const double noise = sum[0] * sum[0] / sum[2];
+        return sum[1] > 0 ? static_cast<float>(std::max(0.0, 1 - noise / sum[1])) : 0.0f;
     });
     return result;
 }

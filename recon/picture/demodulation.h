@@ -19,11 +19,12 @@ namespace tessera {
 ///
 /// Else consistent: A is the mean over all points that are known, and
 ///     rho = m(v) - A m(e) - b (m(a) - A) ,
-/// where b says how v changes with a within the pixel, by regression over the samples of 3x3 pixels: a control
-/// variate that takes away the noise of how the few samples happened to fall on a texture, where v follows a with
-/// b = E, or on two surfaces. k in [0, 1] goes to 1 where rho stands out from the noise that light alone makes of
-/// it, in the 3x3 pixels around [James and Stein 1961], k = max(0, 1 - sum(noise) / sum(rho^2)). Without
-/// variances, k = 0.
+/// where b says how v changes with a within the pixel, by regression over the samples of 3x3 pixels, with E as a
+/// prior: a control variate that takes away the noise of how the few samples happened to fall on a texture, where
+/// v follows a with b = E, or on two surfaces. k in [0, 1] goes to 1 where rho stands out from the noise that
+/// light alone makes of it, in the 3x3 pixels around [after James and Stein 1961],
+///     k = max(0, 1 - mean(sqrt(noise))^2 / mean(rho^2)) .
+/// Without variances, k = 0.
 void remodulate(const GradientImages& images, bool is_unbiased, RgbImage& image, const ParallelFor& parallel_for);
 
 /// A of pixel (x, y) where the answer is not unbiased: the mean of all albedos that are known of it.

@@ -1,6 +1,7 @@
 #include "recon/picture/guide_kernel.h"
 
 #include <cmath>
+#include <utility>
 
 namespace tessera {
 
@@ -65,6 +66,23 @@ void write_pair_weights(const GuidePlanes& guides, const Unlikeness& unlike, int
                       kernel_pairs[k].share(), weights[k].row(y) + x);
         }
     });
+}
+
+AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for) {
+    const GuidePlanes planes = planes_of(guides, parallel_for);
+    for (std::size_t level = 0; level < steps.size(); ++level) {
+        make_planes(weights_[level], size.x, size.y);
+        write_pair_weights(planes, {}, steps[level], parallel_for, weights_[level]);
+    }
+}
+
+void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const {
+    std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height(), Unfilled())};
+    for (std::size_t level = 0; level < levels; ++level) {
+        write_kernel_means(from, weights_[level], steps[level], parallel_for, to);
+        std::swap(from, to);
+    }
+    values = std::move(from[0]);
 }
 
 } // namespace tessera

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 
 namespace tessera {
 
@@ -144,5 +145,27 @@ void write_kernel_means(const std::array<Plane, planes>& from, const PairWeights
                 means[c](x, y) = sums.values[c][x - sums.begin] / sums.weights[x - sums.begin];
     });
 }
+
+/// Kernels that join pixels which look alike, however far apart: with five steps, each three times as wide as the
+/// last, they reach 240 pixels, and leave none out.
+class AlikePixels {
+public:
+    static constexpr std::array steps = {1, 3, 9, 27, 81};
+
+    /// Empty guides: all pixels look alike.
+    AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for);
+
+    /// Of the pairs steps[level] apart.
+    const PairWeights& weights(std::size_t level) const { return weights_[level]; }
+
+    /// Puts the mean over those of the first levels around each pixel in its place.
+    void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
+
+    static constexpr std::size_t bytes_a_pixel =
+        (steps.size() * kernel_pairs.size() + guide_count) * sizeof(float);
+
+private:
+    std::array<PairWeights, steps.size()> weights_;
+};
 
 } // namespace tessera

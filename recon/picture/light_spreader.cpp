@@ -1,6 +1,7 @@
 #include "recon/picture/light_spreader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -82,23 +83,6 @@ void spread_one_level(const Channels& brightness, const PairWeights& weights, in
 }
 
 } // namespace
-
-AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for) {
-    const GuidePlanes planes = planes_of(guides, parallel_for);
-    for (std::size_t level = 0; level < steps.size(); ++level) {
-        make_planes(weights_[level], size.x, size.y);
-        write_pair_weights(planes, {}, steps[level], parallel_for, weights_[level]);
-    }
-}
-
-void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const {
-    std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height(), Unfilled())};
-    for (std::size_t level = 0; level < levels; ++level) {
-        write_kernel_means(from, weights_[level], steps[level], parallel_for, to);
-        std::swap(from, to);
-    }
-    values = std::move(from[0]);
-}
 
 void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike, const GuideImages& guides,
                      const RgbImage& room, const ParallelFor& parallel_for) {

@@ -4,7 +4,6 @@
 #include "recon/parallel.h"
 #include "recon/picture/guide_kernel.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,28 +14,6 @@ namespace tessera {
 // brightness that light follows, H becomes
 //     S K(H / K(S)) ,
 // which has the sum of H: what a pixel q has goes to p as S(p) K(p, q) / (sum over the p' of S(p') K(p', q)).
-
-/// Kernels that join pixels which look alike, however far apart: with five steps, each three times as wide as the
-/// last, they reach 240 pixels, and leave none out.
-class AlikePixels {
-public:
-    static constexpr std::array steps = {1, 3, 9, 27, 81};
-
-    /// Empty guides: all pixels look alike.
-    AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for);
-
-    /// Of the pairs steps[level] apart.
-    const PairWeights& weights(std::size_t level) const { return weights_[level]; }
-
-    /// Puts the mean over those of the first levels around each pixel in its place.
-    void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
-
-    static constexpr std::size_t bytes_a_pixel =
-        (steps.size() * kernel_pairs.size() + guide_count) * sizeof(float);
-
-private:
-    std::array<PairWeights, steps.size()> weights_;
-};
 
 /// Spreads over the pixels that look alike, by their brightness and albedo: a spike on a wall is found all over
 /// the wall. Keeps the light's sum, but for rounding.

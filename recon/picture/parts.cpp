@@ -1,5 +1,6 @@
 #include "recon/picture/parts.h"
 
+#include "recon/picture/edge_weights.h"
 #include "recon/poisson_l1.h"
 #include "recon/weighted_rows.h"
 
@@ -74,7 +75,7 @@ void PartsSolver::start(const GradientImages& images, float alpha, const Paralle
 void PartsSolver::weigh(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     for (std::size_t l = 0; l < parts_.size(); ++l)
         parts_[l].weights = weights_of_part(images, images.parts[l], alpha, parallel_for);
-    whole_ = weights_of_gradients(images, alpha, parallel_for);
+    whole_ = weights_of_gradients(images, alpha, nullptr, parallel_for);
 }
 
 /// So that the sum of weighted squares falls where that of lengths, times the unit, does.

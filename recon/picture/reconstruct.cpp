@@ -2,6 +2,7 @@
 
 #include "recon/picture/bounds.h"
 #include "recon/picture/demodulation.h"
+#include "recon/picture/edge_weights.h"
 #include "recon/picture/guided.h"
 #include "recon/picture/light_spreader.h"
 #include "recon/picture/oidn.h"
@@ -193,12 +194,13 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     return 0;
 }
 
-int Reconstructor::solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
-                                  const ParallelFor& parallel_for, const SolveWatch& watch) {
+int Reconstructor::solve_weighted(const GradientImages& images, const PoissonProblem& problem,
+                                  const AlikePixels* alike, RgbImage& image, const ParallelFor& parallel_for,
+                                  const SolveWatch& watch) {
     WeightedSolver& solver = solvers_->made(solvers_->weighted);
     if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
         forget(); // weights from neighbours are unlike those from samples
-    solvers_->weights = weights_of_gradients(images, problem.alpha, parallel_for);
+    solvers_->weights = weights_of_gradients(images, problem.alpha, alike, parallel_for);
     return solver.solve(problem, solvers_->weights, {}, image, parallel_for, watch);
 }
 
@@ -232,7 +234,8 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
 
 /// Reconstructs without very direct light, and takes no time.
 Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
-                                    const ParallelFor& parallel_for, const SolveWatch& watch) {
+                                    const AlikePixels* alike, const ParallelFor& parallel_for,
+                                    const SolveWatch& watch) {
     const int width = images.primal.width(), height = images.primal.height();
     if (!solvers_ || solvers_->width != width || solvers_->height != height)
         solvers_ = std::make_unique<Solvers>(width, height);
@@ -272,7 +275,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     case Norm::guided: // what comes after these is reconstruct()'s
     case Norm::oidn:
         problem.alpha = alpha_of_patches(settings.alpha, images.patch);
-        result.iterations = solve_weighted(images, problem, result.image, parallel_for, watch);
+        result.iterations = solve_weighted(images, problem, alike, result.image, parallel_for, watch);
         break;
     }
     if (watch.is_stopped())
@@ -282,8 +285,9 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
 
 /// Without very direct light.
 Reconstruction Reconstructor::picture_of(const GradientImages& images, const ReconstructionSettings& settings,
-                                         const ParallelFor& parallel_for, const SolveWatch& watch) {
-    Reconstruction result = solve(images, settings, parallel_for, watch);
+                                         const AlikePixels* alike, const ParallelFor& parallel_for,
+                                         const SolveWatch& watch) {
+    Reconstruction result = solve(images, settings, alike, parallel_for, watch);
     const bool is_unbiased = images.has_gradients() && is_linear(settings.norm);
     if (!images.demodulation.empty() && !result.image.empty())
         remodulate(images, is_unbiased, result.image, parallel_for);
@@ -339,12 +343,15 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     RgbImage held;
     const GradientImages limited_images = is_limited ? limited(images, held, parallel_for) : GradientImages();
     const GradientImages& counted = is_limited ? limited_images : images;
-    Reconstruction result = picture_of(counted, settings, parallel_for, watch);
+    std::optional<AlikePixels> alike;
+    if (is_limited)
+        alike.emplace(glm::ivec2(held.width(), held.height()), images.guides, parallel_for);
+    const bool is_told_alike = alike && !images.guides.empty();
+    Reconstruction result = picture_of(counted, settings, is_told_alike ? &*alike : nullptr, parallel_for, watch);
     std::optional<Limits> limits;
     if (is_limited && !result.image.empty()) {
-        AlikePixels alike({held.width(), held.height()}, images.guides, parallel_for);
-        UpperBounds bounds = upper_bounds(counted, images.radiance(), alike, parallel_for);
-        limits.emplace(std::move(held), std::move(alike), std::move(bounds));
+        UpperBounds bounds = upper_bounds(counted, images.radiance(), *alike, parallel_for);
+        limits.emplace(std::move(held), std::move(*alike), std::move(bounds));
         limits->spread(images.guides, result.image, parallel_for);
         const double all = sum_of(images.radiance(), parallel_for);
         result.held_share = all > 0 ? sum_of(limits->held, parallel_for) / all : 0;

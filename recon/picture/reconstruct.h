@@ -13,6 +13,8 @@
 
 namespace tessera {
 
+class AlikePixels;
+
 struct ReconstructionSettings {
     Norm norm = Norm::guided;
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
@@ -55,16 +57,17 @@ public:
 private:
     struct Solvers;
     struct Limits;
+    // `alike` is null where spikes are not held back, or there are no guides.
     void finish(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
                 RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
-                              const ParallelFor& parallel_for, const SolveWatch& watch);
-    int solve_weighted(const GradientImages& images, const PoissonProblem& problem, RgbImage& image,
-                       const ParallelFor& parallel_for, const SolveWatch& watch);
+                              const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
+    int solve_weighted(const GradientImages& images, const PoissonProblem& problem, const AlikePixels* alike,
+                       RgbImage& image, const ParallelFor& parallel_for, const SolveWatch& watch);
     RgbImage noise_of(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
                       const RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
-                         const ParallelFor& parallel_for, const SolveWatch& watch);
+                         const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
 
     std::unique_ptr<Solvers> solvers_; ///< for the size of the last image
 };

@@ -81,14 +81,29 @@ void limit(Rgb& mean, glm::dvec3 x, double t, double n) {
     mean = Rgb(glm::dvec3(mean) - (1 - t) * x / n);
 }
 
-/// What depends on the limited samples of pixel i; its coefficient is limited already. With v = a e of the sample,
+/// What is left of the variance of the mean of n samples when x, one of them, counts as t x, over all of it.
+double share_of_variance(glm::dvec3 mean, glm::dvec3 x, double variance, double t, double n) {
+    const glm::dvec3 others = (n * mean - x) / (n - 1), now = t * x - others;
+    const double all = variance * n * (n - 1);
+    const double rest = std::max(all - glm::dot(x - mean, x - mean) * n / (n - 1), 0.0);
+    return all > 0 ? std::min((rest + glm::dot(now, now) * (n - 1) / n) / all, 1.0) : 1;
+}
+
+/// What depends on the limited samples of pixel i of the images, in those of `result`. With v = a e of the sample,
 /// m(v) and cov(a, v) lack (1 - t) v / n and that times a - m(a): exactly, as the deviations from m(a) sum to
-/// zero.
-void limit_demodulation(GradientImages& images, std::size_t i, glm::dvec3 a, glm::dvec3 held) {
-    Demodulation& d = images.demodulation;
-    const glm::dvec3 mean_a(d.sampled_albedo.data()[i]);
+/// zero. Of the variance that a does not explain is left what is left of all; the others, which solvers ask how
+/// far a pixel is to be trusted, stay those of all samples.
+void limit_demodulation(const GradientImages& images, std::size_t i, double t, glm::dvec3 held,
+                        GradientImages& result) {
+    const BrightestSamples& b = images.brightest;
+    Demodulation& d = result.demodulation;
+    const glm::dvec3 a(b.albedo.data()[i]), mean_a(d.sampled_albedo.data()[i]);
     d.value.data()[i] = Rgb(glm::dvec3(d.value.data()[i]) - held);
     d.value_covariance.data()[i] = Rgb(glm::dvec3(d.value_covariance.data()[i]) - held * (a - mean_a));
+    if (!images.primal_variance.empty())
+        d.unexplained_variance.data()[i] *= static_cast<float>(
+            share_of_variance(glm::dvec3(images.primal.data()[i]), glm::dvec3(b.primal.data()[i]),
+                              static_cast<double>(images.primal_variance.data()[i]), t, b.samples));
 }
 
 /// What is held back of pixel i with t.
@@ -165,7 +180,7 @@ GradientImages limited(const GradientImages& images, RgbImage& held, const Paral
         held.data()[i] = Rgb(back);
         limit(result.primal.data()[i], b.primal.data()[i], t.primal, n);
         if (!images.demodulation.empty())
-            limit_demodulation(result, i, b.albedo.data()[i], back);
+            limit_demodulation(images, i, t.primal, back, result);
     });
     return result;
 }

@@ -36,7 +36,7 @@ GradientImages limited(const GradientImages& images, RgbImage& held, const Paral
 /// The radiance that limited() holds back; black where it is not to be used.
 RgbImage held_light(const GradientImages& images);
 
-/// The memory that limited(), a LightSpreader and upper_bounds() (recon/picture/bounds.h) take, a pixel.
+/// The memory that limited(), AlikePixels, spreading and upper_bounds() (recon/picture/bounds.h) take, a pixel.
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated);
 
 } // namespace tessera

@@ -4,6 +4,7 @@
 // BUFFERS, and go on with the n + 1 samples of both.
 
 #include "app/commands/commands.h"
+#include "recon/picture/edge_weights.h"
 #include "recon/poisson_l1.h"
 #include "recon/poisson_weighted.h"
 #include "ui/charts/chart.h"
@@ -91,6 +92,7 @@ private:
     bool square_primal_;
 };
 
+/// With weights over squares, as without guides.
 class WeightedCase : public Case {
 public:
     WeightedCase() : Case("weighted", true) {}

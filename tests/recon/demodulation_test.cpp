@@ -4,6 +4,7 @@
 #include "tests/recon/test_images.h"
 
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -163,6 +164,43 @@ TEST(Remodulation, KnowsOfTwoSurfacesFromThePixelsAround) {
         for (int x = 0; x < 3; ++x)
             EXPECT_NEAR(image(x, 0).r, 0.2f, 0.02f) << x << ", " << rounding;
     }
+}
+
+/// A pixel of 3 that sees nothing of its brighter surface in its samples, beside one whose albedo varies by little
+/// while its light does by much: that one's slope, a hundred, is none of its own. Nor is anything no number where
+/// a file has variances without end.
+TEST(Remodulation, AsksNoPixelsWhoseAlbedoVariesByLittle) {
+    GradientImages images;
+    images.primal = RgbImage(3, 1, Rgb(1.3f));
+    images.primal_variance = Image<float>(3, 1);
+    const RgbImage black(3, 1), albedo(3, 1, Rgb(0.01f));
+    const Image<float> none(3, 1);
+    Demodulation d{black, albedo, albedo, none, none, black, black, none};
+    for (int x = 0; x < 3; ++x)
+        d.value(x, 0) = albedo(x, 0) * images.primal(x, 0);
+    d.albedo(1, 0) = Rgb(0.014f);
+    d.sampled_variance(0, 0) = Rgb(1e-4f);
+    d.value_covariance(0, 0) = Rgb(1e-2f);
+    for (const float variance : {3 * 0.0033f, 1e20f, std::numeric_limits<float>::max()}) {
+        d.albedo_variance(1, 0) = variance;
+        images.demodulation = d;
+        RgbImage image = images.primal;
+        remodulate(images, false, image, serial_for);
+        EXPECT_NEAR(image(1, 0).r, 0.014f * 1.3f, 0.006f) << variance;
+    }
+}
+
+/// Where albedo and light change together in all pixels, one that is noisy takes hardly anything of it from those
+/// around.
+TEST(Remodulation, OneNoisyPixelDoesNotHideACovariance) {
+    RgbImage image(width, height, Rgb(1)), with_noise = image;
+    GradientImages images = sampled(400, 0.9f, 5);
+    remodulate(images, false, image, serial_for);
+    images.demodulation.unexplained_variance(10, 8) *= 3000;
+    remodulate(images, false, with_noise, serial_for);
+    for (int y = 7; y <= 9; ++y)
+        for (int x = 9; x <= 11; ++x)
+            EXPECT_NEAR(with_noise(x, y).r, image(x, y).r, 0.001f) << x << ", " << y;
 }
 
 /// Unbiased at any number of samples, even two, and even if the albedo that it is given is wrong.

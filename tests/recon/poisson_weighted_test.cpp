@@ -1,3 +1,4 @@
+#include "recon/picture/edge_weights.h"
 #include "recon/poisson_weighted.h"
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera {
@@ -174,108 +176,11 @@ TEST(PoissonWeighted, KeepsTheMeanOfThePrimal) {
 
 TEST(PoissonWeighted, ThreadsDoNotMatter) {
     const GradientImages images = noisy_images(79, 61);
-    const EdgeWeights weights = weights_of_gradients(images, 0.2f, backwards_for);
+    const EdgeWeights weights = weights_of_gradients(images, 0.2f, nullptr, backwards_for);
     WeightedSolver solver(79, 61);
     RgbImage image;
     solver.solve(problem_of(images), weights, {}, image, backwards_for);
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights_of_gradients(images, 0.2f), {})), 0);
-}
-
-TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
-    GradientImages images{RgbImage(30, 20), RgbImage(30, 20), RgbImage(30, 20), {}};
-    images.primal_variance = Image<float>(30, 20, 2);
-    images.dx_variance = images.dy_variance = Image<float>(30, 20, 0.2f);
-    for (int y = 0; y < 20; ++y)
-        images.dx_variance(29, y) = 0; // nothing is measured there
-    for (int x = 0; x < 30; ++x)
-        images.dy_variance(x, 19) = 0;
-    images.dx_variance(15, 10) = 1e6f;
-    images.dy_variance(4, 4) = std::numeric_limits<float>::max();
-    const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-    constexpr float usual = 4 / 11.0f; // 0.04 / (0.04 + 0.7 * 0.2 / 2)
-    EXPECT_FLOAT_EQ(weights.x(3, 17), usual);
-    EXPECT_FLOAT_EQ(weights.y(28, 3), usual);
-    EXPECT_FLOAT_EQ(weights.x(28, 17), usual);
-    EXPECT_FLOAT_EQ(weights.y(20, 18), usual);
-    EXPECT_LT(weights.x(15, 10), 1e-6f);
-    EXPECT_LT(weights.x(16, 11), 1e-4f); // what is beside an outlier is not trusted, either
-    EXPECT_LT(weights.y(4, 4), 1e-20f);
-    EXPECT_FLOAT_EQ(weights.x(15, 14), usual);
-    for (int y = 0; y < 20; ++y)
-        EXPECT_EQ(weights.x(29, y), 0);
-    for (int x = 0; x < 30; ++x)
-        EXPECT_EQ(weights.y(x, 19), 0);
-}
-
-/// A dark groove between boards whose light is noisy, as much as they are bright: it knows how dark it is, and
-/// takes nothing of their noise.
-TEST(EdgeWeights, GroovesAreLeftAlone) {
-    constexpr int groove = 10;
-    const auto light = [](int y) { return y == groove ? 0.03f : 1.0f; };
-    const auto variance = [&](int y) { return 0.04f * light(y) * light(y); };
-    GradientImages images{RgbImage(30, 20), RgbImage(30, 20), RgbImage(30, 20), {}};
-    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(30, 20);
-    for (int y = 0; y < 20; ++y)
-        for (int x = 0; x < 30; ++x) {
-            images.primal(x, y) = Rgb(light(y));
-            images.primal_variance(x, y) = variance(y);
-            if (x < 29)
-                images.dx_variance(x, y) = 0.1f * variance(y);
-            if (y < 19)
-                images.dy_variance(x, y) = 0.1f * (variance(y) + variance(y + 1));
-        }
-    for (const int y : {groove - 1, groove})
-        for (int x = 0; x < 30; ++x)
-            images.dy_variance(x, y) = std::max(variance(y), variance(y + 1));
-    const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-    EXPECT_LT(weights.y(15, groove - 1), 0.015f); // 0.038 by variances that are blended as they are
-    EXPECT_LT(weights.y(15, groove), 0.015f);
-    EXPECT_GT(weights.x(15, groove), 0.25f);
-    EXPECT_GT(weights.x(15, 3), 0.25f);
-}
-
-TEST(EdgeWeights, AreNumbersWhateverTheBrightness) {
-    for (const float spot : {1e-30f, 1.0f, 1e12f, 1e17f, 1e30f})
-        for (const bool is_measured : {false, true}) {
-            GradientImages images{RgbImage(40, 30), RgbImage(40, 30), RgbImage(40, 30), {}};
-            images.primal(20, 15) = Rgb(spot);
-            if (is_measured)
-                images.primal_variance = images.dx_variance = images.dy_variance =
-                    Image<float>(40, 30, std::numeric_limits<float>::max());
-            const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-            for (const Image<float>* edges : {&weights.x, &weights.y})
-                for (const float w : *edges)
-                    EXPECT_TRUE(w >= 0 && w <= 1) << spot;
-        }
-}
-
-/// A dark pixel whose spike is held back, and whose variance is not, beside a bright half: that this is far more
-/// than so dark a pixel can have says nothing of bright pixels.
-TEST(EdgeWeights, OfSpikesHeldBackCountAsFarAsTheyCan) {
-    const auto weight_nearby = [](float spike) {
-        GradientImages images{RgbImage(30, 20, Rgb(1)), RgbImage(30, 20), RgbImage(30, 20), {}};
-        images.primal_variance = Image<float>(30, 20, 0.02f);
-        images.dx_variance = images.dy_variance = Image<float>(30, 20, 0.004f);
-        for (int y = 0; y < 20; ++y)
-            for (int x = 15; x < 30; ++x) {
-                images.primal(x, y) = Rgb(0.05f);
-                images.primal_variance(x, y) = 5e-5f;
-                images.dx_variance(x, y) = images.dy_variance(x, y) = 1e-5f;
-            }
-        images.primal_variance(15, 10) = spike;
-        return weights_of_gradients(images, 0.2f).x(12, 10);
-    };
-    EXPECT_GT(weight_nearby(5e-5f), 0.2f);
-    EXPECT_LT(weight_nearby(1e4f), 0.95f);
-    EXPECT_EQ(weight_nearby(1e4f), weight_nearby(1e8f));
-}
-
-TEST(EdgeWeights, WithoutNoiseAllGradientsAreTrusted) {
-    GradientImages images{RgbImage(8, 8), RgbImage(8, 8), RgbImage(8, 8), {}};
-    images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(8, 8, 0);
-    EXPECT_EQ(weights_of_gradients(images, 0.2f).x(3, 3), 1);
-    images.dx_variance(3, 3) = 1; // of a primal without noise: the gradient is not needed
-    EXPECT_EQ(weights_of_gradients(images, 0.2f).x(3, 3), 0);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "recon/picture/light_spreader.h"
 #include "recon/picture/reconstruct.h"
 #include "recon/picture/spikes.h"
+#include "tests/recon/test_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,13 +64,6 @@ struct Samples {
     std::vector<RgbImage> of;
 };
 
-double sum_of(const RgbImage& image) {
-    double sum = 0;
-    for (Rgb c : image)
-        sum += static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b);
-    return sum;
-}
-
 /// One sample in 16 of 6x6 pixels that is 1000 times as bright.
 Samples with_spike() {
     Samples samples(16);
@@ -77,11 +71,6 @@ Samples with_spike() {
         for (int x = 12; x < 18; ++x)
             samples.of[5](x, y) = Rgb(1000);
     return samples;
-}
-
-/// Pixels that all look alike.
-AlikePixels anywhere(const RgbImage& image) {
-    return {{image.width(), image.height()}, {}, serial_for};
 }
 
 TEST(Spikes, WeighNoMoreThanAQuarterOfAllOthers) {
@@ -116,6 +105,20 @@ TEST(Spikes, VariancesStay) {
     EXPECT_GT(result.primal_variance(15, 13), 1000);
 }
 
+/// But what light alone makes of a picture's product with albedos is that of limited samples: here 15 of 1, and 4.
+TEST(Spikes, UnexplainedVariancesAreOfLimitedSamples) {
+    GradientImages images = with_spike().images();
+    const RgbImage black(width, height), white(width, height, Rgb(1));
+    const Image<float> none(width, height);
+    images.demodulation = {images.primal, white, white, none, none, black, black, images.primal_variance};
+    images.brightest.albedo = white;
+    RgbImage held;
+    const GradientImages result = limited(images, held, serial_for);
+    const double mean = 19.0 / 16, squares = 15 * (1 - mean) * (1 - mean) + (4 - mean) * (4 - mean);
+    EXPECT_NEAR(result.demodulation.unexplained_variance(15, 13), 3 * squares / (16 * 15), 1e-3);
+    EXPECT_EQ(result.demodulation.unexplained_variance(3, 3), images.primal_variance(3, 3));
+}
+
 TEST(Spikes, NoLightIsLost) {
     const GradientImages images = with_spike().images();
     RgbImage held;
@@ -128,147 +131,6 @@ TEST(Spikes, NoLightIsLost) {
     for (Rgb c : picture)
         most = std::max(most, c.r);
     EXPECT_LT(most, 10); // and it is no spike any more: 63 before
-}
-
-/// Brighter surroundings get more of it, in proportion, at every channel alike.
-TEST(Spikes, AreSpreadByBrightness) {
-    RgbImage picture(width, height, Rgb(1)), held(width, height, Rgb(0));
-    for (int y = 0; y < height; ++y)
-        for (int x = 20; x < width; ++x)
-            picture(x, y) = Rgb(0.1f);
-    held(19, 15) = Rgb(100, 200, 0);
-    const RgbImage before = picture;
-    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
-    EXPECT_NEAR(sum_of(picture), sum_of(before) + 300, 1e-2);
-    const auto gain = [&](int x) { return static_cast<double>(picture(x, 15).r - before(x, 15).r); };
-    EXPECT_NEAR(gain(24) / gain(15), 0.1, 0.02); // as far from both sides, beyond the blur of brightness
-    EXPECT_NEAR(picture(15, 15).g - before(15, 15).g, 2 * gain(15), 1e-4);
-}
-
-/// A wall on the left and one that turns away on the right, of other albedos, the same light on both.
-GuideImages two_walls() {
-    GuideImages guides{RgbImage(width, height, Rgb(0.8f)), Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)),
-                       Image<float>(width, height, 1.0f), Image<float>(width, height, 1.0f)};
-    for (int y = 0; y < height; ++y)
-        for (int x = 20; x < width; ++x) {
-            guides.albedo(x, y) = Rgb(0.4f);
-            guides.normal(x, y) = glm::vec3(1, 0, 0);
-        }
-    return guides;
-}
-
-/// What was found at the edge of a wall is given to all of the wall, and to nothing else.
-TEST(Spikes, GoToPixelsThatLookAlike) {
-    const GuideImages guides = two_walls();
-    RgbImage picture = guides.albedo, light(width, height, Rgb(0));
-    light(19, 15) = Rgb(6, 3, 0);
-    const AlikePixels alike({width, height}, guides, serial_for);
-    spread_to_alike(light, picture, alike, guides, {}, serial_for);
-    EXPECT_NEAR(sum_of(picture) + sum_of(light), sum_of(guides.albedo) + 9, 1e-2);
-    EXPECT_LT(sum_of(light), 0.1);
-    double other = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 20; x < width; ++x)
-            other += static_cast<double>(picture(x, y).r - guides.albedo(x, y).r);
-    EXPECT_LT(other, 0.01);
-    EXPECT_GT(picture(3, 5).r, 0.8f + 0.2f * 6 / 600); // far away, a fifth of an even share
-    EXPECT_NEAR((picture(9, 12).r - 0.8f) / (picture(9, 12).g - 0.8f), 2, 1e-2);
-    for (int y = 0; y < height; ++y)
-        for (int x = 1; x < 20; ++x)
-            EXPECT_GT(picture(x, y).r, picture(0, 0).r - 1e-6f) << x << ',' << y; // and none is left out
-}
-
-/// And darker ones, still alike, in proportion to their albedo.
-TEST(Spikes, AreWhatAlbedosMakeOfLight) {
-    GuideImages guides = two_walls();
-    for (int y = 0; y < height; ++y)
-        for (int x = y % 2; x < width; x += 2)
-            guides.albedo(x, y) *= 0.8f;
-    RgbImage picture = guides.albedo, light(width, height, Rgb(0));
-    light(9, 12) = Rgb(9);
-    spread_to_alike(light, picture, AlikePixels({width, height}, guides, serial_for), guides, {}, serial_for);
-    double gains[2] = {};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < 20; ++x)
-            gains[(x + y) % 2] += static_cast<double>(picture(x, y).r - guides.albedo(x, y).r);
-    EXPECT_NEAR(gains[0] / gains[1], 0.8, 0.08); // and a little less, being less alike to all
-}
-
-TEST(Spikes, AreSpreadWithTheSameBitsByThreads) {
-    const ParallelFor in_threads = [](int count, const std::function<void(int)>& body) {
-        std::vector<std::jthread> threads;
-        for (int i = count - 1; i >= 0; --i)
-            threads.emplace_back(body, i);
-    };
-    const GuideImages guides = two_walls();
-    const auto spread_by = [&](const ParallelFor& parallel_for) {
-        RgbImage picture = guides.albedo, light(width, height, Rgb(0));
-        for (int i = 0; i < width * height; i += 7)
-            light.data()[i] = Rgb(static_cast<float>(i % 31), 1, 0.3f);
-        const AlikePixels alike({width, height}, guides, parallel_for);
-        spread_to_alike(light, picture, alike, guides, {}, parallel_for);
-        spread_around(light, picture, alike, {}, picture, parallel_for);
-        return picture;
-    };
-    const RgbImage alone = spread_by(serial_for), together = spread_by(in_threads);
-    EXPECT_TRUE(std::equal(alone.begin(), alone.end(), together.begin()));
-}
-
-/// A thing of one pixel has nobody to share with: what is not like it does not get it, and what would be a spike
-/// again is left over.
-TEST(Spikes, OfAPixelLikeNoOtherAreLeftOver) {
-    GuideImages guides = two_walls();
-    guides.nearness(9, 9) = 9;
-    RgbImage picture = guides.albedo, light(width, height, Rgb(0));
-    light(9, 9) = Rgb(50);
-    const AlikePixels alike({width, height}, guides, serial_for);
-    spread_to_alike(light, picture, alike, guides, {}, serial_for);
-    EXPECT_NEAR(sum_of(picture) + sum_of(light), sum_of(guides.albedo) + 150, 1e-2);
-    EXPECT_GT(light(9, 9).r, 49);
-    EXPECT_LT(picture(9, 9).r, 1.0f);
-}
-
-/// Those that have no room are given nothing, and others more.
-TEST(Spikes, AreNotGivenToPixelsWithoutRoom) {
-    const GuideImages guides = two_walls();
-    RgbImage picture = guides.albedo, light(width, height, Rgb(0));
-    RgbImage room(width, height, Rgb(1));
-    for (int x = 0; x < width; ++x)
-        picture(x, 14) = room(x, 14) = Rgb(0);
-    const double before = sum_of(picture);
-    light(9, 13) = Rgb(5);
-    spread_to_alike(light, picture, AlikePixels({width, height}, guides, serial_for), guides, room, serial_for);
-    EXPECT_NEAR(sum_of(picture), before + 15, 2e-2);
-    for (int x = 0; x < width; ++x)
-        EXPECT_EQ(picture(x, 14), Rgb(0));
-}
-
-/// On pictures smaller than what it is spread over, and on black ones.
-TEST(Spikes, AreSpreadOnSmallAndBlackPictures) {
-    for (const float brightness : {0.0f, 1e-20f, 1e20f}) {
-        RgbImage picture(5, 3, Rgb(brightness)), held(5, 3, Rgb(0));
-        held(1, 1) = Rgb(15);
-        const double before = sum_of(picture);
-        RgbImage alike = picture, left = held;
-        spread_to_alike(left, alike, anywhere(picture), {}, {}, serial_for);
-        EXPECT_NEAR(sum_of(alike) + sum_of(left), before + 45, 1e-4 + 1e-6 * before) << brightness;
-        spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
-        EXPECT_NEAR(sum_of(picture), before + 45, 1e-4 + 1e-6 * before) << brightness;
-        EXPECT_TRUE(std::isfinite(picture(4, 2).g));
-    }
-}
-
-/// However dark the picture is, and however bright what is spread.
-TEST(Spikes, LeaveFiniteNumbers) {
-    for (const float brightness : {0.0f, 1e-38f, 1e-30f, 1e30f})
-        for (const float light : {1e-30f, 1.0f, 1e12f, 1e30f}) {
-            RgbImage picture(width, height, Rgb(brightness)), held(width, height, Rgb(0));
-            picture(5, 5) = Rgb(2 * brightness);
-            held(20, 15) = Rgb(light, 0, -light);
-            spread_to_alike(held, picture, anywhere(picture), {}, {}, serial_for);
-            spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
-            EXPECT_TRUE(std::all_of(picture.begin(), picture.end(), is_finite)) << brightness << ' ' << light;
-        }
 }
 
 /// One sample in a thousand of any pixel finds all its light: what is held of those that did goes to all, and not

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "recon/picture/guide_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,18 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     for (std::size_t i = 0; i < truth.size(); i += 97)
         images.dx_variance.data()[i] = 3 * scale * scale;
     return images;
+}
+
+inline double sum_of(const RgbImage& image) {
+    double sum = 0;
+    for (Rgb c : image)
+        sum += static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b);
+    return sum;
+}
+
+/// Pixels that all look alike.
+inline AlikePixels anywhere(const RgbImage& image) {
+    return {{image.width(), image.height()}, {}, serial_for};
 }
 
 } // namespace tessera::test
