@@ -22,10 +22,11 @@ namespace tessera {
 ///
 /// Sample variances are noisy, too, so they are blended with those around; primal variances more so, since nobody
 /// should trust a gradient for the sake of a firefly beside it. What is blended are variances over the square of
-/// the brightness, and of the primal those of pixels that look alike: a groove's pixels know how dark they are,
-/// and how well they are known, however noisy the bright boards on both sides. (Those that are taken from
-/// neighbours are blended as they are, over squares: a single sample may be dark by chance.)
-/// @param alike  by the guides of `images`; null: primal variances are blended over squares of 5x5 pixels
+/// the brightness, and of the primal those of pixels that look alike: a groove's pixels know how dark they are and
+/// how sure that is, however noisy the bright boards on both sides. (Those that are taken from neighbours are
+/// blended as they are, over squares: a single sample may be dark by chance.)
+/// @param alike  of the images' size, by their guides, asked where variances are measured; null: primal variances
+///               are blended over squares of 5x5 pixels
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, const AlikePixels* alike = nullptr,
                                  const ParallelFor& parallel_for = serial_for);
 
