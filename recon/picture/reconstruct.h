@@ -57,9 +57,9 @@ public:
 private:
     struct Solvers;
     struct Limits;
-    // `alike` is null where spikes are not held back, or there are no guides.
     void finish(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
                 RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
+    // `alike` is null where spikes are not held back, or there are no guides.
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
     int solve_weighted(const GradientImages& images, const PoissonProblem& problem, const AlikePixels* alike,

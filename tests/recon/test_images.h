@@ -126,6 +126,7 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     return images;
 }
 
+/// Of all channels of all pixels.
 inline double sum_of(const RgbImage& image) {
     double sum = 0;
     for (Rgb c : image)
