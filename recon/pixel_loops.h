@@ -20,15 +20,22 @@ void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& 
     });
 }
 
-/// The sum of term(i), a number, over all pixels: of each row for itself, then of the rows.
+/// The sum of term(i), a number, over all pixels: of each row for itself, by some sums that do not wait for each
+/// other, then of the rows.
 template <class Term>
 double sum_over_pixels(int width, int height, const ParallelFor& parallel_for, Term&& term) {
     std::vector<double> rows(static_cast<std::size_t>(height));
     parallel_for(height, [&](int y) {
-        double sum = 0;
-        for (std::size_t i = static_cast<std::size_t>(y) * width, end = i + width; i < end; ++i)
-            sum += static_cast<double>(term(i));
-        rows[static_cast<std::size_t>(y)] = sum;
+        constexpr std::size_t side_by_side = 8;
+        double sums[side_by_side] = {};
+        std::size_t i = static_cast<std::size_t>(y) * width;
+        const std::size_t end = i + width;
+        for (; i + side_by_side <= end; i += side_by_side)
+            for (std::size_t k = 0; k < side_by_side; ++k)
+                sums[k] += static_cast<double>(term(i + k));
+        for (; i < end; ++i)
+            sums[0] += static_cast<double>(term(i));
+        rows[static_cast<std::size_t>(y)] = std::accumulate(sums, sums + side_by_side, 0.0);
     });
     return std::accumulate(rows.begin(), rows.end(), 0.0);
 }

@@ -27,22 +27,36 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
     return means;
 }
 
+void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out) {
+    std::fill_n(out, size, 0.0f);
+    std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, from = 0;
+    for (;; count /= 2, step *= 2) {
+        if (count % 2 == 1) {
+            for (std::size_t i = 0; i < size; ++i)
+                out[i] += in[from + i];
+            from += step;
+        }
+        if (count == 1)
+            return;
+        numbers -= step;
+        for (std::size_t i = 0; i < numbers; ++i)
+            in[i] += in[i + step];
+    }
+}
+
 namespace {
 
-/// Means along each row. Sums from the left on, in double, have no rounding that would be seen.
+/// Means along each row, as far as there is one.
 void write_row_means(const Image<float>& values, int radius, const ParallelFor& parallel_for,
                      Image<float>& means) {
-    const int width = values.width();
+    const int width = values.width(), reach = std::min(radius, width - 1);
     parallel_for(values.height(), [&](int y) {
-        std::vector<double> sums(static_cast<std::size_t>(width) + 1);
+        std::vector<float> padded(static_cast<std::size_t>(width + 2 * reach));
+        std::copy_n(values.row(y), width, padded.begin() + reach);
+        float* row = means.row(y);
+        sum_windows(padded.data(), static_cast<std::size_t>(width), 2 * reach + 1, 1, row);
         for (int x = 0; x < width; ++x)
-            sums[static_cast<std::size_t>(x) + 1] =
-                sums[static_cast<std::size_t>(x)] + static_cast<double>(values(x, y));
-        for (int x = 0; x < width; ++x) {
-            const int left = std::max(x - radius, 0), end = std::min(x + radius + 1, width);
-            means(x, y) = static_cast<float>(
-                (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(left)]) / (end - left));
-        }
+            row[x] /= static_cast<float>(std::min(x + reach, width - 1) - std::max(x - reach, 0) + 1);
     });
 }
 

@@ -11,61 +11,92 @@ namespace tessera {
 namespace {
 
 constexpr int radius = 2, edge = 2 * radius + 1;
-constexpr int terms = guide_count + 1; // the slope in each guide, and then the constant
+constexpr int most_terms = guide_count + 1; // the slope in each guide, and then the constant
 constexpr float lambda = 1e-5f; // draws slopes to 0, beside the weights of a square; guides are over their widths
 constexpr float rounding = 1e-5f;  // likewise, beside a guide's own sum of squares: floats tell no less
 constexpr float own_share = 1e-3f; // of the weights of its square, a pixel counts so much more
 
 /// A part of a row of the picture, from `radius` to the left of lane 0 on; 0 beyond the picture.
-struct Stretch {
-    static constexpr int width = lanes + 2 * radius;
-    float values[width];
-
-    Stretch(const Plane& plane, int x, int y) {
-        const int begin = std::max(0, radius - x), end = std::min(width, plane.width() - x + radius);
-        std::fill_n(values, width, 0.0f);
-        std::copy(plane.row(y) + x - radius + begin, plane.row(y) + x - radius + end, values + begin);
+class Stretch {
+public:
+    Stretch(const Plane& plane, int x, int y) : values_(plane.row(y) + x - radius) {
+        const int begin = std::max(0, radius - x), end = std::min(size, plane.width() - x + radius);
+        if (begin == 0 && end == size)
+            return;
+        std::fill_n(at_border_, size, 0.0f);
+        std::copy(values_ + begin, values_ + end, at_border_ + begin);
+        values_ = at_border_;
     }
+    Stretch(const Stretch&) = delete;
+    Stretch& operator=(const Stretch&) = delete;
 
     /// From i of its numbers on.
-    Lanes from(int i) const { return load(values + i); }
+    Lanes from(int i) const { return load(values_ + i); }
+
+private:
+    static constexpr int size = lanes + 2 * radius;
+    const float* values_;
+    float at_border_[size];
 };
 
 /// A row of each square: the weights of its pixels, and what they bring: guides beside the middle pixel's, and 1.
 /// Rows are taken as a whole, as each sum would else be fetched and put back for each pixel.
 struct Row {
-    Lanes weights[edge], brings[edge][terms];
+    Lanes weights[edge], brings[edge][most_terms];
 };
 
 /// Squares around pixels of a row, and their fits.
 struct Squares {
     int x, y, begin, end; ///< of lane 0; and the rows that are in the picture
+    int terms;            ///< guides that vary in any of the squares, and 1
     Row rows[edge];
-    Lanes matrix[terms][terms], solution[terms]; ///< normal equations: the lower triangle of a symmetric matrix
-    Lanes own;                                   ///< what the pixel itself counts beside its weight
+    Lanes matrix[most_terms][most_terms]; ///< of the normal equations: the lower triangle of a symmetric matrix
+    Lanes solution[most_terms];
+    Lanes own; ///< what the pixel itself counts beside its weight
 };
 
-void look_at(const GuidePlanes& guides, const Plane& weights, Squares& squares) {
-    const int x = squares.x;
-    squares.begin = std::max(0, squares.y - radius);
-    squares.end = std::min(squares.y + radius + 1, weights.height());
+/// Is any of the lanes a number but 0, or none?
+bool is_any_set(Lanes values) {
+    bool is = false;
+    for (int l = 0; l < lanes; ++l)
+        is |= values[l] != 0;
+    return is;
+}
+
+/// Writes what a guide brings as term k of the rows. False: nothing, as it is the same in all of these squares.
+/// (On plain surfaces most are: what they brought would be nothing but zeros.)
+bool write_guide(const Plane& guide, int k, Squares& squares) {
+    const Lanes middle = Stretch(guide, squares.x, squares.y).from(radius);
+    Lanes sizes{};
     for (int y = squares.begin; y < squares.end; ++y) {
         Row& row = squares.rows[y - squares.begin];
-        const Stretch weight(weights, x, y);
+        const Stretch values(guide, squares.x, y);
+        for (int p = 0; p < edge; ++p) {
+            row.brings[p][k] = values.from(p) - middle;
+            sizes += row.brings[p][k] * row.brings[p][k];
+        }
+    }
+    return is_any_set(sizes);
+}
+
+void look_at(const GuidePlanes& guides, const Plane& weights, Squares& squares) {
+    squares.begin = std::max(0, squares.y - radius);
+    squares.end = std::min(squares.y + radius + 1, weights.height());
+    int terms = 0;
+    for (const Plane& guide : guides)
+        terms += write_guide(guide, terms, squares);
+    squares.terms = terms + 1;
+    for (int y = squares.begin; y < squares.end; ++y) {
+        Row& row = squares.rows[y - squares.begin];
+        const Stretch weight(weights, squares.x, y);
         for (int p = 0; p < edge; ++p) {
             row.weights[p] = weight.from(p);
-            row.brings[p][guide_count] = Lanes{} + 1;
-        }
-        for (int k = 0; k < guide_count; ++k) {
-            const Stretch guide(guides[k], x, y);
-            const Lanes middle = Stretch(guides[k], x, squares.y).from(radius);
-            for (int p = 0; p < edge; ++p)
-                row.brings[p][k] = guide.from(p) - middle;
+            row.brings[p][terms] = Lanes{} + 1;
         }
     }
 }
 
-void add_row(const Row& row, Lanes (&matrix)[terms][terms]) {
+void add_row(const Row& row, int terms, Lanes (&matrix)[most_terms][most_terms]) {
     for (int i = 0; i < terms; ++i) {
         Lanes weighted[edge];
         for (int p = 0; p < edge; ++p)
@@ -82,11 +113,11 @@ void add_row(const Row& row, Lanes (&matrix)[terms][terms]) {
 void set_up(Squares& squares) {
     auto& m = squares.matrix;
     for (auto& row : m)
-        std::fill_n(row, terms, Lanes{});
+        std::fill_n(row, squares.terms, Lanes{});
     for (int y = squares.begin; y < squares.end; ++y)
-        add_row(squares.rows[y - squares.begin], m);
-    Lanes& all = m[guide_count][guide_count];
-    for (int k = 0; k < guide_count; ++k)
+        add_row(squares.rows[y - squares.begin], squares.terms, m);
+    Lanes& all = m[squares.terms - 1][squares.terms - 1];
+    for (int k = 0; k + 1 < squares.terms; ++k)
         m[k][k] += lambda * all + rounding * m[k][k];
     squares.own = own_share * all;
     all += squares.own;
@@ -102,6 +133,7 @@ Lanes root(Lanes values) {
 /// values, sum over q of w_q (solution . what q brings) x_q.
 void solve(Squares& squares) {
     auto& m = squares.matrix;
+    const int terms = squares.terms;
     for (int j = 0; j < terms; ++j) {
         for (int k = 0; k < j; ++k)
             for (int i = j; i < terms; ++i)
@@ -122,7 +154,7 @@ void solve(Squares& squares) {
 /// stays what it is.
 void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlanes& fitted) {
     const int x = squares.x;
-    Lanes all = squares.own * squares.solution[guide_count];
+    Lanes all = squares.own * squares.solution[squares.terms - 1];
     Lanes own[std::tuple_size_v<RegressedPlanes>], sums[std::tuple_size_v<RegressedPlanes>];
     for (std::size_t c = 0; c < values.size(); ++c) {
         own[c] = Stretch(values[c], x, squares.y).from(radius);
@@ -133,7 +165,7 @@ void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlane
         Lanes shares[edge];
         for (int p = 0; p < edge; ++p) {
             shares[p] = Lanes{};
-            for (int k = 0; k < terms; ++k)
+            for (int k = 0; k < squares.terms; ++k)
                 shares[p] += squares.solution[k] * row.brings[p][k];
             shares[p] *= row.weights[p];
             all += shares[p];

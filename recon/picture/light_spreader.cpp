@@ -1,5 +1,7 @@
 #include "recon/picture/light_spreader.h"
 
+#include "recon/square_means.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -127,26 +129,6 @@ void mirror_row(const Pixel* row, int width, int reach, Pixel* out) {
 
 int mirrored(int i, int count) {
     return i < 0 ? -1 - i : i >= count ? 2 * count - 1 - i : i;
-}
-
-/// out[i] = sum over k < count of in[i + k step], for `size` numbers, by sums of 1, 2, 4 ... and of these as many
-/// as it takes. (Running sums would leave the rounding of a bright pixel behind it.)
-/// @param in  size + (count - 1) step numbers, which are overwritten
-void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out) {
-    std::fill_n(out, size, 0.0f);
-    std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, from = 0;
-    for (;; count /= 2, step *= 2) {
-        if (count % 2 == 1) {
-            for (std::size_t i = 0; i < size; ++i)
-                out[i] += in[from + i];
-            from += step;
-        }
-        if (count == 1)
-            return;
-        numbers -= step;
-        for (std::size_t i = 0; i < numbers; ++i)
-            in[i] += in[i + step];
-    }
 }
 
 float* numbers_of(float* pixels) {

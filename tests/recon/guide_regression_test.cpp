@@ -106,6 +106,19 @@ TEST(GuideRegression, IsTheLeastSquaresOfEachSquare) {
     }
 }
 
+/// Guides that are the same in some squares and not in others, which are worked on beside these.
+TEST(GuideRegression, NeedsNoGuidesThatDoNotVary) {
+    Case c(61, 9);
+    for (std::size_t k = 0; k < guide_count; ++k)
+        for (int y = 0; y < 9; ++y)
+            std::fill_n(c.guides[k].row(y), 7 * k, static_cast<float>(k));
+    const RegressedPlanes fitted = c.fitted();
+    for (std::size_t channel = 0; channel < 6; ++channel)
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 61; ++x)
+                ASSERT_NEAR(fitted[channel](x, y), naive(c, channel, x, y), 1e-3) << x << ',' << y;
+}
+
 /// Whatever the guides and weights are, also those of a pixel that is a million times as bright as its neighbours.
 TEST(GuideRegression, KeepsWhatIsTheSameEverywhere) {
     Case c(35, 12);

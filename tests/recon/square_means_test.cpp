@@ -1,0 +1,80 @@
+// Means over squares, beside their definition.
+#include "recon/square_means.h"
+#include "tests/recon/test_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+Image<float> random_numbers(int width, int height) {
+    const RgbImage image = random_image(width, height, 5, 0, 2);
+    Image<float> numbers(width, height);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        numbers.data()[i] = std::exp(image.data()[i].g);
+    return numbers;
+}
+
+double mean_around(const Image<float>& values, int radius, int x, int y) {
+    double sum = 0, count = 0;
+    for (int j = std::max(y - radius, 0); j <= std::min(y + radius, values.height() - 1); ++j)
+        for (int i = std::max(x - radius, 0); i <= std::min(x + radius, values.width() - 1); ++i, ++count)
+            sum += static_cast<double>(values(i, j));
+    return sum / count;
+}
+
+TEST(SquareMeans, WideOnesAreThoseOfTheDefinition) {
+    for (const auto& [width, height] : {std::pair(83, 21), std::pair(5, 90), std::pair(1, 1)})
+        for (int radius : {0, 1, 2, 6, 38, 200}) {
+            const Image<float> values = random_numbers(width, height);
+            Image<float> means = values, rows(width, height);
+            take_wide_means(means, radius, rows, serial_for);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const double mean = mean_around(values, radius, x, y);
+                    ASSERT_NEAR(means(x, y), mean, 1e-5 * mean) << radius << ": " << x << ',' << y;
+                }
+        }
+}
+
+/// A pixel a billion times as bright leaves nothing to those that have it no longer in their squares.
+TEST(SquareMeans, WideOnesForgetABrightPixel) {
+    Image<float> values(64, 64), rows(64, 64);
+    std::fill(values.begin(), values.end(), 1.0f);
+    values(20, 20) = 1e9f;
+    take_wide_means(values, 3, rows, serial_for);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            if (std::max(std::abs(x - 20), std::abs(y - 20)) > 3) {
+                ASSERT_NEAR(values(x, y), 1, 1e-5) << x << ',' << y;
+            }
+}
+
+TEST(SquareMeans, WindowsAreSumsOfWhatStandsAStepApart) {
+    for (int count : {1, 2, 3, 7, 12, 13})
+        for (std::size_t step : {1u, 3u}) {
+            const std::size_t size = 17;
+            std::vector<float> in(size + static_cast<std::size_t>(count - 1) * step), sums(size);
+            for (std::size_t i = 0; i < in.size(); ++i)
+                in[i] = static_cast<float>(i * i % 11);
+            const std::vector<float> before = in;
+            sum_windows(in.data(), size, count, step, sums.data());
+            for (std::size_t i = 0; i < size; ++i) {
+                float sum = 0;
+                for (int k = 0; k < count; ++k)
+                    sum += before[i + static_cast<std::size_t>(k) * step];
+                ASSERT_EQ(sums[i], sum) << count << ' ' << step << ' ' << i;
+            }
+        }
+}
+
+} // namespace
+
+} // namespace tessera::test
