@@ -66,10 +66,9 @@ float mean_of(const Planes& planes, std::size_t first, std::size_t i) {
     return (planes[first].data()[i] + planes[first + 1].data()[i] + planes[first + 2].data()[i]) / 3;
 }
 
-/// The brightness of each pixel, and a little of the picture's.
-void write_brightness(const Planes& planes, float least, const ParallelFor& parallel_for, Plane& brightness) {
-    for_pixels(brightness.width(), brightness.height(), parallel_for,
-               [&](std::size_t i) { brightness.data()[i] = std::max(mean_of(planes, 0, i), 0.0f) + least; });
+/// The brightness of pixel i, and a little of the picture's.
+float brightness_at(const Planes& planes, float least, std::size_t i) {
+    return std::max(mean_of(planes, 0, i), 0.0f) + least;
 }
 
 /// How unlike brightnesses are, beside what noise makes of them.
@@ -90,10 +89,10 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
                       const ParallelFor& parallel_for, Scratch& scratch) {
     Plane &brightness = scratch.brightness, &noise = scratch.noise;
     const int width = noise.width();
-    write_brightness(from, least, parallel_for, brightness);
     for_pixels(noise.width(), noise.height(), parallel_for, [&](std::size_t i) {
-        noise.data()[i] = std::abs(mean_of(from, 3, i)) / brightness.data()[i];
-        brightness.data()[i] = std::log(brightness.data()[i]);
+        const float bright = brightness_at(from, least, i);
+        noise.data()[i] = std::abs(mean_of(from, 3, i)) / bright;
+        brightness.data()[i] = std::log(bright);
     });
     take_wide_means(noise, noise_radius + step, scratch.rows, parallel_for);
     parallel_for(noise.height(), [&](int y) {
@@ -106,17 +105,20 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
     write_kernel_means(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
-/// The roots of how large differences are beside the brightness, of the picture and of its noise.
-void write_root_sizes(const Planes& finer, const Planes& coarser, const Plane& brightness,
-                      const ParallelFor& parallel_for, Plane& sizes, Plane& noise) {
-    const int width = brightness.width();
-    parallel_for(brightness.height(), [&](int y) {
+/// The roots of how large differences are beside the coarser picture's brightness, of the picture and of its
+/// noise.
+void write_root_sizes(const Planes& finer, const Planes& coarser, float least, const ParallelFor& parallel_for,
+                      Plane& sizes, Plane& noise) {
+    const int width = sizes.width();
+    parallel_for(sizes.height(), [&](int y) {
         for (int x = 0; x < width; x += kernel_chunk) {
             const int count = std::min(kernel_chunk, width - x);
-            float squares[2][kernel_chunk] = {};
+            const std::size_t place = static_cast<std::size_t>(y) * width + x;
+            float bright[kernel_chunk], squares[2][kernel_chunk] = {};
+            for (int i = 0; i < count; ++i)
+                bright[i] = brightness_at(coarser, least, place + i);
             for (std::size_t c = 0; c < finer.size(); ++c) {
                 const float *fine = finer[c].row(y) + x, *coarse = coarser[c].row(y) + x;
-                const float* bright = brightness.row(y) + x;
                 float* sum = squares[c / 3];
                 for (int i = 0; i < count; ++i) {
                     const float d = (fine[i] - coarse[i]) / bright[i];
@@ -138,11 +140,9 @@ void write_root_sizes(const Planes& finer, const Planes& coarser, const Plane& b
 void add_difference(const Planes& finer, int radius, float least, const ParallelFor& parallel_for,
                     Scratch& scratch, Planes& sum) {
     const Planes& coarser = scratch.coarser;
-    const Plane& brightness = scratch.brightness;
     Plane &sizes = scratch.sizes, &noise = scratch.noise;
     const int width = noise.width(), height = noise.height();
-    write_brightness(coarser, least, parallel_for, scratch.brightness);
-    write_root_sizes(finer, coarser, brightness, parallel_for, sizes, noise);
+    write_root_sizes(finer, coarser, least, parallel_for, sizes, noise);
     take_wide_means(sizes, radius, scratch.rows, parallel_for);
     take_wide_means(noise, radius, scratch.rows, parallel_for);
     Plane& trust = noise;
@@ -193,7 +193,8 @@ void make_radiance(const Planes& light, const GuideImages& guides, const Paralle
 /// noise makes dark would else count more, and the picture would be darker.
 void write_relative_weights(const Planes& radiance, float least, const ParallelFor& parallel_for, Plane& rows,
                             Plane& weights) {
-    write_brightness(radiance, least, parallel_for, weights);
+    for_pixels(weights.width(), weights.height(), parallel_for,
+               [&](std::size_t i) { weights.data()[i] = brightness_at(radiance, least, i); });
     take_wide_means(weights, weight_radius, rows, parallel_for);
     for_pixels(weights.width(), weights.height(), parallel_for, [&](std::size_t i) {
         float& weight = weights.data()[i]; // at most 1, so that sums of them are numbers

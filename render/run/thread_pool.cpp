@@ -135,7 +135,16 @@ double ThreadPool::cpu_seconds() const {
 
 ParallelFor ThreadPool::loops() {
     return [this](int count, const std::function<void(int)>& body) {
-        parallel_for(count, [&body](int i, int) { body(i); });
+        // Runs of neighbours, as a row reads those around it: long ones first and short ones last, so that all
+        // threads end together.
+        std::vector<int> begins;
+        for (int begin = 0; begin < count; begin += std::max(1, (count - begin) / (4 * size())))
+            begins.push_back(begin);
+        begins.push_back(count);
+        parallel_for(static_cast<int>(begins.size()) - 1, [&](int run, int) {
+            for (int i = begins[run], end = begins[run + 1]; i < end; ++i)
+                body(i);
+        });
     };
 }
 

@@ -48,7 +48,8 @@ public:
     /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
     void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
 
-    /// The pool's loops for those who need not know the worker: solvers, loaders. The pool must live as long.
+    /// The pool's loops for those who need not know the worker: solvers, loaders. A worker takes some neighbours
+    /// at a time. The pool must live as long.
     ParallelFor loops();
 
 private:

@@ -70,10 +70,12 @@ TEST(ThreadPool, LoopsOfSeveralCallersTakeTurns) {
 TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
     ThreadPool pool(3);
     const ParallelFor loops = pool.loops();
-    std::vector<std::atomic<int>> runs(100);
-    loops(100, [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
-    for (const auto& count : runs)
-        EXPECT_EQ(count, 1);
+    for (std::size_t count : {0u, 1u, 2u, 11u, 12u, 13u, 100u, 1000u}) {
+        std::vector<std::atomic<int>> runs(count);
+        loops(static_cast<int>(count), [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
+        for (const auto& times : runs)
+            EXPECT_EQ(times, 1) << count;
+    }
     EXPECT_THROW(loops(10, [](int) { throw std::runtime_error("no"); }), std::runtime_error);
 }
 
