@@ -16,11 +16,13 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
 /// out[i] = sum over k < count of in[i + k step], for `size` numbers, by sums of 1, 2, 4 ... and of these as many
 /// as it takes: many at a time, where running sums would go one by one, and would leave the rounding of a bright
 /// pixel behind it.
-/// @param in  size + (count - 1) step numbers, which are overwritten
+/// @param in     size + (count - 1) step numbers, which are overwritten
+/// @param count  1 or more
 void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out);
 
-/// Puts the same of numbers that are not negative in their place, at a cost that hardly depends on the radius:
-/// along rows by sum_windows, and down columns by running sums in double.
+/// Puts the same of numbers that are not negative, and whose sums along a square's edge are finite, in their
+/// place, at a cost that hardly depends on the radius: along rows by sum_windows, and down columns by running sums
+/// in double.
 /// @param rows  of the same size: anything, and anything after
 void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for);
 

@@ -118,7 +118,7 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
 ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats) {
     ExrFile file;
-    const ParallelFor parallel_for = pool.loops();
+    const ParallelFor parallel_for = pool.row_loops();
     ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
         settings.norm = norm;

@@ -111,7 +111,7 @@ void MeasuredRun::pass() {
 }
 
 void MeasuredRun::measure(int halvings) {
-    const ParallelFor parallel_for = pool_.loops();
+    const ParallelFor parallel_for = pool_.row_loops();
     const GradientImages buffers = render_.images();
     for (std::size_t i = 0; i < reconstructions_.size(); ++i) {
         const double cpu = process_cpu_seconds();

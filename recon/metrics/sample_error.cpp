@@ -25,9 +25,10 @@ RgbImage noise_of(const GradientImages& images, const RgbImage& picture) {
 
 /// The means over the squares about all pixels of what a channel has above zero, times `sign`.
 Image<float> means_of(const RgbImage& image, int channel, float sign, Image<float>& rows) {
+    constexpr float largest = 1e30f; // sums of some dozens stay finite
     Image<float> means(image.width(), image.height());
     std::transform(image.begin(), image.end(), means.begin(), [=](const Rgb& c) {
-        return std::isfinite(c[channel]) ? std::max(sign * c[channel], 0.0f) : 0.0f;
+        return std::isfinite(c[channel]) ? std::clamp(sign * c[channel], 0.0f, largest) : 0.0f;
     });
     take_wide_means(means, radius, rows, serial_for);
     return means;

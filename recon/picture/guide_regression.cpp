@@ -48,7 +48,7 @@ struct Row {
 /// Squares around pixels of a row, and their fits.
 struct Squares {
     int x, y, begin, end; ///< of lane 0; and the rows that are in the picture
-    int terms;            ///< guides that vary in any of the squares, and 1
+    int terms; ///< guides that vary in any of the squares, beyond the picture counting as 0, and the constant
     Row rows[edge];
     Lanes matrix[most_terms][most_terms]; ///< of the normal equations: the lower triangle of a symmetric matrix
     Lanes solution[most_terms];

@@ -135,9 +135,13 @@ double ThreadPool::cpu_seconds() const {
 
 ParallelFor ThreadPool::loops() {
     return [this](int count, const std::function<void(int)>& body) {
-        // Runs of neighbours, as a row reads those around it: long ones first and short ones last, so that all
-        // threads end together.
-        std::vector<int> begins;
+        parallel_for(count, [&body](int i, int) { body(i); });
+    };
+}
+
+ParallelFor ThreadPool::row_loops() {
+    return [this](int count, const std::function<void(int)>& body) {
+        std::vector<int> begins; // of runs
         for (int begin = 0; begin < count; begin += std::max(1, (count - begin) / (4 * size())))
             begins.push_back(begin);
         begins.push_back(count);

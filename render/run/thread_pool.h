@@ -48,9 +48,12 @@ public:
     /// here. Loops of several callers run one after another; a body must not start a loop on the same pool.
     void parallel_for(int count, const std::function<void(int i, int worker)>& body, std::stop_token stop = {});
 
-    /// The pool's loops for those who need not know the worker: solvers, loaders. A worker takes some neighbours
-    /// at a time. The pool must live as long.
+    /// The pool's loops for those who need not know the worker, as loaders. The pool must live as long.
     ParallelFor loops();
+
+    /// The same for bodies of about the same cost that read what their neighbours read, too, as the rows of a
+    /// picture are worked on: a worker takes some neighbours at a time, many at first and single ones in the end.
+    ParallelFor row_loops();
 
 private:
     struct Loop;

@@ -39,7 +39,7 @@ void Session::preview(Pane& pane, const RenderRequest& request, std::uint64_t ge
     snapshot->settings = request.settings;
     snapshot->reconstructed_with = possible_reconstruction(pane);
     auto made = std::make_shared<Reconstruction>(
-        reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.loops(), stop));
+        reconstruct(*snapshot->images, snapshot->reconstructed_with, pool_.row_loops(), stop));
     if (made->image.empty())
         return; // stopped
     snapshot->reconstruction = std::move(made);

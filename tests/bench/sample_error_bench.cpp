@@ -34,7 +34,7 @@ RgbImage picture(GradientImages images, Norm norm, Spikes spikes, ThreadPool& po
     ReconstructionSettings settings;
     settings.norm = norm;
     settings.spikes = spikes;
-    return reconstruct(images, settings, pool.loops()).image;
+    return reconstruct(images, settings, pool.row_loops()).image;
 }
 
 void measure(const std::shared_ptr<const Scene>& scene, int samples) {

@@ -119,6 +119,21 @@ TEST(GuideRegression, NeedsNoGuidesThatDoNotVary) {
                 ASSERT_NEAR(fitted[channel](x, y), naive(c, channel, x, y), 1e-3) << x << ',' << y;
 }
 
+/// A guide that is the same everywhere, but for where it is no number: there, pixels stay what they are.
+TEST(GuideRegression, LeavesPixelsBesideNoNumberAlone) {
+    Case c(61, 9);
+    const RegressedPlanes before = c.fitted();
+    c.guides[3](20, 4) = std::numeric_limits<float>::quiet_NaN();
+    const RegressedPlanes after = c.fitted();
+    for (std::size_t channel = 0; channel < 6; ++channel)
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 61; ++x) {
+                const bool is_beside = std::max(std::abs(x - 20), std::abs(y - 4)) <= 2;
+                ASSERT_NEAR(after[channel](x, y), (is_beside ? c.values : before)[channel](x, y), 1e-5)
+                    << x << ',' << y;
+            }
+}
+
 /// Whatever the guides and weights are, also those of a pixel that is a million times as bright as its neighbours.
 TEST(GuideRegression, KeepsWhatIsTheSameEverywhere) {
     Case c(35, 12);

@@ -69,14 +69,25 @@ TEST(ThreadPool, LoopsOfSeveralCallersTakeTurns) {
 
 TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
     ThreadPool pool(3);
-    const ParallelFor loops = pool.loops();
-    for (std::size_t count : {0u, 1u, 2u, 11u, 12u, 13u, 100u, 1000u}) {
-        std::vector<std::atomic<int>> runs(count);
-        loops(static_cast<int>(count), [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
-        for (const auto& times : runs)
-            EXPECT_EQ(times, 1) << count;
+    for (const ParallelFor& loops : {pool.loops(), pool.row_loops()}) {
+        for (std::size_t count : {0u, 1u, 2u, 11u, 12u, 13u, 100u, 1000u}) {
+            std::vector<std::atomic<int>> runs(count);
+            loops(static_cast<int>(count), [&](int i) { ++runs[static_cast<std::size_t>(i)]; });
+            for (const auto& times : runs)
+                EXPECT_EQ(times, 1) << count;
+        }
+        std::atomic<int> done = 0;
+        const auto fail_once = [&](int i) {
+            ++done;
+            if (i == 500)
+                throw std::runtime_error("no");
+        };
+        EXPECT_THROW(loops(1000, fail_once), std::runtime_error);
+        EXPECT_LE(done, 1000);
+        done = 0;
+        loops(500, fail_once);
+        EXPECT_EQ(done, 500);
     }
-    EXPECT_THROW(loops(10, [](int) { throw std::runtime_error("no"); }), std::runtime_error);
 }
 
 TEST(ThreadPool, CountsTheCpuSecondsOfAllItsWorkers) {
