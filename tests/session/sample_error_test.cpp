@@ -93,7 +93,7 @@ TEST(SampleError, IsNotKnownWhereBrightnessIsNot) {
     images.primal = RgbImage(40, 40, Rgb(2));
     ASSERT_TRUE(estimate_sample_error(images, images.primal));
     EXPECT_NEAR(estimate_sample_error(images, images.primal)->relative_mse, 0.0625, 1e-3);
-    EXPECT_FALSE(estimate_sample_error(images, RgbImage(20, 20))); // of another view
+    EXPECT_FALSE(estimate_sample_error(images, RgbImage(20, 20)));       // of another view
     images.primal = images.halves.primal = RgbImage(40, 40, Rgb(1e38f)); // whose sums are no numbers
     EXPECT_FALSE(estimate_sample_error(images, images.primal));
 }
