@@ -169,7 +169,7 @@ float area_of_sum(const NumberVectors& segments, int count, glm::vec3 normal) {
 
 void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin, float log_samples,
                        std::vector<float>& widths) {
-    widths.clear();
+    widths.resize(static_cast<std::size_t>(path.size()));
     if (path.empty())
         return;
     ScalarFootprint along(pixel);
@@ -179,7 +179,7 @@ void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin,
         const BaseVertex& x = path[i];
         const glm::vec3 normal = x.vertex.geometric_normal;
         along.arrive(distance, std::abs(glm::dot(way, normal)) / distance);
-        widths.push_back(along.width(log_samples));
+        widths[static_cast<std::size_t>(i)] = along.width(log_samples);
         if (i + 1 == path.size())
             return;
         way = path[i + 1].vertex.position - x.vertex.position;

@@ -86,13 +86,12 @@ private:
     void trace(std::uint32_t i, std::vector<Hit>* hits) {
         hits_.clear();
         const Tracer tracer{scene_, counters_, {6, 1, 0}, {}, nullptr, hits};
-        trace_base_path(tracer, projection_.ray(pixel(i)), projection_.pixel_width(), Random(1, i, 0), path_);
+        ray_ = projection_.ray(pixel(i));
+        trace_base_path(tracer, ray_, projection_.pixel_width(), Random(1, i, 0), path_);
     }
 
-    void find_scalar(std::uint32_t i) {
-        scalar_footprints(path_, projection_.pixel_width(), projection_.ray(pixel(i)).origin, log_samples_,
-                          widths_);
-    }
+    /// Of the path traced last.
+    void find_scalar() { scalar_footprints(path_, projection_.pixel_width(), ray_.origin, log_samples_, widths_); }
     template <class Visit>
     void find_full(std::uint32_t i, Visit&& visit) {
         differentiate(scene_, projection_, pixel(i), glm::vec2(0), path_, hits_, along_, visit);
@@ -112,7 +111,7 @@ private:
         for (std::uint32_t i = turn * paths_a_turn; i < (turn + 1) * paths_a_turn; ++i) {
             trace(i, what == 2 ? &hits_ : nullptr);
             if (what == 1)
-                find_scalar(i);
+                find_scalar();
             if (what == 2)
                 find_full(i, [&](int, const PathDerivatives& d) { sink_ += footprint(d, rule_).a.x; });
         }
@@ -120,7 +119,7 @@ private:
     }
 
     void compare(std::uint32_t i, Measured& m) {
-        find_scalar(i);
+        find_scalar();
         find_full(i, [&](int v, const PathDerivatives& d) {
             if (v >= most_vertices)
                 return;
@@ -140,6 +139,7 @@ private:
     float log_samples_ = std::log2(rule_.samples);
     Projection projection_;
     Counters counters_;
+    Ray ray_;
     BasePath path_;
     std::vector<Hit> hits_;
     Differentiation along_;

@@ -86,6 +86,18 @@ keep "$work/script.png"
 rm "$work/script.png"
 env -u DISPLAY "$tessera" view --script "$work/steps.txt" --size 64x48 >/dev/null || fail "no script without a display"
 [ -e "$work/script.png" ] || fail "no picture by a script without a display"
+# a drag begins where the script presses, and so has the end of the legend, not the camera
+cat >"$work/steps.txt" <<EOF
+wait scene
+set active 1
+set buffer primal_variance
+wait spp 2
+drag pane0.legend@0.95,0.8 pane0.legend@0.6,0.8
+wait seconds 0.3
+quit
+EOF
+"$tessera" view --script "$work/steps.txt" --size 64x48 --log-actions >"$work/out" || fail "the drag ends with exit code $?"
+[ "$(grep -c '^camera ' "$work/out")" -eq 1 ] || fail "the drag of a legend moves the camera"
 printf 'wait scene\nclick nowhere\n' >"$work/steps.txt"
 "$tessera" view --script "$work/steps.txt" 2>"$work/errors"
 [ $? -eq 2 ] || fail "a script that goes wrong does not end with exit code 2"

@@ -22,11 +22,13 @@ ImTextureID texture_id(unsigned opengl_name) {
 #endif
 }
 
-void set_press_positions(const std::array<glm::vec2, 3>& by_button) {
+void tell_press_positions(PressPositions& by_button) {
     ImGuiIO& io = ImGui::GetIO();
     for (std::size_t i = 0; i < by_button.size(); ++i)
-        if (io.MouseClicked[i])
-            io.MouseClickedPos[i] = {by_button[i].x, by_button[i].y};
+        if (io.MouseClicked[i] && by_button[i]) {
+            io.MouseClickedPos[i] = {by_button[i]->x, by_button[i]->y};
+            by_button[i].reset();
+        }
 }
 
 #if IMGUI_VERSION_NUM >= 18700

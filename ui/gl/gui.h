@@ -3,6 +3,7 @@
 #include "ui/gl/theme.h"
 
 #include <array>
+#include <optional>
 
 #include <glm/vec2.hpp>
 #include <imgui.h>
@@ -18,8 +19,11 @@ namespace tessera {
 
 ImTextureID texture_id(unsigned opengl_name);
 
-/// Says where the buttons of the mouse that went down did so, in a frame that has begun.
-void set_press_positions(const std::array<glm::vec2, 3>& by_button);
+/// Where the window saw buttons of the mouse go down, by button: none where it saw nothing, as with a script's.
+using PressPositions = std::array<std::optional<glm::vec2>, 3>;
+
+/// Says so of those that went down, in a frame that has begun, and empties them.
+void tell_press_positions(PressPositions& by_button);
 
 /// Input from elsewhere than a window: seen by the next frame.
 void send_mouse_position(ImVec2 position);

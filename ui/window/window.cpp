@@ -4,7 +4,6 @@
 #include "ui/window/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
 #include <utility>
@@ -58,7 +57,7 @@ private:
     Viewer* viewer_ = nullptr; // while it runs
     glm::vec2 cursor_{0};
     // By button. Dear ImGui 1.86 only knows where the mouse is by the next frame.
-    std::array<glm::vec2, 3> pressed_at_{};
+    PressPositions pressed_at_;
     int frames_due_ = frames_after_input;
     double last_frame_ = 0;
     std::atomic<bool> woken_{false};
@@ -251,7 +250,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         if (hooks.before)
             hooks.before(took);
         gui_->begin_window_frame();
-        set_press_positions(pressed_at_);
+        tell_press_positions(pressed_at_);
         viewer.draw_frame();
         gui_->end_frame();
         if (hooks.after && !hooks.after())
