@@ -202,6 +202,128 @@ TEST(Nets, OfPixelsAndPathsDiffer) {
     EXPECT_EQ(directions_seen.size(), 60u);
 }
 
+constexpr std::array at_x1 = {Draw::emitter, Draw::emitter_position, Draw::emitter_cell, Draw::lobe,
+                              Draw::direction};
+constexpr int edge = 16; // of a block
+
+/// In which of parts.x x parts.y rectangles a number at x_1 of a pixel is.
+int rectangle_of(const Pass& pass, glm::ivec2 pixel, Draw purpose, glm::ivec2 parts, int path = 0) {
+    const glm::ivec2 place(pass.random(pixel.x, pixel.y, path).draw_2d(1, purpose) * glm::vec2(parts));
+    return place.y * parts.x + place.x;
+}
+
+/// Whether the numbers of all pixels of a square are in different ones of as many rectangles.
+bool is_net(const Pass& pass, glm::ivec2 corner, glm::ivec2 pixels, Draw purpose, glm::ivec2 parts, int path = 0) {
+    std::set<int> found;
+    for (int y = 0; y < pixels.y; ++y)
+        for (int x = 0; x < pixels.x; ++x)
+            found.insert(rectangle_of(pass, corner + glm::ivec2(x, y), purpose, parts, path));
+    return static_cast<int>(found.size()) == parts.x * parts.y;
+}
+
+/// Where in a picture of two blocks and more each way a block begins: one of 16x16 places.
+std::vector<glm::ivec2> blocks_of(const Pass& pass, int path) {
+    std::vector<glm::ivec2> corners;
+    for (int y = 0; y < edge; ++y)
+        for (int x = 0; x < edge; ++x)
+            if (is_net(pass, {x, y}, {edge, edge}, Draw::direction, {edge, edge}, path))
+                corners.emplace_back(x, y);
+    return corners;
+}
+
+TEST(Nets, AreOverPixelsSideBySideInEachPass) {
+    const auto scene = lit_floor();
+    constexpr glm::ivec2 large(4 * edge);
+    const RenderSettings s = settings_of(Method::gpr);
+    for (const int index : {0, 5})
+        for (const int path : {0, 2}) {
+            const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), index);
+            const std::vector<glm::ivec2> corners = blocks_of(pass, path);
+            ASSERT_EQ(corners.size(), 1u);
+            for (const Draw purpose : at_x1) {
+                for (int wide = 1; wide <= edge * edge; wide *= 2) // rectangles of any one shape
+                    EXPECT_TRUE(
+                        is_net(pass, corners[0] + edge, {edge, edge}, purpose, {wide, edge * edge / wide}, path));
+                for (int part = 2; part < edge; part *= 2)
+                    for (int i = 0; i < edge; i += part)
+                        EXPECT_TRUE(is_net(pass, corners[0] + glm::ivec2(i, 0), {part, part}, purpose,
+                                           {part, part}, path));
+            }
+        }
+}
+
+/// Else a picture's pixels would repeat, block after block, what is measured well, and what is not.
+TEST(Nets, OverPixelsAreOthersInEachBlockAndForEachPurpose) {
+    const auto scene = lit_floor();
+    constexpr int blocks = 12;
+    constexpr glm::ivec2 large((blocks + 1) * edge), cells(edge);
+    const RenderSettings s = settings_of(Method::gpr);
+    const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), 3);
+    const glm::ivec2 first = blocks_of(pass, 0)[0];
+    std::set<int> numbers, steps, relations;
+    for (int y = 0; y < blocks; ++y)
+        for (int x = 0; x < blocks; ++x) {
+            const glm::ivec2 corner = first + edge * glm::ivec2(x, y), next = corner + glm::ivec2(1, 0);
+            const int own = rectangle_of(pass, corner, Draw::direction, cells * edge);
+            numbers.insert(own);
+            steps.insert(own ^
+                         rectangle_of(pass, next, Draw::direction, cells * edge)); // without the block's pattern
+            relations.insert(own ^ rectangle_of(pass, next, Draw::direction, cells * edge) ^
+                             rectangle_of(pass, corner, Draw::lobe, cells * edge) ^
+                             rectangle_of(pass, next, Draw::lobe, cells * edge));
+        }
+    EXPECT_GT(numbers.size(), 140u); // of 144, by chance out of 65536
+    EXPECT_GT(steps.size(), 75u);    // of 256 places in the net
+    EXPECT_GT(relations.size(), 130u);
+    for (std::size_t i = 0; i < at_x1.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            std::set<int> pairs;
+            for (int y = 0; y < edge; ++y)
+                for (int x = 0; x < edge; ++x)
+                    pairs.insert(rectangle_of(pass, first + glm::ivec2(x, y), at_x1[i], {4, 4}) * 16 +
+                                 rectangle_of(pass, first + glm::ivec2(x, y), at_x1[j], {4, 4}));
+            EXPECT_GT(pairs.size(), 120u) << i << ' ' << j; // of 256: by chance 162
+        }
+}
+
+TEST(Nets, LeaveEachPixelAnyNumber) {
+    const auto scene = lit_floor();
+    constexpr int seeds = 1600;
+    for (const Draw purpose : {Draw::lobe, Draw::direction}) {
+        std::array<int, 16> counts{};
+        for (int seed = 0; seed < seeds; ++seed) {
+            const RenderSettings s = settings_of(Method::gpr, static_cast<std::uint64_t>(seed));
+            const Pass pass(*scene, scene->camera(), size, s, ReusePlan(size, s), 2);
+            ++counts[static_cast<std::size_t>(rectangle_of(pass, {21, 9}, purpose, {4, 4}))];
+        }
+        double chi2 = 0;
+        for (const int count : counts)
+            chi2 += std::pow(count - seeds / 16.0, 2) / (seeds / 16.0);
+        EXPECT_LT(chi2, 38); // of 15 degrees: one in a thousand
+    }
+}
+
+/// What pixels share, and smoothing takes together.
+TEST(Nets, SpareNoiseOfMeansOverPixels) {
+    const auto scene = lit_floor();
+    const auto means = [&](const RgbImage& image) { // of 4x4 pixels
+        RgbImage result(size.x, size.y, Rgb(0));
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                result(x / 4, y / 4) += image(x, y) / 16.0f;
+        return result;
+    };
+    double of_pixels = 0, of_means = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const RgbImage a = picture(scene, 1, 1, seed), b = picture(scene, 1, 1, 1000 + seed);
+        of_pixels += squared_difference(a, b);
+        of_means += squared_difference(means(a), means(b));
+    }
+    // Were they independent, means would have a 16th of the variance; and they are a 16th as many. (Squares of 4x4
+    // pixels lie anywhere beside those that are nets.)
+    EXPECT_LT(of_means, 0.75 * of_pixels / (16 * 16));
+}
+
 TEST(Nets, RendersChangePlansWhenTheyHaveTwiceAsManyPasses) {
     const auto scene = lit_floor();
     ThreadPool pool(1);
