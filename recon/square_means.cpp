@@ -1,7 +1,6 @@
 #include "recon/square_means.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace tessera {
@@ -44,6 +43,35 @@ void sum_windows(float* in, std::size_t size, int count, std::size_t step, float
     }
 }
 
+void for_sums_of_rows(std::size_t width, int height, int radius, const std::function<const float*(int)>& row,
+                      const std::function<void(int, const float*)>& visit) {
+    const int count = 2 * radius + 1;
+    std::vector<float> to_end(static_cast<std::size_t>(count + 1) * width), from_end(width);
+    const auto sums_to_end = [&](int k) { return to_end.data() + static_cast<std::size_t>(k) * width; };
+    for (int first = 0; first < height; first += count) {
+        for (int k = count - 1; k >= 0; --k) {
+            const float *more = row(first + k - radius), *later = sums_to_end(k + 1);
+            float* sums = sums_to_end(k);
+            if (more == nullptr)
+                std::copy_n(later, width, sums);
+            else
+                for (std::size_t i = 0; i < width; ++i)
+                    sums[i] = later[i] + more[i];
+        }
+        visit(first, sums_to_end(0));
+        std::fill(from_end.begin(), from_end.end(), 0.0f);
+        for (int k = 1; k < std::min(count, height - first); ++k) {
+            float *sums = sums_to_end(k), *earlier = from_end.data();
+            if (const float* more = row(first + k + radius))
+                for (std::size_t i = 0; i < width; ++i)
+                    earlier[i] += more[i];
+            for (std::size_t i = 0; i < width; ++i)
+                sums[i] += earlier[i];
+            visit(first + k, sums);
+        }
+    }
+}
+
 namespace {
 
 /// Means along each row, as far as there is one.
@@ -63,29 +91,18 @@ void write_row_means(const Image<float>& values, int radius, const ParallelFor& 
 } // namespace
 
 void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for) {
-    constexpr int strip = 64; // columns
-    const int width = values.width(), height = values.height();
+    constexpr int strip = 128; // columns: their sums stay in the cache
+    const int width = values.width(), height = values.height(), reach = std::min(radius, height - 1);
     write_row_means(values, radius, parallel_for, rows);
     parallel_for((width + strip - 1) / strip, [&](int s) {
-        const int begin = s * strip, end = std::min(begin + strip, width);
-        std::array<double, strip> sums{};
-        const auto add = [&](int y, double sign) {
-            const float* row = rows.row(y) + begin;
-            for (int i = 0; i < end - begin; ++i)
-                sums[static_cast<std::size_t>(i)] += sign * static_cast<double>(row[i]);
-        };
-        for (int y = 0; y < std::min(radius, height); ++y)
-            add(y, 1);
-        for (int y = 0; y < height; ++y) {
-            if (y + radius < height)
-                add(y + radius, 1);
-            if (y > radius)
-                add(y - radius - 1, -1);
-            const int count = std::min(y + radius, height - 1) - std::max(y - radius, 0) + 1;
-            for (int i = 0; i < end - begin; ++i)
-                values(begin + i, y) =
-                    static_cast<float>(std::max(sums[static_cast<std::size_t>(i)], 0.0) / count);
-        }
+        const int begin = s * strip, columns = std::min(strip, width - begin);
+        const auto row = [&](int y) { return y < 0 || y >= height ? nullptr : rows.row(y) + begin; };
+        for_sums_of_rows(static_cast<std::size_t>(columns), height, reach, row, [&](int y, const float* sums) {
+            const int count = std::min(y + reach, height - 1) - std::max(y - reach, 0) + 1;
+            const float share = 1 / static_cast<float>(count);
+            for (int i = 0; i < columns; ++i)
+                values(begin + i, y) = share * sums[i];
+        });
     });
 }
 

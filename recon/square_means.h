@@ -4,6 +4,7 @@
 #include "recon/parallel.h"
 
 #include <cstddef>
+#include <functional>
 
 namespace tessera {
 
@@ -20,9 +21,17 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
 /// @param count  1 or more
 void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out);
 
+/// Sums of the 2 radius + 1 rows around each row: calls visit(y, sums) for 0 <= y < height. By three additions a
+/// number, whatever the radius: each sum is one up to the end of a block of as many rows, and one from there on
+/// [van Herk 1992]. It is of its own rows alone, as with sum_windows.
+/// @param width  of numbers in a row
+/// @param row    row(j) of the rows -radius <= j < height + radius: where its numbers are; null: they are 0
+void for_sums_of_rows(std::size_t width, int height, int radius, const std::function<const float*(int)>& row,
+                      const std::function<void(int, const float*)>& visit);
+
 /// Puts the same of numbers that are not negative, and whose sums along a square's edge are finite, in their
-/// place, at a cost that hardly depends on the radius: along rows by sum_windows, and down columns by running sums
-/// in double.
+/// place, at a cost that hardly depends on the radius: along rows by sum_windows, down columns by
+/// for_sums_of_rows.
 /// @param rows  of the same size: anything, and anything after
 void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for);
 

@@ -141,8 +141,7 @@ float* numbers_of(Rgb* pixels) {
 /// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
-    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
-    constexpr int band_rows = 32; // summed at a time: they stay in the L2 cache
+    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float), strip = 256; // numbers of a row
     const int width = image.width(), height = image.height();
     const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
     const float share = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));
@@ -154,17 +153,15 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
             mirror_row(image.row(y), width, r_x, padded.data());
             sum_windows(numbers_of(padded.data()), row_numbers, 2 * r_x + 1, channels, numbers_of(other.row(y)));
         });
-        parallel_for((height + band_rows - 1) / band_rows, [&](int band) {
-            const int first = band * band_rows, rows = std::min(band_rows, height - first);
-            std::vector<Pixel> padded(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows + 2 * r_y));
-            for (int j = -r_y; j < rows + r_y; ++j)
-                std::copy_n(other.row(mirrored(first + j, height)), width,
-                            padded.data() + static_cast<std::size_t>(j + r_y) * static_cast<std::size_t>(width));
-            float* sums = numbers_of(image.row(first));
-            const std::size_t size = row_numbers * static_cast<std::size_t>(rows);
-            sum_windows(numbers_of(padded.data()), size, 2 * r_y + 1, row_numbers, sums);
-            for (std::size_t i = 0; i < size; ++i)
-                sums[i] *= share;
+        parallel_for(static_cast<int>((row_numbers + strip - 1) / strip), [&](int s) {
+            const std::size_t begin = static_cast<std::size_t>(s) * strip,
+                              count = std::min(strip, row_numbers - begin);
+            const auto row = [&](int y) { return numbers_of(other.row(mirrored(y, height))) + begin; };
+            for_sums_of_rows(count, height, r_y, row, [&](int y, const float* sums) {
+                float* means = numbers_of(image.row(y)) + begin;
+                for (std::size_t i = 0; i < count; ++i)
+                    means[i] = share * sums[i];
+            });
         });
     }
 }

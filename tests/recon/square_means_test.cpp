@@ -57,6 +57,45 @@ TEST(SquareMeans, WideOnesForgetABrightPixel) {
             }
 }
 
+/// So do numbers beside which ordinary ones are nothing, in float or double.
+TEST(SquareMeans, WideOnesForgetThoseNearTheLargestFloat) {
+    Image<float> values(40, 90), rows(40, 90);
+    std::fill(values.begin(), values.end(), 1.0f);
+    values(20, 45) = 1e36f;
+    take_wide_means(values, 6, rows, serial_for);
+    EXPECT_GT(values(20, 45), 1e33f);
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 40; ++x)
+            if (std::max(std::abs(x - 20), std::abs(y - 45)) > 6) {
+                ASSERT_NEAR(values(x, y), 1, 1e-5) << x << ',' << y;
+            }
+}
+
+TEST(SquareMeans, SumsOfRowsAreThoseOfTheDefinition) {
+    constexpr std::size_t width = 5;
+    for (const int height : {1, 2, 7, 30})
+        for (const int radius : {0, 1, 3, 12}) {
+            std::vector<float> numbers(width * static_cast<std::size_t>(height + 2 * radius));
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                numbers[i] = static_cast<float>(i * i % 13);
+            const auto row = [&](int j) -> const float* { // every fifth is none
+                EXPECT_TRUE(j >= -radius && j < height + radius) << j;
+                return j % 5 == 2 ? nullptr : numbers.data() + width * static_cast<std::size_t>(j + radius);
+            };
+            int visited = 0;
+            for_sums_of_rows(width, height, radius, row, [&](int y, const float* sums) {
+                EXPECT_EQ(y, visited++);
+                for (std::size_t i = 0; i < width; ++i) {
+                    float sum = 0;
+                    for (int j = y - radius; j <= y + radius; ++j)
+                        sum += row(j) ? row(j)[i] : 0;
+                    EXPECT_EQ(sums[i], sum) << height << ' ' << radius << ' ' << y;
+                }
+            });
+            EXPECT_EQ(visited, height);
+        }
+}
+
 TEST(SquareMeans, WindowsAreSumsOfWhatStandsAStepApart) {
     for (int count : {1, 2, 3, 7, 12, 13})
         for (std::size_t step : {1u, 3u}) {
