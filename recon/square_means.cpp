@@ -91,7 +91,7 @@ void write_row_means(const Image<float>& values, int radius, const ParallelFor& 
 } // namespace
 
 void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for) {
-    constexpr int strip = 128; // columns: their sums stay in the cache
+    constexpr int strip = 64; // columns: their sums stay in the cache, and threads have strips enough
     const int width = values.width(), height = values.height(), reach = std::min(radius, height - 1);
     write_row_means(values, radius, parallel_for, rows);
     parallel_for((width + strip - 1) / strip, [&](int s) {

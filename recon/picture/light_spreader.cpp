@@ -141,7 +141,7 @@ float* numbers_of(Rgb* pixels) {
 /// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
-    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float), strip = 256; // numbers of a row
+    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float), strip = 64 * channels; // numbers of a row
     const int width = image.width(), height = image.height();
     const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
     const float share = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));

@@ -16,7 +16,7 @@ namespace {
 // Tried on four rooms, 3 to 34 samples: half the radius costs 0.1 to 0.2 dB.
 constexpr int radius = 16;      // of the squares of pixels that tell
 constexpr float most = 0.5f;    // of the way to the target
-constexpr float largest = 1e6f; // square, so that running sums know others beside it; what is not finite, too
+constexpr float largest = 1e6f; // square, so that sums know others beside it; what is not finite, too
 
 /// Squared beside the brightness of both pictures.
 float square_of(Rgb light, float brightness) {

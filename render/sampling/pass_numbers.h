@@ -41,7 +41,8 @@ public:
                 at_x1_[v][i] = point({begins.at_x1, positions_of_nets + i}, v);
         for (std::size_t pixel = 0; pixel < of_pixels_.size(); ++pixel)
             for (std::size_t i = 0; i < of_pixels_[pixel].size(); ++i)
-                of_pixels_[pixel][i] = net_point(static_cast<std::uint32_t>(pixel), Random::mix(block_key_ - i));
+                of_pixels_[pixel][i] =
+                    net_point(static_cast<std::uint32_t>(pixel), Random::mix(block_key_ - 1 - i));
     }
 
     /// In place of the number of a position: that of the pixels that the pass sees from one.
@@ -65,23 +66,24 @@ public:
         return (pixel.x + row * pixel.y + first_turn_) % count;
     }
     /// Those that a pixel's path draws. At x_1 they are points of the pass, whose digits are turned over by points
-    /// of a second net, over a block of pixels in Z-order [Morton 1966]: squares of 2x2, 4x4, 8x8 and 16x16 of
-    /// these are spread evenly in each pass, and each pixel over the passes. Of two nets taken together some
+    /// of a second net, over a block of pixels in Z-order [Morton 1966]: of these aligned squares of 2x2, 4x4, 8x8
+    /// and 16x16 are spread evenly in each pass, and each pixel over the passes. Of two nets taken together some
     /// effects are measured worse than by chance, and others exactly; so nets of two purposes have one of several
-    /// variants in each block, which have nothing to do with each other, another order there, and rows and columns
-    /// exchanged.
+    /// variants in each block, which have nothing to do with each other, and another order there; and where a
+    /// choice is made, and something drawn of what is chosen, rows and columns are exchanged.
     /// @param width  of the picture
     Random of_path(glm::ivec2 pixel, int width, int path) const {
         const glm::ivec2 place = pixel + first_block_, within = place % block_size;
         const auto block = static_cast<std::uint32_t>(place.y / block_size) << 16 |
                            static_cast<std::uint32_t>(place.x / block_size);
-        const std::size_t orders[] = {z_order(within.x) | z_order(within.y) << 1,
-                                      z_order(within.y) | z_order(within.x) << 1};
+        const std::size_t of_choices = z_order(within.x) | z_order(within.y) << 1,
+                          of_others = z_order(within.y) | z_order(within.x) << 1;
         Random::Points points;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const std::uint64_t of_block = Random::mix(block_key_ + std::uint64_t{block} * points.size() + i);
             const std::size_t turned = (of_block >> 32) % of_pixels_.size();
-            points[i] = at_x1_[of_block % variants][i] ^ of_pixels_[orders[i % 2] ^ turned][i];
+            const std::size_t order = is_choice(static_cast<Draw>(i)) ? of_choices : of_others;
+            points[i] = at_x1_[of_block % variants][i] ^ of_pixels_[order ^ turned][i];
         }
         const auto index = static_cast<std::uint32_t>(pixel.y * width + pixel.x);
         return {seed_of(path), index, static_cast<std::uint32_t>(pass_),
@@ -90,6 +92,8 @@ public:
 
 private:
     static constexpr int block_size = 16;
+
+    static bool is_choice(Draw purpose) { return purpose == Draw::emitter || purpose == Draw::lobe; }
 
     /// The digits, each two places apart.
     static std::size_t z_order(int i) {
