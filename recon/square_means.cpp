@@ -43,8 +43,11 @@ void sum_windows(float* in, std::size_t size, int count, std::size_t step, float
     }
 }
 
-void for_sums_of_rows(std::size_t width, int height, int radius, const std::function<const float*(int)>& row,
-                      const std::function<void(int, const float*)>& visit) {
+namespace {
+
+/// Of one strip: visit(y, sums), with rows that begin where it does.
+template <class Row, class Visit>
+void for_sums_of_strip(std::size_t width, int height, int radius, Row&& row, Visit&& visit) {
     const int count = 2 * radius + 1;
     std::vector<float> to_end(static_cast<std::size_t>(count + 1) * width), from_end(width);
     const auto sums_to_end = [&](int k) { return to_end.data() + static_cast<std::size_t>(k) * width; };
@@ -72,6 +75,23 @@ void for_sums_of_rows(std::size_t width, int height, int radius, const std::func
     }
 }
 
+} // namespace
+
+void for_sums_of_rows(std::size_t width, int height, int radius, const std::function<const float*(int)>& row,
+                      const ParallelFor& parallel_for,
+                      const std::function<void(int, std::size_t, std::size_t, const float*)>& visit) {
+    constexpr std::size_t strip = 64;
+    parallel_for(static_cast<int>((width + strip - 1) / strip), [&](int s) {
+        const std::size_t begin = static_cast<std::size_t>(s) * strip, end = std::min(begin + strip, width);
+        const auto part_of_row = [&](int y) {
+            const float* numbers = row(y);
+            return numbers == nullptr ? nullptr : numbers + begin;
+        };
+        for_sums_of_strip(end - begin, height, radius, part_of_row,
+                          [&](int y, const float* sums) { visit(y, begin, end, sums); });
+    });
+}
+
 namespace {
 
 /// Means along each row, as far as there is one.
@@ -91,19 +111,16 @@ void write_row_means(const Image<float>& values, int radius, const ParallelFor& 
 } // namespace
 
 void take_wide_means(Image<float>& values, int radius, Image<float>& rows, const ParallelFor& parallel_for) {
-    constexpr int strip = 64; // columns: their sums stay in the cache, and threads have strips enough
-    const int width = values.width(), height = values.height(), reach = std::min(radius, height - 1);
+    const int height = values.height(), reach = std::min(radius, height - 1);
     write_row_means(values, radius, parallel_for, rows);
-    parallel_for((width + strip - 1) / strip, [&](int s) {
-        const int begin = s * strip, columns = std::min(strip, width - begin);
-        const auto row = [&](int y) { return y < 0 || y >= height ? nullptr : rows.row(y) + begin; };
-        for_sums_of_rows(static_cast<std::size_t>(columns), height, reach, row, [&](int y, const float* sums) {
-            const int count = std::min(y + reach, height - 1) - std::max(y - reach, 0) + 1;
-            const float share = 1 / static_cast<float>(count);
-            for (int i = 0; i < columns; ++i)
-                values(begin + i, y) = share * sums[i];
-        });
-    });
+    const auto row = [&](int y) { return y < 0 || y >= height ? nullptr : rows.row(y); };
+    for_sums_of_rows(static_cast<std::size_t>(values.width()), height, reach, row, parallel_for,
+                     [&](int y, std::size_t begin, std::size_t end, const float* sums) {
+                         const int count = std::min(y + reach, height - 1) - std::max(y - reach, 0) + 1;
+                         const float share = 1 / static_cast<float>(count);
+                         for (std::size_t i = begin; i < end; ++i)
+                             values.row(y)[i] = share * sums[i - begin];
+                     });
 }
 
 } // namespace tessera

@@ -141,7 +141,7 @@ float* numbers_of(Rgb* pixels) {
 /// Three means over squares, which is about a Gaussian. Every pixel gets of each other as much as it gives.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
-    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float), strip = 64 * channels; // numbers of a row
+    constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
     const int width = image.width(), height = image.height();
     const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
     const float share = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));
@@ -153,16 +153,13 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
             mirror_row(image.row(y), width, r_x, padded.data());
             sum_windows(numbers_of(padded.data()), row_numbers, 2 * r_x + 1, channels, numbers_of(other.row(y)));
         });
-        parallel_for(static_cast<int>((row_numbers + strip - 1) / strip), [&](int s) {
-            const std::size_t begin = static_cast<std::size_t>(s) * strip,
-                              count = std::min(strip, row_numbers - begin);
-            const auto row = [&](int y) { return numbers_of(other.row(mirrored(y, height))) + begin; };
-            for_sums_of_rows(count, height, r_y, row, [&](int y, const float* sums) {
-                float* means = numbers_of(image.row(y)) + begin;
-                for (std::size_t i = 0; i < count; ++i)
-                    means[i] = share * sums[i];
-            });
-        });
+        const auto row = [&](int y) { return numbers_of(other.row(mirrored(y, height))); };
+        for_sums_of_rows(row_numbers, height, r_y, row, parallel_for,
+                         [&](int y, std::size_t begin, std::size_t end, const float* sums) {
+                             float* means = numbers_of(image.row(y));
+                             for (std::size_t i = begin; i < end; ++i)
+                                 means[i] = share * sums[i - begin];
+                         });
     }
 }
 

@@ -72,29 +72,31 @@ TEST(SquareMeans, WideOnesForgetHugeNumbers) {
 }
 
 TEST(SquareMeans, SumsOfRowsAreThoseOfTheDefinition) {
-    constexpr std::size_t width = 5;
-    for (const int height : {1, 2, 7, 30})
-        for (const int radius : {0, 1, 3, 12}) {
-            std::vector<float> numbers(width * static_cast<std::size_t>(height + 2 * radius));
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-                numbers[i] = static_cast<float>(i * i % 13);
-            const auto row = [&](int j) -> const float* { // every fifth is none
-                EXPECT_TRUE(j >= -radius && j < height + radius) << j;
-                return (j + 5 * radius) % 5 == 2 ? nullptr
-                                                 : numbers.data() + width * static_cast<std::size_t>(j + radius);
-            };
-            int visited = 0;
-            for_sums_of_rows(width, height, radius, row, [&](int y, const float* sums) {
-                EXPECT_EQ(y, visited++);
-                for (std::size_t i = 0; i < width; ++i) {
-                    float sum = 0;
-                    for (int j = y - radius; j <= y + radius; ++j)
-                        sum += row(j) ? row(j)[i] : 0;
-                    EXPECT_EQ(sums[i], sum) << height << ' ' << radius << ' ' << y;
-                }
-            });
-            EXPECT_EQ(visited, height);
-        }
+    for (const std::size_t width : {1u, 5u, 64u, 130u}) // within a strip, and of several
+        for (const int height : {1, 2, 7, 30})
+            for (const int radius : {0, 1, 3, 12}) {
+                std::vector<float> numbers(width * static_cast<std::size_t>(height + 2 * radius));
+                for (std::size_t i = 0; i < numbers.size(); ++i)
+                    numbers[i] = static_cast<float>(i * i % 13);
+                const auto row = [&](int j) -> const float* { // every fifth is none
+                    EXPECT_TRUE(j >= -radius && j < height + radius) << j;
+                    return (j + 5 * radius) % 5 == 2
+                               ? nullptr
+                               : numbers.data() + width * static_cast<std::size_t>(j + radius);
+                };
+                std::vector<int> visits(width * static_cast<std::size_t>(height));
+                for_sums_of_rows(width, height, radius, row, serial_for,
+                                 [&](int y, std::size_t begin, std::size_t end, const float* sums) {
+                                     for (std::size_t i = begin; i < end; ++i) {
+                                         ++visits[static_cast<std::size_t>(y) * width + i];
+                                         float sum = 0;
+                                         for (int j = y - radius; j <= y + radius; ++j)
+                                             sum += row(j) ? row(j)[i] : 0;
+                                         ASSERT_EQ(sums[i - begin], sum) << height << ' ' << radius << ' ' << y;
+                                     }
+                                 });
+                EXPECT_EQ(std::ranges::count(visits, 1), std::ssize(visits));
+            }
 }
 
 TEST(SquareMeans, WindowsAreSumsOfWhatStandsAStepApart) {
