@@ -95,9 +95,9 @@ public:
     bool has_lens() const { return has_lens_; }
 
     /// The numbers of a pixel's path; `path` as in camera_sample(). What is drawn at x_1 is a net over the passes
-    /// that go by one plan, and independent of the passes before, by which that was made.
+    /// that go by one plan, and over blocks of pixels, and independent of the passes before, by which that was made.
     Random random(int x, int y, int path = 0) const {
-        return numbers_.of_path(static_cast<std::uint32_t>(y * size.x + x), path);
+        return numbers_.of_path({x, y}, size.x, path);
     }
 
 private:

@@ -40,12 +40,17 @@ public:
     Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
         : key_(key(seed, pixel, sample)), key_at_x1_(key_), points_{} {}
 
-    /// Of samples whose points are a net, so are the numbers drawn at x_1: they are the points', with digits
-    /// turned over by a pattern that the pixel has for this net. The other numbers are as without.
-    /// @param net  the sample with which it begins
-    Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, std::uint32_t net, const Points& points)
-        : key_(key(seed, pixel, sample)), key_at_x1_(key(seed ^ 0x7831'7831'7831'7831u, pixel, net)),
-          points_(points) {}
+    /// What is drawn at x_1 where that is a net over samples, or over pixels, or both.
+    struct Net {
+        std::uint32_t
+            block; ///< of pixels; each has patterns of its own for each net, by which digits are turned over
+        std::uint32_t begin; ///< the first sample
+        Points points;       ///< of the sample and the pixel, in the block
+    };
+    /// The other numbers are as without.
+    Random(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, const Net& net)
+        : key_(key(seed, pixel, sample)), key_at_x1_(key(seed ^ 0x7831'7831'7831'7831u, net.block, net.begin)),
+          points_(net.points) {}
 
     /// Uniform in [0, 1).
     float draw(int vertex, Draw purpose) const { return draw_2d(vertex, purpose).x; }

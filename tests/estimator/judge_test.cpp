@@ -108,12 +108,11 @@ std::vector<Variant> all_variants() {
 /// Positions that lie evenly over a run's passes see the same of an edge in nearly all runs, and seldom something
 /// else: what the runs do not show is in no standard error of theirs. It is not less than that of as many
 /// independent positions then.
-/// @param positions  a pass
+/// @param positions  in a pass of all runs
 /// @param where      1: in these pixels; null: in all
 Measured no_surer_than_by_chance(Measured m, const Measured& truth, int positions,
                                  const Image<std::uint8_t>* where) {
-    const auto more =
-        static_cast<float>(std::sqrt(static_cast<double>(naive_samples) / (runs * passes * positions)));
+    const auto more = static_cast<float>(std::sqrt(static_cast<double>(naive_samples) / (passes * positions)));
     for (std::size_t i = 0; i < m.mean.size(); ++i)
         if (!where || where->data()[i])
             m.standard_error.data()[i] =
@@ -156,38 +155,61 @@ protected:
             judge(truth, v, size);
     }
 
-    void judge(const NaiveMeasured& truth, Variant v, glm::ivec2 size) {
+    struct Test {
+        const char* what;
+        ZResult z;
+    };
+
+    /// What fails is measured again, by other runs and eight times as many: a bias stands out the more then, and a
+    /// long tail the less. (What lies evenly, over passes and pixels, is the same in most runs and seldom
+    /// something else, of which the standard errors of a few know nothing.)
+    void judge(const NaiveMeasured& truth, const Variant& v, glm::ivec2 size) {
+        std::vector<Test> tests = tests_of(truth, v, size, runs);
+        if (!std::ranges::all_of(tests, [](const Test& t) { return t.z.passes(); })) {
+            report(v, tests, "by few runs: ");
+            Variant other = v;
+            other.settings.seed += 1'000'000;
+            tests = tests_of(truth, other, size, 8 * runs);
+        }
+        report(v, tests, "");
+        for (const Test& t : tests)
+            EXPECT_TRUE(t.z.passes()) << GetParam().name << ' ' << v.name << " tile " << v.settings.tile << ' '
+                                      << t.what << ": " << t.z.to_string();
+    }
+
+    std::vector<Test> tests_of(const NaiveMeasured& truth, Variant v, glm::ivec2 size, int count) {
         const TestScene& t = GetParam();
         v.settings.max_depth = t.max_depth;
         v.settings.shift_threshold = t.shift_threshold;
         v.settings.shift_distance = t.shift_distance;
-        const MethodMeasured m = measure(t.scene, size, v.settings, runs * t.effort, passes);
+        const MethodMeasured m = measure(t.scene, size, v.settings, count * t.effort, passes);
         const Image<std::uint8_t> mixed =
             has_positions(v.settings) ? ever_mixed(t.scene, size, v.settings) : Image<std::uint8_t>();
         const auto floored = [&](const Measured& measured) { // of light, where it is seen from several positions
             return has_positions(v.settings)
-                       ? no_surer_than_by_chance(measured, truth.light, v.settings.positions, &mixed)
+                       ? no_surer_than_by_chance(measured, truth.light, count * v.settings.positions, &mixed)
                        : measured;
         };
-        report("primal", v, z_test(floored(m.primal), truth.light));
-        report("very direct", v,
-               z_test(no_surer_than_by_chance(m.very_direct, truth.very_direct, 1, nullptr), truth.very_direct));
+        std::vector<Test> tests = {
+            {"primal", z_test(floored(m.primal), truth.light)},
+            {"very direct", z_test(no_surer_than_by_chance(m.very_direct, truth.very_direct, count, nullptr),
+                                   truth.very_direct)}};
         if (!has_gradients(v.settings.method))
-            return;
+            return tests;
         const bool is_demodulated = v.settings.basis == Basis::albedo;
         if (is_demodulated)
-            report("coefficient", v, z_test(m.coefficient, truth.coefficient));
+            tests.push_back({"coefficient", z_test(m.coefficient, truth.coefficient)});
         const Measured& of = is_demodulated ? truth.coefficient : truth.light;
-        report("dx", v, z_test(m.dx, difference_x(of)));
-        report("dy", v, z_test(m.dy, difference_y(of)));
-        report("l2", v, z_test(floored(m.picture), sum(truth.light, truth.very_direct)));
+        tests.push_back({"dx", z_test(m.dx, difference_x(of))});
+        tests.push_back({"dy", z_test(m.dy, difference_y(of))});
+        tests.push_back({"l2", z_test(floored(m.picture), sum(truth.light, truth.very_direct))});
+        return tests;
     }
 
-    void report(const char* what, const Variant& v, const ZResult& z) {
-        std::printf("  %-26s %-58s tile %2d %-11s %s\n", GetParam().name.c_str(), v.name.c_str(), v.settings.tile,
-                    what, z.to_string().c_str());
-        EXPECT_TRUE(z.passes()) << GetParam().name << ' ' << v.name << " tile " << v.settings.tile << ' ' << what
-                                << ": " << z.to_string();
+    void report(const Variant& v, const std::vector<Test>& tests, const char* how) {
+        for (const Test& t : tests)
+            std::printf("  %-26s %-58s tile %2d %-11s %s%s\n", GetParam().name.c_str(), v.name.c_str(),
+                        v.settings.tile, t.what, how, t.z.to_string().c_str());
     }
 };
 

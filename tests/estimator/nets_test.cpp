@@ -202,6 +202,27 @@ TEST(Nets, OfPixelsAndPathsDiffer) {
     EXPECT_EQ(directions_seen.size(), 60u);
 }
 
+/// What pixels share, and smoothing takes together.
+TEST(Nets, SpareNoiseOfMeansOverPixels) {
+    const auto scene = lit_floor();
+    const auto means = [&](const RgbImage& image) { // of 4x4 pixels
+        RgbImage result(size.x, size.y, Rgb(0));
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                result(x / 4, y / 4) += image(x, y) / 16.0f;
+        return result;
+    };
+    double of_pixels = 0, of_means = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const RgbImage a = picture(scene, 1, 1, seed), b = picture(scene, 1, 1, 1000 + seed);
+        of_pixels += squared_difference(a, b);
+        of_means += squared_difference(means(a), means(b));
+    }
+    // Were they independent, means would have a 16th of the variance; and they are a 16th as many. (Squares of 4x4
+    // pixels lie anywhere beside those that are nets.)
+    EXPECT_LT(of_means, 0.75 * of_pixels / (16 * 16));
+}
+
 TEST(Nets, RendersChangePlansWhenTheyHaveTwiceAsManyPasses) {
     const auto scene = lit_floor();
     ThreadPool pool(1);

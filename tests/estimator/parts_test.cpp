@@ -176,10 +176,40 @@ private:
     double count_ = 0;
 };
 
+/// A z-test of one part.
+struct PartTest {
+    std::size_t part;
+    const char* what;
+    ZResult z;
+};
+
+/// By so many renders, of the seeds from that of the settings on.
+std::vector<PartTest> tests_of(const TestScene& t, RenderSettings settings, glm::ivec2 size, int runs,
+                               const std::vector<Measured>& truth) {
+    constexpr int passes = 16;
+    std::vector<PartMoments> primal(truth.size(), PartMoments(size)), dx(primal), dy(primal);
+    for (int run = 0; run < runs; ++run, ++settings.seed) {
+        const GradientImages images = images_of(t, settings, size, passes);
+        for (std::size_t l = 0; l < primal.size(); ++l) {
+            primal[l].add(images.parts[l].primal);
+            dx[l].add(images.parts[l].dx);
+            dy[l].add(images.parts[l].dy);
+        }
+    }
+    std::vector<PartTest> tests;
+    for (std::size_t l = 0; l < primal.size(); ++l) {
+        tests.push_back({l, "primal", z_test(primal[l].measured(), truth[l])});
+        tests.push_back({l, "dx", z_test(dx[l].measured(), difference_x(truth[l]))});
+        tests.push_back({l, "dy", z_test(dy[l].measured(), difference_y(truth[l]))});
+    }
+    return tests;
+}
+
 /// Whoever finds the light and shares it, the parts are those that an innocent path tracer finds, with 'samples'.
+/// What fails is measured again, by other and eight times as many runs: as Judge has it, of whose long tails these
+/// have more.
 void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) {
     constexpr glm::ivec2 size(6, 5);
-    constexpr int passes = 16;
     const TestScene& t = scene_named(scene);
     for (const Variant& v : variants) {
         RenderSettings settings = settings_of(v, t);
@@ -202,26 +232,15 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
         };
         const std::vector<Measured> truth =
             render_naive_parts(*t.scene, size, t.max_depth, samples * t.effort, 11, parts, parts_of);
-        std::vector<PartMoments> primal(static_cast<std::size_t>(parts), PartMoments(size)), dx(primal),
-            dy(primal);
-        for (int run = 0; run < runs * t.effort; ++run) {
-            settings.seed = 400 + static_cast<std::uint64_t>(run);
-            const GradientImages images = images_of(t, settings, size, passes);
-            for (std::size_t l = 0; l < primal.size(); ++l) {
-                primal[l].add(images.parts[l].primal);
-                dx[l].add(images.parts[l].dx);
-                dy[l].add(images.parts[l].dy);
-            }
+        settings.seed = 400;
+        std::vector<PartTest> tests = tests_of(t, settings, size, runs * t.effort, truth);
+        if (!std::ranges::all_of(tests, [](const PartTest& test) { return test.z.passes(); })) {
+            settings.seed = 1'000'000;
+            tests = tests_of(t, settings, size, 8 * runs * t.effort, truth);
         }
-        const auto report = [&](const char* what, std::size_t l, const ZResult& z) {
-            EXPECT_TRUE(z.passes()) << scene << ' ' << v.name << " part " << l << ' ' << what << ": "
-                                    << z.to_string();
-        };
-        for (std::size_t l = 0; l < primal.size(); ++l) {
-            report("primal", l, z_test(primal[l].measured(), truth[l]));
-            report("dx", l, z_test(dx[l].measured(), difference_x(truth[l])));
-            report("dy", l, z_test(dy[l].measured(), difference_y(truth[l])));
-        }
+        for (const PartTest& test : tests)
+            EXPECT_TRUE(test.z.passes()) << scene << ' ' << v.name << " part " << test.part << ' ' << test.what
+                                         << ": " << test.z.to_string();
     }
 }
 

@@ -54,7 +54,7 @@ TEST_F(OutcomesView, PixelsHaveTheMeanColourOfTheirShifts) {
             }
         }
     }
-    EXPECT_GT(most, least + 40);
+    EXPECT_GT(most, least + 30);
     save("outcomes.png");
 }
 
