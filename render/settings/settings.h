@@ -115,7 +115,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float q_min = 0.1f;         ///< least probability that a path is reused
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
     int positions =
-        4; ///< from which a pass sees a pixel that shares, if it sees several things [1, most_positions]
+        2; ///< from which a pass sees a pixel that shares, if it sees several things [1, most_positions]
     int very_direct_rays = 16; ///< camera rays of a sample at a lamp's edge; 1: its path's own
     PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
