@@ -38,15 +38,20 @@ struct Trial {
     }
 };
 
-/// Adds how far two trials differ in the gradient from pixel m to n, with sharing and without. What the picture
-/// itself differs by is in neither.
-void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n, PlanEvidence& found) {
-    const double shared = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
-    if (!std::isfinite(shared)) // refused, as a sample would be
-        return;
-    found.shared_noise += shared;
-    found.own_noise += glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
-}
+/// Lengths of the noise of a set's gradients, summed: with sharing and without.
+struct GradientNoise {
+    double shared = 0, own = 0;
+
+    /// Adds how far two trials differ in the gradient from pixel m to n. What the picture itself differs by is in
+    /// neither.
+    void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n) {
+        const double length = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
+        if (!std::isfinite(length)) // refused, as a sample would be
+            return;
+        shared += length;
+        own += glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
+    }
+};
 
 RenderSettings settings_of_trial(RenderSettings settings, std::uint64_t trial) {
     settings.seed ^= 0x7069'6c6f'7400'0000u + trial;
@@ -70,12 +75,14 @@ PlanEvidence Pilot::explore(PixelRect cell, Worker& worker) const {
         const Trial a(first_, all, {cell.x0, cell.y0}, worker, found);
         const Trial b(second_, all, {cell.x0, cell.y0}, worker, found);
         const auto width = static_cast<std::size_t>(all.width());
+        GradientNoise noise;
         for (std::size_t i = 0; i < a.own.size(); ++i) {
             if ((i + 1) % width != 0)
-                compare(a, b, i, i + 1, found);
+                noise.compare(a, b, i, i + 1);
             if (i + width < a.own.size())
-                compare(a, b, i, i + width, found);
+                noise.compare(a, b, i, i + width);
         }
+        found.add_gradient_noise(noise.shared, noise.own);
     });
     return found;
 }

@@ -38,6 +38,14 @@ double mean_rho(const std::vector<PlanEvidence>& pilot) {
 
 } // namespace
 
+void PlanEvidence::add_gradient_noise(double shared, double own) {
+    if (!(own > 0))
+        return;
+    const double root = std::sqrt(own);
+    shared_noise += shared / root;
+    own_noise += root;
+}
+
 PlanEvidence& PlanEvidence::operator+=(const PlanEvidence& more) {
     paths += more.paths;
     lit += more.lit;

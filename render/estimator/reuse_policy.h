@@ -22,8 +22,8 @@ struct PlanEvidence {
     // Of base paths, and of PathReuse::arriving_luminance:
     double paths = 0, lit = 0, sum = 0, squares = 0;
 
-    // Of what a pilot tried (pilot.h): lengths of the noise of gradients, as sharing measures them and as mere
-    // differences of base paths; and rays that offsets took, and base paths, in the mean for each.
+    // Of what a pilot tried (pilot.h): add_gradient_noise(); and rays that offsets took, and base paths, in the
+    // mean for each.
     double shared_noise = 0, own_noise = 0;
     double offset_rays = 0, base_rays = 0;
 
@@ -33,6 +33,10 @@ struct PlanEvidence {
         sum += luminance;
         squares += luminance * luminance;
     }
+    /// Of a set of pixels: lengths of the noise of gradients, as sharing measures them and as mere differences of
+    /// base paths. Sets count by the root of the latter: in plain sums, one in which a path has found a hundred
+    /// times the light would decide on its cell; if all counted alike, those that hardly any light reaches would.
+    void add_gradient_noise(double shared, double own);
     PlanEvidence& operator+=(const PlanEvidence& more);
 };
 
@@ -49,12 +53,12 @@ struct PlanEvidence {
 /// nothing.
 ///
 /// What sharing brings shows in the noise of the gradients: rho is its mean length with sharing over that of mere
-/// differences of base paths, and rho^2 about what is left of the squared error. Where that, times the cost in
-/// samples of a path tracer, is above 1, pixels share nothing: instead each takes the mean of as many paths of its
-/// own as sharing costs elsewhere in the picture, so that a pass takes about as long everywhere. A pilot finds rho
-/// before the first pass, in small sets, where it is about what it is in whole tiles. (Of lengths of gradients,
-/// not of their noise, it was too large at edges; with rho instead of rho^2, no limit was right on metals, glass,
-/// and in rooms alike.)
+/// differences of base paths, of each set by the root of the latter, and rho^2 about what is left of the squared
+/// error. Where that, times the cost in samples of a path tracer, is above 1, pixels share nothing: instead each
+/// takes the mean of as many paths of its own as sharing costs elsewhere in the picture, so that a pass takes
+/// about as long everywhere. A pilot finds rho before the first pass, in small sets, where it is about what it is
+/// in whole tiles. (Of lengths of gradients, not of their noise, it was too large at edges; with rho instead of
+/// rho^2, no limit was right on metals, glass, and in rooms alike.)
 ///
 /// It looks at the pilot and at earlier passes of the same render only: a choice by the light of the paths at
 /// hand, or of passes that a render begun anew will draw again, would be biased. So would be a mean in which a

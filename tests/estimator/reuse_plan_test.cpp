@@ -44,8 +44,7 @@ PlanEvidence found(double rho, double offset_rays, int lit = 1000) {
     PlanEvidence e;
     for (int i = 0; i < 1000; ++i)
         e.add_path(i == 0 ? 1 : i < lit ? 1e-4 : 0);
-    e.shared_noise = rho;
-    e.own_noise = 1;
+    e.add_gradient_noise(rho, 1);
     e.offset_rays = 1000 * offset_rays;
     e.base_rays = 8000;
     return e;
@@ -68,6 +67,27 @@ TEST(ReusePlan, PixelsAreAloneWhereTheNoiseThatIsLeftIsNotWorthItsCost) {
     EXPECT_EQ(after_pilot(found(0.70, 0.01)).paths_alone(left), 0);
     EXPECT_EQ(after_pilot(found(0.80, 0.01)).paths_alone(left), 4);
     EXPECT_EQ(after_pilot(found(1, 0.5)).paths_alone(right), 0);
+}
+
+TEST(ReusePlan, OneSetWithASpikeThatSharingDoesNotTakeAlongDoesNotLeaveItsCellAlone) {
+    constexpr int sets = 8;
+    const auto rho_with_spike = [](double times_the_noise, int spikes) {
+        PlanEvidence e = found(0, 0.5);
+        e.shared_noise = e.own_noise = 0;
+        for (int i = 0; i < sets; ++i)
+            e.add_gradient_noise(i < spikes ? times_the_noise : 0.1, i < spikes ? times_the_noise : 1);
+        return e;
+    };
+    EXPECT_EQ(after_pilot(rho_with_spike(30, 1)).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(rho_with_spike(30, 2)).paths_alone(left), 4);
+}
+
+TEST(ReusePlan, SetsWithoutLightOfTheirOwnTellNothing) {
+    PlanEvidence e = found(0.1, 0.5);
+    const double shared = e.shared_noise, own = e.own_noise;
+    e.add_gradient_noise(1, 0);
+    EXPECT_EQ(e.shared_noise, shared);
+    EXPECT_EQ(e.own_noise, own);
 }
 
 TEST(ReusePlan, PixelsThatAreAloneTakeAsManyPathsAsSharingCostsElsewhere) {
