@@ -16,8 +16,8 @@
 
 namespace tessera {
 
-// Kernels that join pixels which look alike: 5x5 pixels without the corners, a step apart [the a trous wavelets of
-// Dammertz 2010], in which a pixel weighs its share of a cubic spline times about
+// Kernels that join pixels which look alike: the 13 of 5x5 pixels with |i| + |j| <= 2, a step apart [the a trous
+// wavelets of Dammertz 2010], in which a pixel weighs its share of a cubic spline times about
 //     exp(-sum of (differences of guides / widths)^2) .
 // Two pixels weigh as much for each other as the other way round.
 
@@ -55,7 +55,7 @@ inline float brightness_of(Rgb light) {
 inline constexpr float dark = 0.2f;
 
 /// A pixel and another, i and j steps on; of a kernel's pixels but the middle one, half: the others are these from
-/// their other end. (With the corners: hardly better, in twice the time.)
+/// their other end. (With all of 5x5: hardly better, in twice the time.)
 struct KernelPair {
     int i, j;
 

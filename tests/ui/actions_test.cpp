@@ -46,6 +46,15 @@ const Action& action(const std::string& name) {
     throw std::runtime_error("no action " + name);
 }
 
+TEST(Actions, EveryBufferIsShownByOne) {
+    for (const Buffer buffer : all_buffers) {
+        ViewerState state = two_panes();
+        action(std::string(long_name(buffer))).run(state);
+        for (const PaneState& pane : state.panes)
+            EXPECT_EQ(pane.settings.buffer, buffer) << long_name(buffer);
+    }
+}
+
 TEST(Actions, EveryOneHasNameHelpAndItsOwnShortcut) {
     std::set<std::string> shortcuts, names;
     for (const Action& a : actions()) {
