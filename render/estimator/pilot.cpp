@@ -45,11 +45,12 @@ struct GradientNoise {
     /// Adds how far two trials differ in the gradient from pixel m to n. What the picture itself differs by is in
     /// neither.
     void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n) {
-        const double length = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
-        if (!std::isfinite(length)) // refused, as a sample would be
+        const double with = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
+        const double without = glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
+        if (!std::isfinite(with) || !std::isfinite(without)) // refused, as a sample would be
             return;
-        shared += length;
-        own += glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
+        shared += with;
+        own += without;
     }
 };
 

@@ -35,7 +35,8 @@ struct PlanEvidence {
     }
     /// Of a set of pixels: lengths of the noise of gradients, as sharing measures them and as mere differences of
     /// base paths. Sets count by the root of the latter: in plain sums, one in which a path has found a hundred
-    /// times the light would decide on its cell; if all counted alike, those that hardly any light reaches would.
+    /// times the light would decide on its cell (still does one with 30 times the noise of the others, which is
+    /// some 200 times the light); if all counted alike, sets that hardly any light reaches would.
     void add_gradient_noise(double shared, double own);
     PlanEvidence& operator+=(const PlanEvidence& more);
 };
@@ -52,13 +53,13 @@ struct PlanEvidence {
 /// alike they are cut down to single pixels and their neighbours. Lights a thousand times as bright change
 /// nothing.
 ///
-/// What sharing brings shows in the noise of the gradients: rho is its mean length with sharing over that of mere
-/// differences of base paths, of each set by the root of the latter, and rho^2 about what is left of the squared
-/// error. Where that, times the cost in samples of a path tracer, is above 1, pixels share nothing: instead each
-/// takes the mean of as many paths of its own as sharing costs elsewhere in the picture, so that a pass takes
-/// about as long everywhere. A pilot finds rho before the first pass, in small sets, where it is about what it is
-/// in whole tiles. (Of lengths of gradients, not of their noise, it was too large at edges; with rho instead of
-/// rho^2, no limit was right on metals, glass, and in rooms alike.)
+/// What sharing brings shows in the noise of the gradients: rho is its length with sharing over that of mere
+/// differences of base paths, the mean over sets by the roots of the latter, and rho^2 about what is left of the
+/// squared error. Where that, times the cost in samples of a path tracer, is above 1, pixels share nothing:
+/// instead each takes the mean of as many paths of its own as sharing costs elsewhere in the picture, so that a
+/// pass takes about as long everywhere. A pilot finds rho before the first pass, in small sets, where it is about
+/// what it is in whole tiles. (Of lengths of gradients, not of their noise, it was too large at edges; with rho
+/// instead of rho^2, no limit was right on metals, glass, and in rooms alike.)
 ///
 /// It looks at the pilot and at earlier passes of the same render only: a choice by the light of the paths at
 /// hand, or of passes that a render begun anew will draw again, would be biased. So would be a mean in which a

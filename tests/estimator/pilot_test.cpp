@@ -1,0 +1,51 @@
+// What the pilot tells of a cell. (That it is no bias: the judge. What is made of it: reuse_plan_test.)
+#include "render/estimator/pilot.h"
+#include "tests/support/scene_builder.h"
+
+#include <memory>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+constexpr glm::ivec2 size(16, 16);
+
+/// A floor and a wall, under a sky that is bright on one side, and so noisy.
+std::shared_ptr<const Scene> corner(float brightness) {
+    SceneBuilder b;
+    b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.diffuse(Rgb(0.5f)));
+    b.quad({-4, -1, 0}, {0, 0, 4}, {8, 0, 0}, b.diffuse(Rgb(0.8f, 0.5f, 0.3f)));
+    std::vector<Rgb> sky(8, Rgb(brightness));
+    sky[2] = Rgb(64 * brightness);
+    b.environment(sky, 4);
+    b.camera({look_at({0, 0.5f, 4}, {0, -0.5f, 0}), 40, FovAxis::x});
+    return b.build();
+}
+
+PlanEvidence explore(const Scene& scene, PixelRect cell) {
+    const RenderSettings settings;
+    const ReusePlan plan(size, settings);
+    const Pilot pilot(scene, scene.camera(), size, settings, plan);
+    Worker worker(scene, scene.camera(), size, settings, nullptr);
+    return pilot.explore(cell, worker);
+}
+
+} // namespace
+
+TEST(Pilot, TellsOfEachSetByTheRootOfItsNoise) {
+    const auto scene = corner(1);
+    const PlanEvidence whole = explore(*scene, {0, 0, 16, 16}), left = explore(*scene, {0, 0, 8, 16}),
+                       right = explore(*scene, {8, 0, 16, 16}), brighter = explore(*corner(4), {0, 0, 16, 16});
+    EXPECT_GT(whole.own_noise, whole.shared_noise);
+    EXPECT_GT(whole.shared_noise, 0);
+    EXPECT_NEAR(whole.own_noise, left.own_noise + right.own_noise, 1e-9 * whole.own_noise);
+    EXPECT_NEAR(whole.shared_noise, left.shared_noise + right.shared_noise, 1e-9 * whole.shared_noise);
+    EXPECT_NEAR(brighter.own_noise, 2 * whole.own_noise, 1e-6 * whole.own_noise);
+    EXPECT_NEAR(brighter.shared_noise, 2 * whole.shared_noise, 1e-6 * whole.shared_noise);
+}
+
+} // namespace tessera::test
