@@ -35,8 +35,7 @@ struct PlanEvidence {
     }
     /// Of a set of pixels: lengths of the noise of gradients, as sharing measures them and as mere differences of
     /// base paths. Sets count by the root of the latter: in plain sums, one in which a path has found a hundred
-    /// times the light would decide on its cell (still does one with 30 times the noise of the others, which is
-    /// some 200 times the light); if all counted alike, sets that hardly any light reaches would.
+    /// times the light would decide on its cell; if all counted alike, sets that hardly any light reaches would.
     void add_gradient_noise(double shared, double own);
     PlanEvidence& operator+=(const PlanEvidence& more);
 };
