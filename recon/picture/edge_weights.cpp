@@ -15,7 +15,7 @@ namespace {
 
 // The best of what was tried on Veach, Ajar, Country Kitchen, Bathroom and The Grey & White Room, G-PR, 4 and 15
 // samples a pixel. A larger k leaves the noise of rare paths.
-constexpr float noise_factor = 0.7f;    // k
+constexpr float noise_factor = 0.5f;    // k
 constexpr std::size_t alike_levels = 2; // of AlikePixels, for the primal: pixels within 8
 constexpr int gradient_radius = 1, primal_radius = 2;
 constexpr float gradient_share = 0.5f, primal_share = 0.2f; // of the own variance against the mean around
@@ -104,11 +104,11 @@ void blend(const Image<float>& own, float own_share, const Brightness& brightnes
 }
 
 /// The weight of a gradient between two pixels. Where one has far less noise than the other, as a dark pixel
-/// beside a lamp's edge, it needs the gradient least, and would take the other's noise: what counts is the
-/// geometric mean.
-float weight(float alpha, float gradient_variance, float one_primal_variance, float other_primal_variance) {
-    const float primal_variance = std::sqrt(one_primal_variance) * std::sqrt(other_primal_variance);
-    const float least = alpha * alpha * primal_variance, noise = noise_factor * gradient_variance;
+/// beside a lamp's edge, it needs the gradient least, and would take the other's noise: its own counts.
+float weight(float alpha, float k, float gradient_variance, float one_primal_variance,
+             float other_primal_variance) {
+    const float least = alpha * alpha * std::min(one_primal_variance, other_primal_variance),
+                noise = k * gradient_variance;
     return noise > 0 ? least / (least + noise) : 1;
 }
 
@@ -158,13 +158,14 @@ EdgeWeights weights_of(const GradientImages& images, const Gradients& gradients,
         gradient_noise(gradients.dx, is_measured ? gradients.dx_variance : none, brightness, 1, 0, parallel_for);
     const Image<float> dy =
         gradient_noise(gradients.dy, is_measured ? gradients.dy_variance : none, brightness, 0, 1, parallel_for);
+    const float k = noise_factor / std::sqrt(images.patch);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
     parallel_for(height, [&](int y) {
         for (int x = 0; x + 1 < width; ++x)
-            weights.x(x, y) = weight(alpha, dx(x, y), primal(x, y), primal(x + 1, y));
+            weights.x(x, y) = weight(alpha, k, dx(x, y), primal(x, y), primal(x + 1, y));
         if (y + 1 < height)
             for (int x = 0; x < width; ++x)
-                weights.y(x, y) = weight(alpha, dy(x, y), primal(x, y), primal(x, y + 1));
+                weights.y(x, y) = weight(alpha, k, dy(x, y), primal(x, y), primal(x, y + 1));
     });
     return weights;
 }

@@ -16,7 +16,8 @@ namespace tessera {
 /// V_primal / V_gradient, but nobody should trust a gradient without limit, as rare paths that matter may not have
 /// been seen yet: alpha^2 is the least ratio V_gradient / V_primal that is believed,
 ///     w / alpha^2 = 1 / (alpha^2 + k V_gradient / V_primal) ,
-/// where V_primal is the geometric mean of those of both pixels.
+/// where V_primal is the smaller of those of both pixels, and k 1/2; less, over the square root of their edge,
+/// where primals are alike in patches (GradientImages::patch), and tell less together than they would.
 /// With one weight for both sides of a gradient, what one pixel gets from it is what the other loses: no light is
 /// lost.
 ///

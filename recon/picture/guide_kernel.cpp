@@ -12,11 +12,12 @@ namespace {
 constexpr float albedo_width = 0.5f, normal_width = 0.3f, nearness_width = 0.3f; // of its logarithm
 constexpr float roughness_width = 0.2f;                                          // of its root
 
-void weigh(const GuidePlanes& guides, const Unlikeness& unlike, const PixelRuns& runs, float share,
-           float* weights) {
-    std::fill_n(weights, runs.count, 0.0f);
-    if (unlike)
-        unlike(runs, weights);
+/// Pixels of a row from (x, y) on, and as many from (to_x, to_y) on, each of which is compared with one of these.
+struct PixelRuns {
+    int x, y, to_x, to_y, count;
+};
+
+void weigh(const GuidePlanes& guides, const PixelRuns& runs, float share, float* weights) {
     for (const Plane& guide : guides) {
         if (guide.empty())
             continue;
@@ -54,16 +55,16 @@ GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for
     return planes;
 }
 
-void write_pair_weights(const GuidePlanes& guides, const Unlikeness& unlike, int step,
-                        const ParallelFor& parallel_for, PairWeights& weights) {
+void write_pair_weights(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
+                        PairWeights& weights) {
     const int width = weights[0].width(), height = weights[0].height();
     parallel_for(height, [&](int y) {
         for (std::size_t k = 0; k < weights.size(); ++k) {
             const int shift = kernel_pairs[k].i * step, row = y + kernel_pairs[k].j * step;
             const int end = std::min(width, width - shift);
             for (int x = std::max(0, -shift); row < height && x < end; x += kernel_chunk)
-                weigh(guides, unlike, {x, y, x + shift, row, std::min(kernel_chunk, end - x)},
-                      kernel_pairs[k].share(), weights[k].row(y) + x);
+                weigh(guides, {x, y, x + shift, row, std::min(kernel_chunk, end - x)}, kernel_pairs[k].share(),
+                      weights[k].row(y) + x);
         }
     });
 }
@@ -71,8 +72,9 @@ void write_pair_weights(const GuidePlanes& guides, const Unlikeness& unlike, int
 AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for) {
     const GuidePlanes planes = planes_of(guides, parallel_for);
     for (std::size_t level = 0; level < steps.size(); ++level) {
-        make_planes(weights_[level], size.x, size.y);
-        write_pair_weights(planes, {}, steps[level], parallel_for, weights_[level]);
+        for (Plane& pair : weights_[level])
+            pair = Plane(size.x, size.y);
+        write_pair_weights(planes, steps[level], parallel_for, weights_[level]);
     }
 }
 

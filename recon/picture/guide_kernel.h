@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -69,19 +68,12 @@ inline constexpr std::array<KernelPair, 6> kernel_pairs = {{{1, 0}, {2, 0}, {0, 
 /// How much the two pixels of each pair count for each other, at the first of them.
 using PairWeights = std::array<Plane, kernel_pairs.size()>;
 
-/// Pixels of a row from (x, y) on, and as many from (to_x, to_y) on, each of which is compared with one of these.
-struct PixelRuns {
-    int x, y, to_x, to_y, count;
-};
-
-/// Writes what makes pixels unlike beside their guides, >= 0 and added to the sum above.
-using Unlikeness = std::function<void(const PixelRuns&, float* unlike)>;
-
 /// Of pairs with this step between their pixels.
-/// @param unlike   null: guides alone tell
-/// @param weights  of the picture's size, anything
-void write_pair_weights(const GuidePlanes& guides, const Unlikeness& unlike, int step,
-                        const ParallelFor& parallel_for, PairWeights& weights);
+/// @param weights  what makes the two unlike beside their guides, >= 0 and added to the sum above; becomes how
+///                 much they count for each other. What stands for a pair that reaches beyond the picture does
+///                 not matter
+void write_pair_weights(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
+                        PairWeights& weights);
 
 /// Columns that are worked on at a time, so that all about them stays at hand.
 inline constexpr int kernel_chunk = 128;

@@ -2,6 +2,7 @@
 
 #include "recon/picture/guide_kernel.h"
 #include "recon/picture/guide_regression.h"
+#include "recon/picture/unlikeness.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
@@ -22,9 +23,8 @@ namespace {
 // Tried on Veach, Ajar, Country Kitchen and Bathroom at 5 and 20 CPU seconds: none of these numbers matters by
 // more than a few percent when it is halved or doubled.
 constexpr int levels = 6;
-constexpr float noise_width = 16; // of brightness, in variances of its noise
-constexpr int noise_radius = 6;   // of the squares that tell noise,
-constexpr int trust_radius = 6;   // and how far a difference is more than that; wider by the level's step
+constexpr int noise_radius = 6; // of the squares that tell noise,
+constexpr int trust_radius = 6; // and how far a difference is more than that; wider by the level's step
 // Of the regression, which is of 5x5 pixels:
 constexpr int weight_radius = 2; // of the brightness that errors are held against,
 constexpr int fit_radius = 3;    // and of the squares that tell how far a difference is more than noise
@@ -71,19 +71,6 @@ float brightness_at(const Planes& planes, float least, std::size_t i) {
     return std::max(mean_of(planes, 0, i), 0.0f) + least;
 }
 
-/// How unlike brightnesses are, beside what noise makes of them.
-/// @param brightness, noise  logarithm, and the variance of its noise
-Unlikeness unlike_in(const Plane& brightness, const Plane& noise) {
-    return [&](const PixelRuns& runs, float* unlike) {
-        const float *own = brightness.row(runs.y) + runs.x, *other = brightness.row(runs.to_y) + runs.to_x;
-        const float *own_noise = noise.row(runs.y) + runs.x, *other_noise = noise.row(runs.to_y) + runs.to_x;
-        for (int i = 0; i < runs.count; ++i) {
-            const float d = own[i] - other[i];
-            unlike[i] = d * d / (noise_width * (own_noise[i] + other_noise[i]) + 1e-6f);
-        }
-    };
-}
-
 /// Level `step`, 2^l, of what the last one has left, to scratch.coarser.
 void write_next_level(const Planes& from, const GuidePlanes& guides, float least, int step,
                       const ParallelFor& parallel_for, Scratch& scratch) {
@@ -101,7 +88,8 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
         for (int x = 0; x < width; ++x)
             noise(x, y) *= of_gaussian * noise(x, y);
     });
-    write_pair_weights(guides, unlike_in(brightness, noise), step, parallel_for, scratch.weights);
+    write_unlikeness(brightness, noise, step, parallel_for, scratch.rows, scratch.weights);
+    write_pair_weights(guides, step, parallel_for, scratch.weights);
     write_kernel_means(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 

@@ -70,10 +70,11 @@ double sum_of(const RgbImage& image, const ParallelFor& parallel_for) {
                            [&](std::size_t i) { return luminance(image.data()[i]); });
 }
 
-/// Where noise is alike in squares of `patch` pixels, each pixel says less on its own, and the picture must be
-/// smoothed over the squares. Tried out on tiles of 6 pixels: alpha 0.2 leaves blobs, 0.1 and 0.07 are level.
-float alpha_of_patches(float alpha, float patch) {
-    return alpha / std::sqrt(patch);
+/// Where gradients have weights, nobody need be wary of all for the sake of some: alpha counts half. And where
+/// noise is alike in patches, the primal's pixels say less together: its weight, alpha^2, is less by the root of
+/// their edge, as k is (edge_weights.h).
+float alpha_of_weighted(float alpha, float patch) {
+    return 0.5f * alpha / std::sqrt(std::sqrt(patch));
 }
 
 /// Solvers go below black next to strong edges: radiance is not negative, unless the primal says so.
@@ -211,7 +212,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
                                  const SolveWatch& watch) {
     RgbImage noise;
     if (images.has_gradients() && settings.norm != Norm::smoothed) {
-        const float alpha = alpha_of_patches(settings.alpha, images.patch);
+        const float alpha = alpha_of_weighted(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
         // Noise need not be known better than it is alike from one half to another.
         constexpr WeightedSettings quick{.cold_iterations = 3, .warm_iterations = 2};
@@ -245,7 +246,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         solvers_->parts.reset();
     if (!images.parts.empty() && expands(settings.norm)) {
         const float alpha =
-            settings.norm == Norm::weighted ? alpha_of_patches(settings.alpha, images.patch) : settings.alpha;
+            settings.norm == Norm::weighted ? alpha_of_weighted(settings.alpha, images.patch) : settings.alpha;
         result.iterations =
             solvers_->made(solvers_->parts).solve(images, settings.norm, alpha, result.image, parallel_for, watch);
         if (watch.is_stopped())
@@ -274,7 +275,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     case Norm::weighted:
     case Norm::guided: // what comes after these is reconstruct()'s
     case Norm::oidn:
-        problem.alpha = alpha_of_patches(settings.alpha, images.patch);
+        problem.alpha = alpha_of_weighted(settings.alpha, images.patch);
         result.iterations = solve_weighted(images, problem, alike, result.image, parallel_for, watch);
         break;
     }

@@ -25,7 +25,7 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
     images.dx_variance(15, 10) = 1e6f;
     images.dy_variance(4, 4) = std::numeric_limits<float>::max();
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-    constexpr float usual = 4 / 11.0f; // 0.04 / (0.04 + 0.7 * 0.2 / 2)
+    constexpr float usual = 4 / 9.0f; // 0.04 / (0.04 + 0.2 / 2 / 2)
     EXPECT_FLOAT_EQ(weights.x(3, 17), usual);
     EXPECT_FLOAT_EQ(weights.y(28, 3), usual);
     EXPECT_FLOAT_EQ(weights.x(28, 17), usual);
@@ -38,6 +38,8 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
         EXPECT_EQ(weights.x(29, y), 0);
     for (int x = 0; x < 30; ++x)
         EXPECT_EQ(weights.y(x, 19), 0);
+    images.patch = 4;
+    EXPECT_FLOAT_EQ(weights_of_gradients(images, 0.2f).x(3, 17), 8 / 13.0f); // 0.04 / (0.04 + 0.2 / 2 / 2 / 2)
 }
 
 /// A dark groove between boards whose light is noisy, as much as they are bright: it knows how dark it is, and
@@ -125,6 +127,25 @@ TEST(EdgeWeights, PixelsThatLookAlikeTellHowWellOneIsKnown) {
     EXPECT_NEAR(of_alike.x(5, 10), around.x(5, 10), 0.01f * around.x(5, 10)); // amid what looks alike
     const EdgeWeights by_threads = weights_of_gradients(images, 0.2f, &alike, backwards_for);
     EXPECT_EQ(by_threads.x(board, 10), of_alike.x(board, 10));
+}
+
+/// Between two surfaces, of which one has a hundredth of the other's noise: what that one needs is what counts.
+TEST(EdgeWeights, ThePixelThatIsKnownBetterDecides) {
+    const int width = 30, height = 20, border = 15;
+    GradientImages images{RgbImage(width, height), RgbImage(width, height), RgbImage(width, height), {}};
+    images.primal_variance = Image<float>(width, height, 2);
+    images.dx_variance = images.dy_variance = Image<float>(width, height, 0.2f);
+    GuideImages guides{RgbImage(width, height, Rgb(0.8f)), Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)),
+                       Image<float>(width, height, 1), Image<float>(width, height, 1)};
+    for (int y = 0; y < height; ++y)
+        for (int x = border; x < width; ++x) {
+            images.primal_variance(x, y) = 0.02f;
+            guides.normal(x, y) = glm::vec3(1, 0, 0);
+        }
+    const AlikePixels alike({width, height}, guides, serial_for);
+    const EdgeWeights weights = weights_of_gradients(images, 0.2f, &alike);
+    EXPECT_NEAR(weights.x(border - 1, 10), weights.x(border + 5, 10), 0.01f * weights.x(border + 5, 10));
+    EXPECT_GT(weights.x(border - 2, 10), 10 * weights.x(border - 1, 10));
 }
 
 TEST(EdgeWeights, WithoutNoiseAllGradientsAreTrusted) {
