@@ -5,11 +5,19 @@
 #include "recon/picture/guide_kernel.h"
 #include "recon/poisson_weighted.h"
 
+#include <cmath>
+
 namespace tessera {
 
-/// Weights from the variances V of `images`, for a primal of weight alpha^2. Where nothing is noisy, they are 1.
-/// If it has no variances, as after a single sample, they are taken from how much each value differs from its
-/// neighbours.
+/// The weight of the primal, for a setting of alpha: half of it, as weights need not be wary of all gradients for
+/// the sake of some. Where noise is alike in patches, its square is less by the square root of their edge.
+inline float weighted_alpha(float alpha, float patch) {
+    return 0.5f * alpha / std::sqrt(std::sqrt(patch));
+}
+
+/// Weights from the variances V of `images`, for a primal of weight alpha^2 (weighted_alpha). Where nothing is
+/// noisy, they are 1. If it has no variances, as after a single sample, they are taken from how much each value
+/// differs from its neighbours.
 ///
 /// Image-space control variates [Rousselle 2016]: a pixel's neighbour, with the gradient between the two added, is
 /// one more estimate of the pixel, which counts with the inverse of its variance. Against the primal this is

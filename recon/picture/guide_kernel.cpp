@@ -72,8 +72,9 @@ void write_pair_weights(const GuidePlanes& guides, int step, const ParallelFor& 
 AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for) {
     const GuidePlanes planes = planes_of(guides, parallel_for);
     for (std::size_t level = 0; level < steps.size(); ++level) {
-        for (Plane& pair : weights_[level])
-            pair = Plane(size.x, size.y);
+        make_planes(weights_[level], size.x, size.y);
+        for (Plane& pair : weights_[level]) // nothing but guides makes pixels unlike
+            parallel_for(size.y, [&](int y) { std::fill_n(pair.row(y), size.x, 0.0f); });
         write_pair_weights(planes, steps[level], parallel_for, weights_[level]);
     }
 }

@@ -17,7 +17,7 @@ namespace tessera {
 ///     + v_x |Dx E - dx|^2 + v_y |Dy E - dy|^2 + (alpha |E - primal|)^2 ,
 /// where parts have the unit of E (render/estimator/basis.h), so that with one part of projection 1 this is the
 /// screened Poisson problem. (Eq. 19 divides the first row by the number of parts, and has other units: its lambda
-/// is alpha^2 4.75 / parts.)
+/// is alpha^2 4.75 / parts. For `weighted`, alpha is weighted_alpha().)
 ///   l2        w = 1, v = 0: linear in the data, but for what a last step of conjugate gradients would add, a
 ///             thousandth of the error
 ///   mixed     lengths in place of the first row's squares, by reweighting [Fang 2024, 4]; v = 0

@@ -70,13 +70,6 @@ double sum_of(const RgbImage& image, const ParallelFor& parallel_for) {
                            [&](std::size_t i) { return luminance(image.data()[i]); });
 }
 
-/// Where gradients have weights, nobody need be wary of all for the sake of some: alpha counts half. And where
-/// noise is alike in patches, the primal's pixels say less together: its weight, alpha^2, is less by the root of
-/// their edge, as k is (edge_weights.h).
-float alpha_of_weighted(float alpha, float patch) {
-    return 0.5f * alpha / std::sqrt(std::sqrt(patch));
-}
-
 /// Solvers go below black next to strong edges: radiance is not negative, unless the primal says so.
 void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     parallel_for(image.height(), [&](int y) {
@@ -212,7 +205,7 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
                                  const SolveWatch& watch) {
     RgbImage noise;
     if (images.has_gradients() && settings.norm != Norm::smoothed) {
-        const float alpha = alpha_of_weighted(settings.alpha, images.patch);
+        const float alpha = weighted_alpha(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
         // Noise need not be known better than it is alike from one half to another.
         constexpr WeightedSettings quick{.cold_iterations = 3, .warm_iterations = 2};
@@ -246,7 +239,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
         solvers_->parts.reset();
     if (!images.parts.empty() && expands(settings.norm)) {
         const float alpha =
-            settings.norm == Norm::weighted ? alpha_of_weighted(settings.alpha, images.patch) : settings.alpha;
+            settings.norm == Norm::weighted ? weighted_alpha(settings.alpha, images.patch) : settings.alpha;
         result.iterations =
             solvers_->made(solvers_->parts).solve(images, settings.norm, alpha, result.image, parallel_for, watch);
         if (watch.is_stopped())
@@ -275,7 +268,7 @@ Reconstruction Reconstructor::solve(const GradientImages& images, const Reconstr
     case Norm::weighted:
     case Norm::guided: // what comes after these is reconstruct()'s
     case Norm::oidn:
-        problem.alpha = alpha_of_weighted(settings.alpha, images.patch);
+        problem.alpha = weighted_alpha(settings.alpha, images.patch);
         result.iterations = solve_weighted(images, problem, alike, result.image, parallel_for, watch);
         break;
     }

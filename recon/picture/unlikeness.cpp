@@ -37,6 +37,8 @@ struct PairedPixels {
 template <class Visit>
 void for_unlikeness(const Plane& brightness, const Plane& noise, int y, KernelPair step, PairedPixels columns,
                     const Visit& visit) {
+    if (columns.begin == columns.end)
+        return;
     const float *own = brightness.row(y), *other = brightness.row(y + step.j) + step.i;
     const float *own_noise = noise.row(y), *other_noise = noise.row(y + step.j) + step.i;
     for (int x = columns.begin; x < columns.end; ++x) {

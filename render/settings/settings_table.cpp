@@ -258,7 +258,7 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
          one_of(norm_choices(), s.norm)},
         {"alpha", "Alpha",
          "Weight of the primal against the gradients (no unit). Small: gradients alone decide on all but the "
-         "mean, as far as they are trusted.",
+         "mean, as far as they are trusted; with weights of their own alpha counts half.",
          Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10},
          s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed},
         {"joint_colour", "Joint colour",

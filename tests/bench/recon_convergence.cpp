@@ -98,20 +98,22 @@ public:
     WeightedCase() : Case("weighted", true) {}
 
     double objective_of(const GradientImages& g, const RgbImage& image) const override {
-        const EdgeWeights weights = weights_of_gradients(g, alpha);
+        const float a = weighted_alpha(alpha, g.patch);
+        const EdgeWeights weights = weights_of_gradients(g, a);
         return objective(
             g, image, &weights, [](double misfit, double weight) { return weight * misfit * misfit; },
-            [](double misfit) { return alpha * alpha * misfit * misfit; });
+            [a](double misfit) { return double(a * a) * misfit * misfit; });
     }
 
     RgbImage solve(const GradientImages& g, int cold, const GradientImages* newer, int warm) const override {
         WeightedSolver solver(g.primal.width(), g.primal.height());
         const WeightedSettings settings{.cold_iterations = cold, .warm_iterations = warm};
         RgbImage image;
-        solver.solve({g.primal, g.dx, g.dy, alpha}, weights_of_gradients(g, alpha), settings, image);
+        const float a = weighted_alpha(alpha, g.patch);
+        solver.solve({g.primal, g.dx, g.dy, a}, weights_of_gradients(g, a), settings, image);
         if (newer)
-            solver.solve({newer->primal, newer->dx, newer->dy, alpha}, weights_of_gradients(*newer, alpha),
-                         settings, image);
+            solver.solve({newer->primal, newer->dx, newer->dy, a}, weights_of_gradients(*newer, a), settings,
+                         image);
         return image;
     }
 
