@@ -12,7 +12,7 @@ namespace {
 
 // What counts as unlike where two pixels are compared, and where the squares around them are. Tried on Veach,
 // Ajar, Country Kitchen, Bathroom and The Grey & White Room, 4 and about 15 samples: none matters by more than
-// half a percent of FLIP when it is changed by a half.
+// half a percent of FLIP when it is changed by a third.
 constexpr float pixel_width = 16, square_width = 3;
 constexpr float most_unlike = 32; // of a pair in a square: one pixel does not decide on all that are around
 
