@@ -2,7 +2,6 @@
 
 #include "recon/picture/guide_kernel.h"
 #include "recon/picture/guide_regression.h"
-#include "recon/picture/unlikeness.h"
 #include "recon/square_means.h"
 
 #include <algorithm>

@@ -97,7 +97,7 @@ TEST(Guided, IsConsistent) {
 }
 
 /// A chequered light that no guide shows, in noise as strong: two pixels hardly tell it from that, but squares do.
-/// (0.84 of the noise by pairs alone.)
+/// (0.82 of the noise by pairs alone.)
 TEST(Guided, PatternsAreKeptThatPairsOfPixelsCannotTell) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
