@@ -102,13 +102,13 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
                   (gradients ? 3 : 1) * sizeof(float) + (demodulated ? Demodulation::bytes_a_pixel : 0) +
                   static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
     const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
-    const std::uint64_t limits =
-        wanted.settings.spikes == Spikes::consistent ? pixels * bytes_to_limit(gradients, demodulated) : 0;
+    const bool is_limited = wanted.settings.spikes == Spikes::consistent;
+    const std::uint64_t limits = is_limited ? pixels * bytes_to_limit(gradients, demodulated) : 0;
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most = std::max(most,
-                        images + remodulation + limits + done +
-                            Reconstructor().bytes_for(size.x, size.y, applied(norm, gradients), threads, parts));
+        most = std::max(most, images + remodulation + limits + done +
+                                  Reconstructor().bytes_for(size.x, size.y, applied(norm, gradients), threads,
+                                                            parts, is_limited));
         done += pixels * sizeof(Rgb);
     }
     return most;

@@ -17,7 +17,7 @@ constexpr float roughness_width = 0.2f;                                         
 // What counts as unlike where two pixels are compared, and where the squares around them are. Tried on Veach,
 // Ajar, Country Kitchen, Bathroom and The Grey & White Room, 4 and about 15 samples: none matters by more than
 // half a percent of FLIP when it is changed by a third.
-constexpr float pixel_width = 16, square_width = 3;
+constexpr float pixel_width = 20, square_width = 3.5f;
 constexpr float most_unlike = 32; // of a pair in a square: one pixel does not decide on all that are around
 
 /// Pixels of a row from (x, y) on, and as many from (to_x, to_y) on, each of which is compared with one of these.
@@ -25,7 +25,17 @@ struct PixelRuns {
     int x, y, to_x, to_y, count;
 };
 
+/// About exp(-unlike), and 0 from 8 on.
+float alikeness(float unlike) {
+    float w = std::max(0.0f, 1 - unlike * 0.125f);
+    w *= w;
+    w *= w;
+    return w * w;
+}
+
+/// @param weights  in a row, at the first of each pair
 void weigh(const GuidePlanes& guides, const PixelRuns& runs, float share, float* weights) {
+    std::fill_n(weights, runs.count, 0.0f);
     for (const Plane& guide : guides) {
         if (guide.empty())
             continue;
@@ -33,12 +43,22 @@ void weigh(const GuidePlanes& guides, const PixelRuns& runs, float share, float*
         for (int i = 0; i < runs.count; ++i)
             weights[i] += (here[i] - there[i]) * (here[i] - there[i]);
     }
-    for (int i = 0; i < runs.count; ++i) { // about exp(-unlike), and 0 from 8 on
-        float w = std::max(0.0f, 1 - weights[i] * 0.125f);
-        w *= w;
-        w *= w;
-        weights[i] = share * w * w;
-    }
+    for (int i = 0; i < runs.count; ++i)
+        weights[i] = share * alikeness(weights[i]);
+}
+
+void write_weights_by_guides(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
+                             PairWeights& weights) {
+    const int width = weights[0].width(), height = weights[0].height();
+    parallel_for(height, [&](int y) {
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            const int shift = kernel_pairs[k].i * step, row = y + kernel_pairs[k].j * step;
+            const int end = std::min(width, width - shift);
+            for (int x = std::max(0, -shift); row < height && x < end; x += kernel_chunk)
+                weigh(guides, {x, y, x + shift, row, std::min(kernel_chunk, end - x)}, kernel_pairs[k].share(),
+                      weights[k].row(y) + x);
+        }
+    });
 }
 
 /// The pixels of a line that have another so many on, and how many of the squares around one of them have.
@@ -72,8 +92,6 @@ void for_unlikeness(const Plane& brightness, const Plane& noise, int y, KernelPa
     }
 }
 
-} // namespace
-
 GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for) {
     GuidePlanes planes;
     if (guides.empty())
@@ -94,55 +112,13 @@ GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for
     return planes;
 }
 
-void write_pair_weights(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
-                        PairWeights& weights) {
-    const int width = weights[0].width(), height = weights[0].height();
-    parallel_for(height, [&](int y) {
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-            const int shift = kernel_pairs[k].i * step, row = y + kernel_pairs[k].j * step;
-            const int end = std::min(width, width - shift);
-            for (int x = std::max(0, -shift); row < height && x < end; x += kernel_chunk)
-                weigh(guides, {x, y, x + shift, row, std::min(kernel_chunk, end - x)}, kernel_pairs[k].share(),
-                      weights[k].row(y) + x);
-        }
-    });
-}
+} // namespace
 
-void write_unlikeness(const Plane& brightness, const Plane& noise, int step, const ParallelFor& parallel_for,
-                      Plane& scratch, PairWeights& unlike) {
-    const int width = noise.width(), height = noise.height(), radius = 2 * step;
-    for (std::size_t k = 0; k < kernel_pairs.size(); ++k) {
-        const KernelPair apart{kernel_pairs[k].i * step, kernel_pairs[k].j * step};
-        const PairedPixels columns(width, apart.i), rows(height, apart.j);
-        Plane& pairs = unlike[k];
-        parallel_for(height, [&](int y) {
-            float* row = pairs.row(y);
-            std::fill_n(row, width, 0.0f);
-            if (y < rows.end)
-                for_unlikeness(brightness, noise, y, apart, columns,
-                               [=](int x, float own) { row[x] = std::min(own, most_unlike); });
-        });
-        take_wide_means(pairs, radius, scratch, parallel_for);
-        std::vector<float> shares(static_cast<std::size_t>(width));
-        for (int x = columns.begin; x < columns.end; ++x)
-            shares[static_cast<std::size_t>(x)] = columns.of_paired(x, radius) / square_width;
-        parallel_for(rows.end, [&](int y) {
-            float* row = pairs.row(y);
-            const float share = rows.of_paired(y, radius);
-            for_unlikeness(brightness, noise, y, apart, columns, [&, row](int x, float own) {
-                row[x] = 0.5f * (own / pixel_width + share * shares[static_cast<std::size_t>(x)] * row[x]);
-            });
-        });
-    }
-}
-
-AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for) {
-    const GuidePlanes planes = planes_of(guides, parallel_for);
+AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for)
+    : guides_(planes_of(guides, parallel_for)) {
     for (std::size_t level = 0; level < steps.size(); ++level) {
         make_planes(weights_[level], size.x, size.y);
-        for (Plane& pair : weights_[level]) // nothing but guides makes pixels unlike
-            parallel_for(size.y, [&](int y) { std::fill_n(pair.row(y), size.x, 0.0f); });
-        write_pair_weights(planes, steps[level], parallel_for, weights_[level]);
+        write_weights_by_guides(guides_, steps[level], parallel_for, weights_[level]);
     }
 }
 
@@ -153,6 +129,36 @@ void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFo
         std::swap(from, to);
     }
     values = std::move(from[0]);
+}
+
+void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
+                         const ParallelFor& parallel_for, Plane& scratch, PairWeights& weights) {
+    const int width = noise.width(), height = noise.height(), radius = (3 * step + 1) / 2;
+    std::vector<float> shares(static_cast<std::size_t>(width));
+    for (std::size_t k = 0; k < kernel_pairs.size(); ++k) {
+        const KernelPair apart{kernel_pairs[k].i * step, kernel_pairs[k].j * step};
+        const PairedPixels columns(width, apart.i), rows(height, apart.j);
+        Plane& pairs = weights[k];
+        parallel_for(height, [&](int y) {
+            float* row = pairs.row(y);
+            std::fill_n(row, width, 0.0f);
+            if (y < rows.end)
+                for_unlikeness(brightness, noise, y, apart, columns,
+                               [=](int x, float own) { row[x] = std::min(own, most_unlike); });
+        });
+        take_wide_means(pairs, radius, scratch, parallel_for);
+        for (int x = columns.begin; x < columns.end; ++x)
+            shares[static_cast<std::size_t>(x)] = columns.of_paired(x, radius) / square_width;
+        parallel_for(rows.end, [&](int y) {
+            float* row = pairs.row(y);
+            const float* guided = by_guides[k].row(y);
+            const float share = rows.of_paired(y, radius);
+            for_unlikeness(brightness, noise, y, apart, columns, [&, row, guided](int x, float own) {
+                const float of_square = share * shares[static_cast<std::size_t>(x)] * row[x];
+                row[x] = guided[x] * alikeness(0.5f * (own / pixel_width + of_square));
+            });
+        });
+    }
 }
 
 } // namespace tessera

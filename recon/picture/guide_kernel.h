@@ -33,8 +33,6 @@ void make_planes(std::array<Plane, count>& planes, int width, int height) {
 inline constexpr int guide_count = 8;
 using GuidePlanes = std::array<Plane, guide_count>;
 
-GuidePlanes planes_of(const GuideImages& guides, const ParallelFor& parallel_for);
-
 /// Of what pixel i shows; 1: there are no guides. Darker surfaces have hardly any light to tell of.
 inline Rgb seen_albedo(const GuideImages& guides, std::size_t i) {
     constexpr float least = 0.02f;
@@ -65,27 +63,9 @@ struct KernelPair {
 };
 inline constexpr std::array<KernelPair, 6> kernel_pairs = {{{1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {-1, 1}}};
 
-/// How much the two pixels of each pair count for each other, at the first of them.
+/// How much the two pixels of each pair count for each other, at the first of them. What stands for a pair that
+/// reaches beyond the picture does not matter.
 using PairWeights = std::array<Plane, kernel_pairs.size()>;
-
-/// Of pairs with this step between their pixels.
-/// @param weights  what makes the two unlike beside their guides, >= 0 and added to the sum above; becomes how
-///                 much they count for each other. What stands for a pair that reaches beyond the picture does
-///                 not matter
-void write_pair_weights(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
-                        PairWeights& weights);
-
-/// How unlike the pixels of each pair are by their brightness, where that is noisy: half by the two alone, half by
-/// all pairs in the same direction from a square about as wide as the kernel, as patches tell in non-local means
-/// [Buades 2005]. Of noise a few pixels have much, and look unlike by it alone; and a pattern that noise hides
-/// between two pixels is seen in a square. (A straight edge is rather diluted there.)
-/// @param brightness  its logarithm
-/// @param noise       the variance of its noise
-/// @param step        between the pixels of a pair
-/// @param scratch     of the picture's size, anything
-/// @param unlike      likewise; becomes what write_pair_weights() takes
-void write_unlikeness(const Plane& brightness, const Plane& noise, int step, const ParallelFor& parallel_for,
-                      Plane& scratch, PairWeights& unlike);
 
 /// Columns that are worked on at a time, so that all about them stays at hand.
 inline constexpr int kernel_chunk = 128;
@@ -159,6 +139,8 @@ public:
     /// Empty guides: all pixels look alike.
     AlikePixels(glm::ivec2 size, const GuideImages& guides, const ParallelFor& parallel_for);
 
+    const GuidePlanes& guides() const { return guides_; }
+
     /// Of the pairs steps[level] apart.
     const PairWeights& weights(std::size_t level) const { return weights_[level]; }
 
@@ -169,7 +151,21 @@ public:
         (steps.size() * kernel_pairs.size() + guide_count) * sizeof(float);
 
 private:
+    GuidePlanes guides_;
     std::array<PairWeights, steps.size()> weights_;
 };
+
+/// The weights of pairs whose brightness tells, too, and is noisy: those by guides times about exp(-u), where u is
+/// how unlike the brightness is, half by the two pixels alone, half by all pairs in the same direction from a
+/// square about as wide as the kernel, as patches tell in non-local means [Buades 2005]. Of noise a few pixels
+/// have much, and look unlike by it alone; and a pattern that noise hides between two pixels is seen in a square.
+/// (A straight edge is rather diluted there.)
+/// @param by_guides   of pairs `step` apart
+/// @param brightness  its logarithm
+/// @param noise       the variance of its noise
+/// @param scratch     of the picture's size, anything
+/// @param weights     likewise
+void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
+                         const ParallelFor& parallel_for, Plane& scratch, PairWeights& weights);
 
 } // namespace tessera

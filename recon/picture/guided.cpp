@@ -21,7 +21,8 @@ namespace {
 
 // Tried on Veach, Ajar, Country Kitchen and Bathroom at 5 and 20 CPU seconds: none of these numbers matters by
 // more than a few percent when it is halved or doubled.
-constexpr int levels = 6;
+constexpr int levels = 4; // of AlikePixels: pixels within 80
+static_assert(levels <= AlikePixels::steps.size());
 constexpr int noise_radius = 6; // of the squares that tell noise,
 constexpr int trust_radius = 6; // and how far a difference is more than that; wider by the level's step
 // Of the regression, which is of 5x5 pixels:
@@ -70,9 +71,10 @@ float brightness_at(const Planes& planes, float least, std::size_t i) {
     return std::max(mean_of(planes, 0, i), 0.0f) + least;
 }
 
-/// Level `step`, 2^l, of what the last one has left, to scratch.coarser.
-void write_next_level(const Planes& from, const GuidePlanes& guides, float least, int step,
+/// The next level of what the last one has left, to scratch.coarser.
+void write_next_level(const Planes& from, const AlikePixels& alike, float least, std::size_t level,
                       const ParallelFor& parallel_for, Scratch& scratch) {
+    const int step = AlikePixels::steps[level];
     Plane &brightness = scratch.brightness, &noise = scratch.noise;
     const int width = noise.width();
     for_pixels(noise.width(), noise.height(), parallel_for, [&](std::size_t i) {
@@ -87,8 +89,8 @@ void write_next_level(const Planes& from, const GuidePlanes& guides, float least
         for (int x = 0; x < width; ++x)
             noise(x, y) *= of_gaussian * noise(x, y);
     });
-    write_unlikeness(brightness, noise, step, parallel_for, scratch.rows, scratch.weights);
-    write_pair_weights(guides, step, parallel_for, scratch.weights);
+    write_noisy_weights(alike.weights(level), brightness, noise, step, parallel_for, scratch.rows,
+                        scratch.weights);
     write_kernel_means(from, scratch.weights, step, parallel_for, scratch.coarser);
 }
 
@@ -216,8 +218,8 @@ void write_picture(const Planes& radiance, const ParallelFor& parallel_for, Nois
 
 } // namespace
 
-NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
-                              const SolveWatch& watch) {
+NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const AlikePixels& alike,
+                              const ParallelFor& parallel_for, const SolveWatch& watch) {
     if (!can_be_squared(picture.image, parallel_for) || !can_be_squared(picture.noise, parallel_for))
         return picture;
     Planes finer = light_of(picture, guides, parallel_for);
@@ -225,7 +227,6 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
     if (least == 0)
         return picture;
     const int width = picture.image.width(), height = picture.image.height();
-    const GuidePlanes alike = planes_of(guides, parallel_for);
     Planes differences;
     make_planes(differences, width, height);
     for_pixels(width, height, parallel_for, [&](std::size_t i) {
@@ -233,11 +234,11 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
             plane.data()[i] = 0;
     });
     Scratch scratch = scratch_of(width, height);
-    for (int l = 0; l < levels; ++l) {
-        if (!watch.goes_on(l, levels + 1))
+    for (std::size_t l = 0; l < levels; ++l) {
+        if (!watch.goes_on(static_cast<int>(l), levels + 1))
             return {};
-        write_next_level(finer, alike, least, 1 << l, parallel_for, scratch);
-        add_difference(finer, trust_radius + (1 << l), least, parallel_for, scratch, differences);
+        write_next_level(finer, alike, least, l, parallel_for, scratch);
+        add_difference(finer, trust_radius + AlikePixels::steps[l], least, parallel_for, scratch, differences);
         std::swap(finer, scratch.coarser);
     }
     if (!watch.goes_on(levels, levels + 1))
@@ -245,14 +246,14 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
     Planes& radiance = differences;
     make_radiance(finer, guides, parallel_for, radiance);
     if (!guides.empty())
-        regress(alike, parallel_for, scratch, radiance);
+        regress(alike.guides(), parallel_for, scratch, radiance);
     write_picture(radiance, parallel_for, picture);
     return picture;
 }
 
 std::uint64_t bytes_to_smooth(int width, int height) {
     constexpr std::uint64_t planes =
-        3 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4 + guide_count; // levels, sum, scratch
+        3 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4; // levels, sum, scratch
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 

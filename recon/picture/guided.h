@@ -7,16 +7,19 @@
 
 namespace tessera {
 
+class AlikePixels;
+
 // What a solver leaves is smoothed where pixels look alike, as far as it is noise. The measure of noise is the
 // half difference of two halves of the samples (HalfDifferences), which has gone through the same solver as the
 // picture and goes through the same smoothing: so that it tells what is left of the noise at every size, however
 // alike that is in the pixels of a tile.
 //
-// Level l + 1 of a picture is level l, smoothed by a kernel of 5x5 pixels that are 2^l apart [the a trous filter
-// of Dammertz 2010]. A pixel counts the less the less it looks like the one in the middle: in its guides, and in
-// its brightness beside the noise that both have at that level [as in Schied 2017], where the squares around them
-// tell as much as the two (write_unlikeness). The picture is the last level plus the differences between each
-// level and the next, each as far as it stands out from its noise in the pixels around [James and Stein 1961],
+// Level l + 1 of a picture is level l, smoothed by a kernel of 5x5 pixels that are 3^l apart [the a trous filter
+// of Dammertz 2010, there 2^l]. A pixel counts the less the less it looks like the one in the middle: in its
+// guides, and in its brightness beside the noise that both have at that level [as in Schied 2017], where the
+// squares around them tell as much as the two (write_noisy_weights). The picture is the last level plus the
+// differences between each level and the next, each as far as it stands out from its noise in the pixels around
+// [James and Stein 1961],
 //     c = max(0, 1 - (mean of |noise|^1/2 / mean of |difference|^1/2)^4) .
 // Last comes a regression on guides, which takes the noise of edges (guide_regression.h), as far as the difference
 // to it does not stand out likewise. Noise goes to zero as samples grow, and c to 1: the picture is consistent. It
@@ -30,8 +33,9 @@ struct NoisyPicture {
 /// Smooths radiance without very direct light, over the albedo of its guides: what a texture does to light is
 /// known. Light is not quite kept. With the noise that is left: what of the noise has gone the same way. Empty:
 /// stopped. The same bits for any parallel_for.
-NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for,
-                              const SolveWatch& watch = {});
+/// @param alike  by these guides
+NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const AlikePixels& alike,
+                              const ParallelFor& parallel_for, const SolveWatch& watch = {});
 
 /// The memory that it takes, beside what it is given.
 std::uint64_t bytes_to_smooth(int width, int height);

@@ -186,23 +186,32 @@ Plane brightness_about(const RgbImage& image, const AlikePixels& alike, const Im
 
 } // namespace
 
-void spread_around(const RgbImage& light, const RgbImage& shown, const AlikePixels& alike,
-                   const Image<std::uint8_t>& black, RgbImage& image, const ParallelFor& parallel_for) {
+LitSurroundings lit_surroundings(const RgbImage& shown, const AlikePixels& alike, const Image<std::uint8_t>& black,
+                                 const ParallelFor& parallel_for) {
+    Plane brightness = brightness_about(shown, alike, black, parallel_for);
+    Plane around = copy_of(brightness, parallel_for);
+    blur(around, spread_radius, parallel_for);
+    return {std::move(brightness), std::move(around)};
+}
+
+void spread_around(const RgbImage& light, const LitSurroundings& surroundings, RgbImage& image,
+                   const ParallelFor& parallel_for) {
     const double sum = sum_of_sizes(light, parallel_for);
     if (!(sum > 0))
         return;
     const auto least = static_cast<float>(1e-30 * sum); // so that quotients are finite
-    const Plane brightness = brightness_about(shown, alike, black, parallel_for);
-    Plane around = copy_of(brightness, parallel_for);
-    blur(around, spread_radius, parallel_for);
+    const Plane &brightness = surroundings.brightness, &around = surroundings.around;
     const int width = image.width(), height = image.height();
     RgbImage ratio(width, height, Unfilled());
-    for_pixels(width, height, parallel_for, [&](std::size_t i) {
-        ratio.data()[i] = around.data()[i] > least ? light.data()[i] / around.data()[i] : Rgb(0);
+    parallel_for(height, [&](int y) {
+        for (int x = 0; x < width; ++x)
+            ratio(x, y) = around(x, y) > least ? light(x, y) / around(x, y) : Rgb(0);
     });
     blur(ratio, spread_radius, parallel_for);
-    for_pixels(width, height, parallel_for,
-               [&](std::size_t i) { image.data()[i] += brightness.data()[i] * ratio.data()[i]; });
+    parallel_for(height, [&](int y) {
+        for (int x = 0; x < width; ++x)
+            image(x, y) += brightness(x, y) * ratio(x, y);
+    });
 }
 
 } // namespace tessera

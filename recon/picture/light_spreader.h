@@ -25,16 +25,23 @@ namespace tessera {
 void spread_to_alike(RgbImage& light, RgbImage& image, const AlikePixels& alike, const GuideImages& guides,
                      const RgbImage& room, const ParallelFor& parallel_for);
 
+/// What light follows that goes to the pixels around: the brightness about each, and what of it is around there.
+struct LitSurroundings {
+    Plane brightness, around;
+};
+/// @param shown  the radiance whose brightness it is
+/// @param black  1 where a pixel is to be given none; empty: nowhere
+LitSurroundings lit_surroundings(const RgbImage& shown, const AlikePixels& alike, const Image<std::uint8_t>& black,
+                                 const ParallelFor& parallel_for);
+
 /// Adds to the image as much light as there is in `light`, given to the pixels around where it is, whatever they
 /// look like, about 20 pixels wide, by the brightness about each: but for rounding, and for what is about black
 /// pixels alone, which is lost.
-/// @param shown  the radiance whose brightness it is; may be `image`
-/// @param black  1 where a pixel is given none; empty: nowhere
-void spread_around(const RgbImage& light, const RgbImage& shown, const AlikePixels& alike,
-                   const Image<std::uint8_t>& black, RgbImage& image, const ParallelFor& parallel_for);
+void spread_around(const RgbImage& light, const LitSurroundings& surroundings, RgbImage& image,
+                   const ParallelFor& parallel_for);
 
-/// The memory that all of this takes, a pixel: kernels; S, its limits, what is spread and a quotient; or what
-/// spread_around() has, two images and three of numbers, when these are gone.
-inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + 12 * sizeof(float);
+/// The memory that all of this takes, a pixel: kernels and LitSurroundings; S, its limits, what is spread and a
+/// quotient; or what spread_around() has, two images, when these are gone.
+inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + (2 + 12) * sizeof(float);
 
 } // namespace tessera

@@ -70,6 +70,13 @@ double sum_of(const RgbImage& image, const ParallelFor& parallel_for) {
                            [&](std::size_t i) { return luminance(image.data()[i]); });
 }
 
+/// Whether a picture is smoothed by guides: whether there is what it takes.
+bool smooths(const GradientImages& images, Norm norm) {
+    const bool wants =
+        norm == Norm::smoothed || (images.has_gradients() && (norm == Norm::guided || norm == Norm::oidn));
+    return wants && !images.guides.empty() && !images.halves.empty();
+}
+
 /// Solvers go below black next to strong edges: radiance is not negative, unless the primal says so.
 void lift_to_black(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     parallel_for(image.height(), [&](int y) {
@@ -122,23 +129,25 @@ struct Reconstructor::Solvers {
 /// What single samples are not believed, and what their pixels are.
 struct Reconstructor::Limits {
     RgbImage held; ///< radiance that spikes hold back
-    AlikePixels alike;
     UpperBounds bounds;
+    LitSurroundings surroundings; ///< of the picture in which light was spread
 
-    void spread(const GuideImages& guides, RgbImage& image, const ParallelFor& parallel_for) const;
+    void spread(const GuideImages& guides, const AlikePixels& alike, RgbImage& image,
+                const ParallelFor& parallel_for);
 };
 
 /// Gives what spikes hold back, and what the solver has put above the bounds, to pixels that look alike and have
 /// room below theirs; and what is left over to those around, whatever their bounds: no light is lost, but where
 /// all is black, and hardly any goes where it is known to be dark. Without bounds, only what is held.
-void Reconstructor::Limits::spread(const GuideImages& guides, RgbImage& image,
-                                   const ParallelFor& parallel_for) const {
+void Reconstructor::Limits::spread(const GuideImages& guides, const AlikePixels& alike, RgbImage& image,
+                                   const ParallelFor& parallel_for) {
     RgbImage light = copy_of(held, parallel_for);
     if (!bounds.empty())
         add(light, take_excess(bounds, reach, image, parallel_for), parallel_for);
     const RgbImage room = room_below(bounds, reach, image, parallel_for);
     spread_to_alike(light, image, alike, guides, room, parallel_for);
-    spread_around(light, image, alike, bounds.black, image, parallel_for);
+    surroundings = lit_surroundings(image, alike, bounds.black, parallel_for);
+    spread_around(light, surroundings, image, parallel_for);
 }
 
 Reconstructor::Reconstructor() = default;
@@ -154,8 +163,11 @@ void Reconstructor::forget() {
             (*solver)->forget();
 }
 
-std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts) const {
-    const std::uint64_t image = sizeof(Rgb) * static_cast<std::uint64_t>(width) * height;
+std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts,
+                                       bool is_limited) const {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * height, image = sizeof(Rgb) * pixels;
+    const std::uint64_t smoothing =
+        bytes_to_smooth(width, height) + (is_limited ? 0 : AlikePixels::bytes_a_pixel * pixels);
     const Solvers* kept =
         solvers_ && solvers_->width == width && solvers_->height == height ? &*solvers_ : nullptr;
     if (parts > 0 && expands(norm))
@@ -179,11 +191,11 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     case Norm::oidn: { // the smoothing comes when both are solved, and the denoiser after it
         const std::uint64_t solver = WeightedSolver::bytes(width, height, threads);
         const std::uint64_t denoiser = norm == Norm::oidn ? 6 * image + bytes_of_oidn(width, height) : 0;
-        return 2 * image + std::max(bytes_to_smooth(width, height), denoiser) +
-               (kept && kept->weighted ? 0 : solver) + (kept && kept->noise ? 0 : solver);
+        return 2 * image + std::max(smoothing, denoiser) + (kept && kept->weighted ? 0 : solver) +
+               (kept && kept->noise ? 0 : solver);
     }
     case Norm::smoothed:
-        return 2 * image + bytes_to_smooth(width, height);
+        return 2 * image + smoothing;
     }
     return 0;
 }
@@ -201,14 +213,13 @@ int Reconstructor::solve_weighted(const GradientImages& images, const PoissonPro
 /// The noise of a picture that was made by the same equations, radiance: what the halves of the samples make of
 /// it, with what of the light held back is in one or the other. Anything: stopped.
 RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
-                                 const Limits* limits, const RgbImage& picture, const ParallelFor& parallel_for,
-                                 const SolveWatch& watch) {
+                                 const Limits* limits, const ParallelFor& parallel_for, const SolveWatch& watch) {
     RgbImage noise;
     if (images.has_gradients() && settings.norm != Norm::smoothed) {
         const float alpha = weighted_alpha(settings.alpha, images.patch);
         const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
         // Noise need not be known better than it is alike from one half to another.
-        constexpr WeightedSettings quick{.cold_iterations = 3, .warm_iterations = 2};
+        constexpr WeightedSettings quick{.cold_iterations = 2, .warm_iterations = 2};
         solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
         solvers_->weights = {};
     } else {
@@ -216,12 +227,12 @@ RgbImage Reconstructor::noise_of(const GradientImages& images, const Reconstruct
     }
     multiply_by_known_albedo(images.demodulation, noise, parallel_for);
     if (limits && !images.brightest.half.empty()) {
-        RgbImage held(picture.width(), picture.height(), Unfilled());
+        RgbImage held(noise.width(), noise.height(), Unfilled());
         for_pixels(held.width(), held.height(), parallel_for, [&](std::size_t i) {
             held.data()[i] = limits->held.data()[i] * images.brightest.half.data()[i];
         });
         // To pixels that look alike farther away, too, is level.
-        spread_around(held, picture, limits->alike, limits->bounds.black, noise, parallel_for);
+        spread_around(held, limits->surroundings, noise, parallel_for);
     }
     return noise;
 }
@@ -292,17 +303,15 @@ Reconstruction Reconstructor::picture_of(const GradientImages& images, const Rec
 
 /// What is done to a picture without very direct light after it is solved. Empties it: stopped.
 void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
-                           const Limits* limits, RgbImage& picture, const ParallelFor& parallel_for,
-                           const SolveWatch& watch) {
+                           const AlikePixels* alike, const Limits* limits, RgbImage& picture,
+                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const bool has_gradients = images.has_gradients();
-    const bool smooths = settings.norm == Norm::smoothed ||
-                         (has_gradients && (settings.norm == Norm::guided || settings.norm == Norm::oidn));
     const double light = sum_of(picture, parallel_for);
     RgbImage noise;
-    if (smooths && !images.guides.empty() && !images.halves.empty()) {
-        noise = noise_of(images, settings, limits, picture, parallel_for, watch);
+    if (smooths(images, settings.norm)) {
+        noise = noise_of(images, settings, limits, parallel_for, watch);
         NoisyPicture smooth =
-            smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, parallel_for, watch);
+            smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, *alike, parallel_for, watch);
         picture = std::move(smooth.image);
         noise = std::move(smooth.noise);
         if (limits && !picture.empty())
@@ -338,20 +347,21 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     const GradientImages limited_images = is_limited ? limited(images, held, parallel_for) : GradientImages();
     const GradientImages& counted = is_limited ? limited_images : images;
     std::optional<AlikePixels> alike;
-    if (is_limited)
-        alike.emplace(glm::ivec2(held.width(), held.height()), images.guides, parallel_for);
-    const bool is_told_alike = alike && !images.guides.empty();
+    if (is_limited || smooths(images, settings.norm))
+        alike.emplace(glm::ivec2(images.primal.width(), images.primal.height()), images.guides, parallel_for);
+    const bool is_told_alike = is_limited && !images.guides.empty();
     Reconstruction result = picture_of(counted, settings, is_told_alike ? &*alike : nullptr, parallel_for, watch);
     std::optional<Limits> limits;
     if (is_limited && !result.image.empty()) {
         UpperBounds bounds = upper_bounds(counted, images.radiance(), *alike, parallel_for);
-        limits.emplace(std::move(held), std::move(*alike), std::move(bounds));
-        limits->spread(images.guides, result.image, parallel_for);
+        limits.emplace(std::move(held), std::move(bounds), LitSurroundings());
+        limits->spread(images.guides, *alike, result.image, parallel_for);
         const double all = sum_of(images.radiance(), parallel_for);
         result.held_share = all > 0 ? sum_of(limits->held, parallel_for) / all : 0;
     }
     if (!result.image.empty())
-        finish(counted, settings, limits ? &*limits : nullptr, result.image, parallel_for, watch);
+        finish(counted, settings, alike ? &*alike : nullptr, limits ? &*limits : nullptr, result.image,
+               parallel_for, watch);
     solvers_->weights = {};
     if (!result.image.empty())
         add(result.image, images.very_direct, parallel_for);

@@ -51,21 +51,23 @@ public:
 
     /// The most memory that reconstruct() takes beside its images, on so many threads: for the picture, and for
     /// what its solver does not have already from images before.
-    /// @param parts  GradientImages::parts
-    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1, int parts = 0) const;
+    /// @param parts       GradientImages::parts
+    /// @param is_limited  whether what bytes_to_limit() says (recon/picture/spikes.h) is asked for beside it
+    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1, int parts = 0,
+                            bool is_limited = false) const;
 
 private:
     struct Solvers;
     struct Limits;
-    void finish(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
-                RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
-    // `alike` is null where spikes are not held back, or there are no guides.
+    void finish(const GradientImages& images, const ReconstructionSettings& settings, const AlikePixels* alike,
+                const Limits* limits, RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
+    // `alike` is null below where spikes are not held back, or there are no guides.
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
     int solve_weighted(const GradientImages& images, const PoissonProblem& problem, const AlikePixels* alike,
                        RgbImage& image, const ParallelFor& parallel_for, const SolveWatch& watch);
     RgbImage noise_of(const GradientImages& images, const ReconstructionSettings& settings, const Limits* limits,
-                      const RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
+                      const ParallelFor& parallel_for, const SolveWatch& watch);
     Reconstruction solve(const GradientImages& images, const ReconstructionSettings& settings,
                          const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
 

@@ -17,13 +17,13 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const Norm norm = applied(settings.norm, images.has_gradients());
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
     const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
+    const bool is_limited = settings.spikes == Spikes::consistent && can_limit(images);
     const std::uint64_t limits =
-        settings.spikes == Spikes::consistent && can_limit(images)
-            ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
-            : 0;
-    ask_for_memory(reconstructor.bytes_for(width, height, norm, threads, static_cast<int>(images.parts.size())) +
-                       remodulation + limits,
-                   what);
+        is_limited ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
+                   : 0;
+    const auto parts = static_cast<int>(images.parts.size());
+    ask_for_memory(
+        reconstructor.bytes_for(width, height, norm, threads, parts, is_limited) + remodulation + limits, what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
 }
 

@@ -194,8 +194,8 @@ struct Edges {
         for (std::size_t i = 0; i < picture.size(); ++i)
             picture.data()[i] += noise.data()[i];
         const double before = relative_rms_difference(picture, truth);
-        const NoisyPicture smooth = smooth_by_guides(
-            {std::move(picture), random_image(width, height, 2, 0, deviation)}, guides, serial_for);
+        const NoisyPicture smooth =
+            smoothed_with_noise({std::move(picture), random_image(width, height, 2, 0, deviation)}, guides);
         RgbImage with_noise = truth;
         for (std::size_t i = 0; i < with_noise.size(); ++i)
             with_noise.data()[i] += smooth.noise.data()[i];
@@ -240,7 +240,7 @@ TEST(GuideRegression, KeepsTheBrightnessOfNoisyPixels) {
         noise.data()[i] *= edges.truth.data()[i];
     }
     const double before = mean_color(picture).r; // of which light over albedo is even
-    const NoisyPicture smooth = smooth_by_guides({std::move(picture), std::move(noise)}, edges.guides, serial_for);
+    const NoisyPicture smooth = smoothed_with_noise({std::move(picture), std::move(noise)}, edges.guides);
     EXPECT_NEAR(mean_color(smooth.image).r, before, 0.02 * before);
 }
 
@@ -249,9 +249,9 @@ TEST(GuideRegression, OnePixelSpoilsNoOthers) {
     for (const float wrong : {2e19f, std::numeric_limits<float>::quiet_NaN()}) {
         Edges edges;
         const RgbImage noise = random_image(Edges::width, Edges::height, 2, 0, 0.1f);
-        const RgbImage before = smooth_by_guides({edges.truth, noise}, edges.guides, serial_for).image;
+        const RgbImage before = smoothed_with_noise({edges.truth, noise}, edges.guides).image;
         edges.guides.normal(20, 20).z = wrong;
-        const RgbImage after = smooth_by_guides({edges.truth, noise}, edges.guides, serial_for).image;
+        const RgbImage after = smoothed_with_noise({edges.truth, noise}, edges.guides).image;
         for (int y = 0; y < Edges::height; ++y)
             for (int x = 0; x < Edges::width; ++x) {
                 ASSERT_TRUE(std::isfinite(after(x, y).g)) << x << ',' << y;

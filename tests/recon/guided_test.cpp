@@ -17,7 +17,7 @@ namespace tessera::test {
 namespace {
 
 RgbImage smoothed(NoisyPicture picture, const GuideImages& guides, const ParallelFor& parallel_for = serial_for) {
-    return smooth_by_guides(std::move(picture), guides, parallel_for).image;
+    return smoothed_with_noise(std::move(picture), guides, parallel_for).image;
 }
 
 constexpr int width = 96, height = 80;
@@ -97,15 +97,16 @@ TEST(Guided, IsConsistent) {
 }
 
 /// A chequered light that no guide shows, in noise as strong: two pixels hardly tell it from that, but squares do.
-/// (0.82 of the noise by pairs alone.)
+/// (0.64 of the noise by pairs alone. Of squares of two or more pixels hardly any kernel's step finds the other
+/// colour everywhere, and less is kept.)
 TEST(Guided, PatternsAreKeptThatPairsOfPixelsCannotTell) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            truth(x, y) = Rgb((x / 2 + y / 2) % 2 == 0 ? 0.7f : 1.3f);
+            truth(x, y) = Rgb((x + y) % 2 == 0 ? 0.7f : 1.3f);
     const RgbImage picture = plus(truth, noise(1, 0.2f));
     const RgbImage smooth = smoothed({picture, noise(2, 0.2f)}, even_guides());
-    EXPECT_LT(relative_rms_difference(smooth, truth), 0.65 * relative_rms_difference(picture, truth));
+    EXPECT_LT(relative_rms_difference(smooth, truth), 0.35 * relative_rms_difference(picture, truth));
 }
 
 /// Noise of which a few pixels have much and most have little: these few look unlike all around, but the squares

@@ -25,7 +25,7 @@ TEST(SpreadLight, FollowsBrightness) {
             picture(x, y) = Rgb(0.1f);
     held(19, 15) = Rgb(100, 200, 0);
     const RgbImage before = picture;
-    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
+    spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(before) + 300, 1e-2);
     const auto gain = [&](int x) { return static_cast<double>(picture(x, 15).r - before(x, 15).r); };
     EXPECT_NEAR(gain(24) / gain(15), 0.1, 0.02); // as far from both sides, beyond the blur of brightness
@@ -94,7 +94,7 @@ TEST(SpreadLight, HasTheSameBitsByThreads) {
             light.data()[i] = Rgb(static_cast<float>(i % 31), 1, 0.3f);
         const AlikePixels alike({width, height}, guides, parallel_for);
         spread_to_alike(light, picture, alike, guides, {}, parallel_for);
-        spread_around(light, picture, alike, {}, picture, parallel_for);
+        spread_around(light, lit_surroundings(picture, alike, {}, parallel_for), picture, parallel_for);
         return picture;
     };
     const RgbImage alone = spread_by(serial_for), together = spread_by(in_threads);
@@ -139,7 +139,7 @@ TEST(SpreadLight, IsKeptOnSmallAndBlackPictures) {
         RgbImage alike = picture, left = held;
         spread_to_alike(left, alike, anywhere(picture), {}, {}, serial_for);
         EXPECT_NEAR(sum_of(alike) + sum_of(left), before + 45, 1e-4 + 1e-6 * before) << brightness;
-        spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
+        spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
         EXPECT_NEAR(sum_of(picture), before + 45, 1e-4 + 1e-6 * before) << brightness;
         EXPECT_TRUE(std::isfinite(picture(4, 2).g));
     }
@@ -153,7 +153,7 @@ TEST(SpreadLight, IsAFiniteNumber) {
             picture(5, 5) = Rgb(2 * brightness);
             held(20, 15) = Rgb(light, 0, -light);
             spread_to_alike(held, picture, anywhere(picture), {}, {}, serial_for);
-            spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
+            spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
             EXPECT_TRUE(std::all_of(picture.begin(), picture.end(), is_finite)) << brightness << ' ' << light;
         }
 }

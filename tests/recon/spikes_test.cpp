@@ -125,7 +125,7 @@ TEST(Spikes, NoLightIsLost) {
     RgbImage picture = limited(images, held, serial_for).primal;
     EXPECT_NEAR(sum_of(picture) + sum_of(held), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     EXPECT_GT(sum_of(held), 0.5 * sum_of(images.primal));
-    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
+    spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
     EXPECT_NEAR(sum_of(picture), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     float most = 0;
     for (Rgb c : picture)
@@ -150,7 +150,7 @@ TEST(Spikes, OfRareLightAreNotMadeAnew) {
     };
     RgbImage held;
     RgbImage picture = limited(images, held, serial_for).primal;
-    spread_around(held, picture, anywhere(picture), {}, picture, serial_for);
+    spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
     EXPECT_LT(error_of(picture), 0.1 * error_of(images.primal));
 }
 

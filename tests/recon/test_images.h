@@ -2,6 +2,7 @@
 
 #include "recon/image.h"
 #include "recon/picture/guide_kernel.h"
+#include "recon/picture/guided.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include <glm/ext/vector_double3.hpp>
 #include <glm/geometric.hpp>
@@ -132,6 +134,13 @@ inline double sum_of(const RgbImage& image) {
     for (Rgb c : image)
         sum += static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b);
     return sum;
+}
+
+/// A picture smoothed by guides (recon/picture/guided.h), and what is left of its noise.
+inline NoisyPicture smoothed_with_noise(NoisyPicture picture, const GuideImages& guides,
+                                        const ParallelFor& parallel_for = serial_for) {
+    const AlikePixels alike({picture.image.width(), picture.image.height()}, guides, parallel_for);
+    return smooth_by_guides(std::move(picture), guides, alike, parallel_for);
 }
 
 /// Pixels that all look alike.
