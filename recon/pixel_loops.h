@@ -40,6 +40,14 @@ double sum_over_pixels(int width, int height, const ParallelFor& parallel_for, T
     return std::accumulate(rows.begin(), rows.end(), 0.0);
 }
 
+/// An image of one value, which all threads fill.
+template <class Pixel>
+Image<Pixel> filled_image(int width, int height, Pixel value, const ParallelFor& parallel_for) {
+    Image<Pixel> image(width, height, Unfilled());
+    parallel_for(height, [&](int y) { std::fill_n(image.row(y), width, value); });
+    return image;
+}
+
 /// The same pixels once more.
 template <class Pixel>
 Image<Pixel> copy_of(const Image<Pixel>& image, const ParallelFor& parallel_for) {

@@ -61,10 +61,10 @@ std::uint64_t WeightedSolver::bytes(int width, int height, int threads) {
            images * sizeof(Rgb) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-void WeightedSolver::make_room() {
+void WeightedSolver::make_room(const ParallelFor& parallel_for) {
     for (RgbImage* kept : {&residual_, &solved_, &applied_, &direction_, &applied_step_, &correction_})
         if (kept->empty())
-            *kept = RgbImage(width_, height_);
+            *kept = filled_image(width_, height_, Rgb(0), parallel_for);
 }
 
 /// Adds as much of the last correction as brings the answer nearest to the optimum: a line search in each channel.
@@ -145,7 +145,7 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
                           const WeightedSettings& settings, RgbImage& image, const ParallelFor& parallel_for,
                           const SolveWatch& watch) {
     const bool has_last = !correction_.empty();
-    make_room();
+    make_room(parallel_for);
     multigrid_.prepare(weights, problem.alpha, parallel_for);
     image = copy_of(problem.primal, parallel_for);
     residual(problem, weights, image, residual_, parallel_for);

@@ -54,7 +54,7 @@ public:
     void forget() { correction_ = {}; }
 
 private:
-    void make_room();
+    void make_room(const ParallelFor& parallel_for);
     bool try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
                              const ParallelFor& parallel_for);
     int descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,

@@ -2,6 +2,7 @@
 
 #include "recon/picture/guide_kernel.h"
 #include "recon/picture/guide_regression.h"
+#include "recon/pixel_loops.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
@@ -228,11 +229,8 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
         return picture;
     const int width = picture.image.width(), height = picture.image.height();
     Planes differences;
-    make_planes(differences, width, height);
-    for_pixels(width, height, parallel_for, [&](std::size_t i) {
-        for (Plane& plane : differences)
-            plane.data()[i] = 0;
-    });
+    for (Plane& plane : differences)
+        plane = filled_image(width, height, 0.0f, parallel_for);
     Scratch scratch = scratch_of(width, height);
     for (std::size_t l = 0; l < levels; ++l) {
         if (!watch.goes_on(static_cast<int>(l), levels + 1))

@@ -1,5 +1,6 @@
 #include "recon/picture/light_spreader.h"
 
+#include "recon/pixel_loops.h"
 #include "recon/square_means.h"
 
 #include <algorithm>

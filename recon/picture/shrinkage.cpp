@@ -1,6 +1,7 @@
 #include "recon/picture/shrinkage.h"
 
 #include "recon/picture/guide_kernel.h"
+#include "recon/pixel_loops.h"
 #include "recon/square_means.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "recon/picture/light_spreader.h"
 #include "recon/pixel_loops.h"
+#include "recon/square_means.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,64 +16,52 @@ namespace {
 
 /// A sample may weigh so much in its pixel's mean, in means of the others; and may be so many times as large as
 /// these in any case. Tried on caustics and rooms with 2 to 64 samples: 1/8 to 1/2 are nearly level.
-constexpr double share = 0.25, least_factor = 2;
+constexpr float share = 0.25f, least_factor = 2;
 
 /// So much of the mean of a pixel's own others counts, where it is more than the mean around: features of one
 /// pixel, whose samples agree, are no spikes. In full it would let through what two samples of the pixel found.
-constexpr double own_share = 0.5;
+constexpr float own_share = 0.5f;
 
-std::size_t index_of(const Image<float>& image, int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(x);
+/// How large the mean of the samples is without the brightest.
+float size_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, float n) {
+    return n / (n - 1) * size_of(mean.data()[i] - brightest.data()[i] / n);
 }
 
-/// The mean of the samples without the brightest.
-glm::dvec3 mean_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, double n) {
-    return (n * glm::dvec3(mean.data()[i]) - glm::dvec3(brightest.data()[i])) / (n - 1);
-}
+/// What the other samples say of the primals of pixels: of each, and as a mean over 3x3 pixels.
+struct Others {
+    Image<float> own, around;
 
-/// mu of the primal, before it is blurred.
-Image<float> sizes_of_others(const GradientImages& images, const ParallelFor& parallel_for) {
-    Image<float> sizes(images.primal.width(), images.primal.height(), Unfilled());
-    for_pixels(sizes.width(), sizes.height(), parallel_for, [&](std::size_t i) {
-        sizes.data()[i] =
-            size_of(Rgb(mean_of_others(images.primal, images.brightest.primal, i, images.brightest.samples)));
-    });
-    return sizes;
-}
-
-/// mu: what the other samples of the pixel and of those around say.
-double size_around(const Image<float>& sizes, int x, int y) {
-    double sum = 0;
-    int count = 0;
-    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, sizes.height() - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, sizes.width() - 1); ++i, ++count)
-            sum += static_cast<double>(sizes(i, j));
-    return std::max(sum / count, own_share * static_cast<double>(sizes(x, y)));
-}
+    Others(const GradientImages& images, const ParallelFor& parallel_for)
+        : own(images.primal.width(), images.primal.height(), Unfilled()) {
+        const BrightestSamples& b = images.brightest;
+        const auto n = static_cast<float>(b.samples);
+        for_pixels(own.width(), own.height(), parallel_for,
+                   [&](std::size_t i) { own.data()[i] = size_of_others(images.primal, b.primal, i, n); });
+        around = square_means(own, 1, 0, 0, parallel_for);
+    }
+};
 
 /// t of a pixel's primal and of its gradients.
 struct Limits {
-    double primal = 1, gradients = 1;
+    float primal = 1, gradients = 1;
 };
 
-/// Of pixel (x, y). Where a spike lights the neighbour alone, gradients are limited, and the primal is not.
-Limits limits_of(const GradientImages& images, const Image<float>& sizes, int x, int y) {
+/// Of pixel i. Where a spike lights the neighbour alone, gradients are limited, and the primal is not.
+Limits limits_of(const GradientImages& images, const Others& others, std::size_t i) {
     const BrightestSamples& b = images.brightest;
-    const double factor = std::max(least_factor, share * b.samples);
-    const auto limit = [factor](double size, double others) {
-        return size > factor * others ? factor * others / size : 1;
-    };
-    const std::size_t i = index_of(sizes, x, y);
-    double others = size_around(sizes, x, y), size = static_cast<double>(size_of(b.primal.data()[i]));
-    Limits limits{limit(size, others)};
+    const auto n = static_cast<float>(b.samples);
+    const float factor = std::max(least_factor, share * n);
+    const auto limit = [factor](float size, float mu) { return size > factor * mu ? factor * mu / size : 1; };
+    float mu = std::max(others.around.data()[i], own_share * others.own.data()[i]);
+    float size = size_of(b.primal.data()[i]);
+    Limits limits{limit(size, mu)};
     if (!images.has_gradients())
         return limits;
     for (const auto& [mean, brightest] : {std::pair(&images.dx, &b.dx), std::pair(&images.dy, &b.dy)}) {
-        others =
-            std::max(others, static_cast<double>(size_of(Rgb(mean_of_others(*mean, *brightest, i, b.samples)))));
-        size = std::max(size, static_cast<double>(size_of(brightest->data()[i])));
+        mu = std::max(mu, size_of_others(*mean, *brightest, i, n));
+        size = std::max(size, size_of(brightest->data()[i]));
     }
-    limits.gradients = limit(size, others);
+    limits.gradients = limit(size, mu);
     return limits;
 }
 
@@ -126,11 +115,10 @@ void limit_halves(HalfDifferences& halves, const BrightestSamples& b, std::size_
 
 template <class Visit>
 void for_each_limited(const GradientImages& images, const ParallelFor& parallel_for, Visit&& visit) {
-    const Image<float> sizes = sizes_of_others(images, parallel_for);
-    parallel_for(sizes.height(), [&](int y) {
-        for (int x = 0; x < sizes.width(); ++x)
-            if (const Limits t = limits_of(images, sizes, x, y); t.primal < 1 || t.gradients < 1)
-                visit(index_of(sizes, x, y), t);
+    const Others others(images, parallel_for);
+    for_pixels(images.primal.width(), images.primal.height(), parallel_for, [&](std::size_t i) {
+        if (const Limits t = limits_of(images, others, i); t.primal < 1 || t.gradients < 1)
+            visit(i, t);
     });
 }
 
@@ -164,8 +152,7 @@ bool can_limit(const GradientImages& images) {
 
 GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for) {
     const BrightestSamples& b = images.brightest;
-    held = RgbImage(images.primal.width(), images.primal.height(), Unfilled());
-    for_pixels(held.width(), held.height(), parallel_for, [&](std::size_t i) { held.data()[i] = Rgb(0); });
+    held = filled_image(images.primal.width(), images.primal.height(), Rgb(0), parallel_for);
     GradientImages result = copied(images, parallel_for);
     for_each_limited(images, parallel_for, [&](std::size_t i, Limits t) {
         const double n = b.samples;

@@ -1,0 +1,71 @@
+// Sums over kernels: what they are, for pictures of all sizes, beyond whose borders nothing counts.
+#include "recon/picture/kernel_sums.h"
+#include "tests/recon/test_images.h"
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace tessera::test {
+
+namespace {
+
+Plane plane_of(int width, int height, std::uint32_t seed) {
+    const RgbImage image = random_image(width, height, seed, 1, 0.2f);
+    Plane plane(width, height);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        plane.data()[i] = image.data()[i].g;
+    return plane;
+}
+
+/// Of pairs; no number where one of the two is beyond the picture.
+PairWeights random_weights(int width, int height, int step) {
+    PairWeights weights;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        weights[k] = plane_of(width, height, 10 + static_cast<std::uint32_t>(k));
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int other_x = x + step * kernel_pairs[k].i, other_y = y + step * kernel_pairs[k].j;
+                if (other_x < 0 || other_x >= width || other_y >= height)
+                    weights[k](x, y) = std::numeric_limits<float>::quiet_NaN();
+            }
+    }
+    return weights;
+}
+
+/// The mean around (x, y), pair by pair from both ends.
+double mean_around(const Plane& plane, const PairWeights& weights, int step, int x, int y) {
+    double all = static_cast<double>(KernelPair{0, 0}.share()), sum = all * static_cast<double>(plane(x, y));
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        for (const int sign : {1, -1}) {
+            const int i = x + sign * step * kernel_pairs[k].i, j = y + sign * step * kernel_pairs[k].j;
+            if (i < 0 || i >= plane.width() || j < 0 || j >= plane.height())
+                continue;
+            const auto weight = static_cast<double>(sign > 0 ? weights[k](x, y) : weights[k](i, j));
+            all += weight;
+            sum += weight * static_cast<double>(plane(i, j));
+        }
+    return sum / all;
+}
+
+TEST(KernelSums, AreOfThePixelsAround) {
+    for (const auto& [width, height, step] :
+         {std::tuple{1, 1, 1}, {5, 3, 1}, {16, 9, 3}, {300, 7, 2}, {527, 40, 9}, {256, 11, 81}, {140, 130, 27}}) {
+        const std::array from{plane_of(width, height, 1), plane_of(width, height, 2)};
+        const PairWeights weights = random_weights(width, height, step);
+        std::array<Plane, 2> means;
+        make_planes(means, width, height);
+        write_kernel_means(from, weights, step, serial_for, means);
+        for (std::size_t c = 0; c < from.size(); ++c)
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    ASSERT_NEAR(means[c](x, y), mean_around(from[c], weights, step, x, y), 1e-6)
+                        << width << 'x' << height << ' ' << step << ": " << x << ',' << y;
+    }
+}
+
+} // namespace
+
+} // namespace tessera::test
