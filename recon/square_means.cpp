@@ -8,8 +8,11 @@ namespace tessera {
 Image<float> square_means(const Image<float>& values, int radius, int columns, int rows,
                           const ParallelFor& parallel_for) {
     const int width = values.width() - columns, height = values.height() - rows;
-    Image<float> means(values.width(), values.height());
-    parallel_for(height, [&](int y) {
+    Image<float> means(values.width(), values.height(), Unfilled());
+    parallel_for(values.height(), [&](int y) {
+        std::fill_n(means.row(y), values.width(), 0.0f);
+        if (y >= height)
+            return;
         std::vector<float> sums(static_cast<std::size_t>(width)); // sums of the columns of the squares
         const int top = std::max(y - radius, 0), bottom = std::min(y + radius, height - 1);
         for (int row = top; row <= bottom; ++row)
@@ -27,12 +30,15 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
 }
 
 void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out) {
-    std::fill_n(out, size, 0.0f);
     std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, from = 0;
-    for (;; count /= 2, step *= 2) {
+    for (bool is_first = true;; count /= 2, step *= 2) {
         if (count % 2 == 1) {
-            for (std::size_t i = 0; i < size; ++i)
-                out[i] += in[from + i];
+            if (is_first)
+                std::copy_n(in, size, out);
+            else
+                for (std::size_t i = 0; i < size; ++i)
+                    out[i] += in[from + i];
+            is_first = false;
             from += step;
         }
         if (count == 1)
@@ -49,8 +55,9 @@ namespace {
 template <class Row, class Visit>
 void for_sums_of_strip(std::size_t width, int height, int radius, Row&& row, Visit&& visit) {
     const int count = 2 * radius + 1;
-    std::vector<float> to_end(static_cast<std::size_t>(count + 1) * width), from_end(width);
+    PixelVector<float> to_end(static_cast<std::size_t>(count + 1) * width), from_end(width);
     const auto sums_to_end = [&](int k) { return to_end.data() + static_cast<std::size_t>(k) * width; };
+    std::fill_n(sums_to_end(count), width, 0.0f);
     for (int first = 0; first < height; first += count) {
         for (int k = count - 1; k >= 0; --k) {
             const float *more = row(first + k - radius), *later = sums_to_end(k + 1);
@@ -99,8 +106,10 @@ void write_row_means(const Image<float>& values, int radius, const ParallelFor& 
                      Image<float>& means) {
     const int width = values.width(), reach = std::min(radius, width - 1);
     parallel_for(values.height(), [&](int y) {
-        std::vector<float> padded(static_cast<std::size_t>(width + 2 * reach));
+        PixelVector<float> padded(static_cast<std::size_t>(width + 2 * reach));
+        std::fill_n(padded.begin(), reach, 0.0f);
         std::copy_n(values.row(y), width, padded.begin() + reach);
+        std::fill_n(padded.end() - reach, reach, 0.0f);
         float* row = means.row(y);
         sum_windows(padded.data(), static_cast<std::size_t>(width), 2 * reach + 1, 1, row);
         for (int x = 0; x < width; ++x)

@@ -44,7 +44,7 @@ private:
     }
 
     int first_, stride_;
-    std::vector<float> values_;
+    PixelVector<float> values_;
 };
 
 /// combine(number, value, out) for the values of a row, with the number of each pixel.
@@ -176,7 +176,7 @@ void WeightedMultigrid::Level::hand_down(const RgbImage& b, Level& coarser,
         const Band x(first, end, size(), [&](int y, float* row) {
             for_values(step.row(y), values(b, 0, y), width, row, [](float s, float r, float& to) { to = s * r; });
         });
-        std::vector<float> misfit(3 * static_cast<std::size_t>(width));
+        PixelVector<float> misfit(3 * static_cast<std::size_t>(width));
         for (int y = first; y < end; ++y) {
             write_misfit(b, x, y, misfit.data());
             float* cells = values(coarser.right_side, 0, y / 2);

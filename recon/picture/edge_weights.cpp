@@ -159,13 +159,13 @@ EdgeWeights weights_of(const GradientImages& images, const Gradients& gradients,
     const Image<float> dy =
         gradient_noise(gradients.dy, is_measured ? gradients.dy_variance : none, brightness, 0, 1, parallel_for);
     const float k = noise_factor / std::sqrt(images.patch);
-    EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
+    EdgeWeights weights{Image<float>(width, height, Unfilled()), Image<float>(width, height, Unfilled())};
     parallel_for(height, [&](int y) {
+        weights.x(width - 1, y) = 0;
         for (int x = 0; x + 1 < width; ++x)
             weights.x(x, y) = weight(alpha, k, dx(x, y), primal(x, y), primal(x + 1, y));
-        if (y + 1 < height)
-            for (int x = 0; x < width; ++x)
-                weights.y(x, y) = weight(alpha, k, dy(x, y), primal(x, y), primal(x, y + 1));
+        for (int x = 0; x < width; ++x)
+            weights.y(x, y) = y + 1 < height ? weight(alpha, k, dy(x, y), primal(x, y), primal(x, y + 1)) : 0;
     });
     return weights;
 }
