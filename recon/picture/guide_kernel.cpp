@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace tessera {
 
@@ -20,6 +21,21 @@ constexpr float roughness_width = 0.2f;                                         
 // half a percent of FLIP when it is changed by a third.
 constexpr float pixel_width = 20, square_width = 3.5f;
 constexpr float most_unlike = 32; // of a pair in a square: one pixel does not decide on all that are around
+
+/// The pixels of a line that have another so many on, and how many of the squares around one of them have.
+struct PairedPixels {
+    int size, begin, end;
+
+    PairedPixels(int all, int step)
+        : size(all), begin(std::clamp(-step, 0, all)), end(std::clamp(all - step, begin, all)) {}
+
+    /// What makes the mean over all pixels of the line within the radius one over those that are paired.
+    float of_paired(int x, int radius) const {
+        const int all = std::min(size, x + radius + 1) - std::max(0, x - radius);
+        const int paired = std::min(end, x + radius + 1) - std::max(begin, x - radius);
+        return static_cast<float>(all) / static_cast<float>(paired);
+    }
+};
 
 /// Pixels of a row from (x, y) on, and as many from (to_x, to_y) on, each of which is compared with one of these.
 struct PixelRuns {
@@ -53,29 +69,14 @@ void write_weights_by_guides(const GuidePlanes& guides, int step, const Parallel
     const int width = weights[0].width(), height = weights[0].height();
     parallel_for(height, [&](int y) {
         for (std::size_t k = 0; k < weights.size(); ++k) {
-            const int shift = kernel_pairs[k].i * step, row = y + kernel_pairs[k].j * step;
-            const int end = std::min(width, width - shift);
-            for (int x = std::max(0, -shift); row < height && x < end; x += kernel_chunk)
-                weigh(guides, {x, y, x + shift, row, std::min(kernel_chunk, end - x)}, kernel_pairs[k].share(),
-                      weights[k].row(y) + x);
+            const KernelPair apart{kernel_pairs[k].i * step, kernel_pairs[k].j * step};
+            const PairedPixels columns(width, apart.i), rows(height, apart.j);
+            for (int x = columns.begin; y < rows.end && x < columns.end; x += kernel_chunk)
+                weigh(guides, {x, y, x + apart.i, y + apart.j, std::min(kernel_chunk, columns.end - x)},
+                      kernel_pairs[k].share(), weights[k].row(y) + x);
         }
     });
 }
-
-/// The pixels of a line that have another so many on, and how many of the squares around one of them have.
-struct PairedPixels {
-    int size, begin, end;
-
-    PairedPixels(int all, int step)
-        : size(all), begin(std::clamp(-step, 0, all)), end(std::clamp(all - step, begin, all)) {}
-
-    /// What makes the mean over all pixels of the line within the radius one over those that are paired.
-    float of_paired(int x, int radius) const {
-        const int all = std::min(size, x + radius + 1) - std::max(0, x - radius);
-        const int paired = std::min(end, x + radius + 1) - std::max(begin, x - radius);
-        return static_cast<float>(all) / static_cast<float>(paired);
-    }
-};
 
 /// Calls visit(x, unlike) for pixels of row y: by what their brightness differs from that of those a step on,
 /// squared, in variances of its noise.

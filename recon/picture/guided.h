@@ -14,7 +14,7 @@ class AlikePixels;
 // picture and goes through the same smoothing: so that it tells what is left of the noise at every size, however
 // alike that is in the pixels of a tile.
 //
-// Level l + 1 of a picture is level l, smoothed by a kernel of 5x5 pixels that are 3^l apart [the a trous filter
+// Level l + 1 of a picture is level l, smoothed by a kernel of 13 pixels that are 3^l apart [the a trous filter
 // of Dammertz 2010, there 2^l]. A pixel counts the less the less it looks like the one in the middle: in its
 // guides, and in its brightness beside the noise that both have at that level [as in Schied 2017], where the
 // squares around them tell as much as the two (write_noisy_weights). The picture is the last level plus the

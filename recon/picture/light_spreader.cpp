@@ -204,15 +204,12 @@ void spread_around(const RgbImage& light, const LitSurroundings& surroundings, R
     const Plane &brightness = surroundings.brightness, &around = surroundings.around;
     const int width = image.width(), height = image.height();
     RgbImage ratio(width, height, Unfilled());
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            ratio(x, y) = around(x, y) > least ? light(x, y) / around(x, y) : Rgb(0);
+    for_pixels(width, height, parallel_for, [&](std::size_t i) {
+        ratio.data()[i] = around.data()[i] > least ? light.data()[i] / around.data()[i] : Rgb(0);
     });
     blur(ratio, spread_radius, parallel_for);
-    parallel_for(height, [&](int y) {
-        for (int x = 0; x < width; ++x)
-            image(x, y) += brightness(x, y) * ratio(x, y);
-    });
+    for_pixels(width, height, parallel_for,
+               [&](std::size_t i) { image.data()[i] += brightness.data()[i] * ratio.data()[i]; });
 }
 
 } // namespace tessera

@@ -40,8 +40,8 @@ LitSurroundings lit_surroundings(const RgbImage& shown, const AlikePixels& alike
 void spread_around(const RgbImage& light, const LitSurroundings& surroundings, RgbImage& image,
                    const ParallelFor& parallel_for);
 
-/// The memory that all of this takes, a pixel: kernels and LitSurroundings; S, its limits, what is spread and a
-/// quotient; or what spread_around() has, two images, when these are gone.
-inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + (2 + 12) * sizeof(float);
+/// The memory that all of this takes, a pixel: kernels; S, its limits, what is spread and a quotient; or when
+/// these are gone LitSurroundings and the two images that spread_around() has, which is less.
+inline constexpr std::size_t bytes_to_spread_a_pixel = AlikePixels::bytes_a_pixel + 12 * sizeof(float);
 
 } // namespace tessera

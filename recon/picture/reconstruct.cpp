@@ -3,6 +3,7 @@
 #include "recon/picture/bounds.h"
 #include "recon/picture/demodulation.h"
 #include "recon/picture/edge_weights.h"
+#include "recon/picture/guide_kernel.h"
 #include "recon/picture/guided.h"
 #include "recon/picture/light_spreader.h"
 #include "recon/picture/oidn.h"
@@ -126,7 +127,7 @@ struct Reconstructor::Solvers {
     bool has_variances = false; ///< the last images that were weighted
 };
 
-/// What single samples are not believed, and what their pixels are.
+/// What single samples are not believed, and what becomes of it.
 struct Reconstructor::Limits {
     RgbImage held; ///< radiance that spikes hold back
     UpperBounds bounds;
@@ -166,8 +167,7 @@ void Reconstructor::forget() {
 std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts,
                                        bool is_limited) const {
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * height, image = sizeof(Rgb) * pixels;
-    const std::uint64_t smoothing =
-        bytes_to_smooth(width, height) + (is_limited ? 0 : AlikePixels::bytes_a_pixel * pixels);
+    const std::uint64_t alike = is_limited ? 0 : AlikePixels::bytes_a_pixel * pixels;
     const Solvers* kept =
         solvers_ && solvers_->width == width && solvers_->height == height ? &*solvers_ : nullptr;
     if (parts > 0 && expands(norm))
@@ -191,11 +191,11 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     case Norm::oidn: { // the smoothing comes when both are solved, and the denoiser after it
         const std::uint64_t solver = WeightedSolver::bytes(width, height, threads);
         const std::uint64_t denoiser = norm == Norm::oidn ? 6 * image + bytes_of_oidn(width, height) : 0;
-        return 2 * image + std::max(smoothing, denoiser) + (kept && kept->weighted ? 0 : solver) +
-               (kept && kept->noise ? 0 : solver);
+        return 2 * image + alike + std::max(bytes_to_smooth(width, height), denoiser) +
+               (kept && kept->weighted ? 0 : solver) + (kept && kept->noise ? 0 : solver);
     }
     case Norm::smoothed:
-        return 2 * image + smoothing;
+        return 2 * image + alike + bytes_to_smooth(width, height);
     }
     return 0;
 }

@@ -61,7 +61,7 @@ private:
     struct Limits;
     void finish(const GradientImages& images, const ReconstructionSettings& settings, const AlikePixels* alike,
                 const Limits* limits, RgbImage& picture, const ParallelFor& parallel_for, const SolveWatch& watch);
-    // `alike` is null below where spikes are not held back, or there are no guides.
+    // `alike` is null above where nothing is smoothed or held back; below, where nothing is held back by guides.
     Reconstruction picture_of(const GradientImages& images, const ReconstructionSettings& settings,
                               const AlikePixels* alike, const ParallelFor& parallel_for, const SolveWatch& watch);
     int solve_weighted(const GradientImages& images, const PoissonProblem& problem, const AlikePixels* alike,

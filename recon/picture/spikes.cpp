@@ -27,7 +27,8 @@ float size_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_
     return n / (n - 1) * size_of(mean.data()[i] - brightest.data()[i] / n);
 }
 
-/// What the other samples say of the primals of pixels: of each, and as a mean over 3x3 pixels.
+/// What the other samples say of the primals of pixels: of each, and as a mean over 3x3 pixels. (Beyond 3e37 that
+/// is no number any more, and nothing around is limited.)
 struct Others {
     Image<float> own, around;
 
@@ -51,7 +52,10 @@ Limits limits_of(const GradientImages& images, const Others& others, std::size_t
     const BrightestSamples& b = images.brightest;
     const auto n = static_cast<float>(b.samples);
     const float factor = std::max(least_factor, share * n);
-    const auto limit = [factor](float size, float mu) { return size > factor * mu ? factor * mu / size : 1; };
+    const auto limit = [factor](float size, float mu) {
+        constexpr float rounding = 1e-6f; // where all samples of a bright pixel are alike, both sides are
+        return size > factor * mu * (1 + rounding) ? factor * mu / size : 1;
+    };
     float mu = std::max(others.around.data()[i], own_share * others.own.data()[i]);
     float size = size_of(b.primal.data()[i]);
     Limits limits{limit(size, mu)};
@@ -185,8 +189,8 @@ std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
     const std::size_t copies = (has_gradients ? 4 : 1) * sizeof(Rgb) + (has_gradients ? 3 : 1) * sizeof(float) +
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) + sizeof(float) +
                                HalfDifferences::bytes_a_pixel + GuideImages::bytes_a_pixel;
-    // Two images of light to be spread, and two of the bounds.
-    return copies + 4 * sizeof(Rgb) + bytes_to_spread_a_pixel;
+    // Two images of light to be spread, two of the bounds and the room below them, and which pixels are black.
+    return copies + 5 * sizeof(Rgb) + sizeof(std::uint8_t) + bytes_to_spread_a_pixel;
 }
 
 } // namespace tessera

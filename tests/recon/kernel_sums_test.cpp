@@ -2,7 +2,8 @@
 #include "recon/picture/kernel_sums.h"
 #include "tests/recon/test_images.h"
 
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <tuple>
 
