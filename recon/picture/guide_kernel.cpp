@@ -134,10 +134,10 @@ void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFo
 }
 
 void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
-                         const ParallelFor& parallel_for, Plane& scratch, PairWeights& weights) {
+                         const ParallelFor& parallel_for, Plane& scratch, StraightWeights& weights) {
     const int width = noise.width(), height = noise.height(), radius = (3 * step + 1) / 2;
     std::vector<float> shares(static_cast<std::size_t>(width));
-    for (std::size_t k = 0; k < kernel_pairs.size(); ++k) {
+    for (std::size_t k = 0; k < weights.size(); ++k) {
         const KernelPair apart{kernel_pairs[k].i * step, kernel_pairs[k].j * step};
         const PairedPixels columns(width, apart.i), rows(height, apart.j);
         Plane& pairs = weights[k];

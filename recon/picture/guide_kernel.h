@@ -65,17 +65,17 @@ private:
     std::array<PairWeights, steps.size()> weights_;
 };
 
-/// The weights of pairs whose brightness tells, too, and is noisy: those by guides times about exp(-u), where u is
-/// how unlike the brightness is, half by the two pixels alone, half by all pairs in the same direction from a
-/// square three quarters as wide as the kernel, as patches tell in non-local means [Buades 2005]. Of noise a few
-/// pixels have much, and look unlike by it alone; and a pattern that noise hides between two pixels is seen in a
-/// square. (A straight edge is rather diluted there.)
+/// The weights of straight pairs whose brightness tells, too, and is noisy: those by guides times about exp(-u),
+/// where u is how unlike the brightness is, half by the two pixels alone, half by all pairs in the same direction
+/// from a square three quarters as wide as the kernel, as patches tell in non-local means [Buades 2005]. Of noise
+/// a few pixels have much, and look unlike by it alone; and a pattern that noise hides between two pixels is seen
+/// in a square. (A straight edge is rather diluted there.)
 /// @param by_guides   of pairs `step` apart
 /// @param brightness  its logarithm
 /// @param noise       the variance of its noise
 /// @param scratch     of the picture's size, anything
 /// @param weights     likewise
 void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
-                         const ParallelFor& parallel_for, Plane& scratch, PairWeights& weights);
+                         const ParallelFor& parallel_for, Plane& scratch, StraightWeights& weights);
 
 } // namespace tessera

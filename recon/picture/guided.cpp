@@ -36,7 +36,7 @@ using Planes = RegressedPlanes;
 /// Planes that are used at every level: memory that is new each time costs a quarter of the smoothing.
 struct Scratch {
     Planes coarser;
-    PairWeights weights;
+    StraightWeights weights;
     Plane brightness, noise, sizes, rows;
 };
 
@@ -251,7 +251,7 @@ NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, c
 
 std::uint64_t bytes_to_smooth(int width, int height) {
     constexpr std::uint64_t planes =
-        3 * std::tuple_size_v<Planes> + std::tuple_size_v<PairWeights> + 4; // levels, sum, scratch
+        3 * std::tuple_size_v<Planes> + std::tuple_size_v<StraightWeights> + 4; // levels, sum, scratch
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 

@@ -14,12 +14,12 @@ class AlikePixels;
 // picture and goes through the same smoothing: so that it tells what is left of the noise at every size, however
 // alike that is in the pixels of a tile.
 //
-// Level l + 1 of a picture is level l, smoothed by a kernel of 13 pixels that are 3^l apart [the a trous filter
-// of Dammertz 2010, there 2^l]. A pixel counts the less the less it looks like the one in the middle: in its
-// guides, and in its brightness beside the noise that both have at that level [as in Schied 2017], where the
-// squares around them tell as much as the two (write_noisy_weights). The picture is the last level plus the
-// differences between each level and the next, each as far as it stands out from its noise in the pixels around
-// [James and Stein 1961],
+// Level l + 1 of a picture is level l, smoothed by a kernel of 9 pixels, those of 5x5 in the row and the column of
+// the middle one, 3^l apart [the a trous filter of Dammertz 2010; there all of them, 2^l apart]. A pixel counts
+// the less the less it looks like the one in the middle: in its guides, and in its brightness beside the noise
+// that both have at that level [as in Schied 2017], where the squares around them tell as much as the two
+// (write_noisy_weights). The picture is the last level plus the differences between each level and the next, each
+// as far as it stands out from its noise in the pixels around [James and Stein 1961],
 //     c = max(0, 1 - (mean of |noise|^1/2 / mean of |difference|^1/2)^4) .
 // Last comes a regression on guides, which takes the noise of edges (guide_regression.h), as far as the difference
 // to it does not stand out likewise. Noise goes to zero as samples grow, and c to 1: the picture is consistent. It

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace tessera {
@@ -32,10 +33,12 @@ struct KernelPair {
     }
 };
 inline constexpr std::array<KernelPair, 6> kernel_pairs = {{{1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {-1, 1}}};
+inline constexpr std::size_t straight_pairs = 4; // the first of these, of a row or a column
 
-/// How much the two pixels of each pair count for each other, at the first of them. What stands for a pair that
-/// reaches beyond the picture does not matter.
+/// How much the two pixels of each pair, or of the first pairs, count for each other, at the first of the two.
+/// What stands for a pair that reaches beyond the picture does not matter.
 using PairWeights = std::array<Plane, kernel_pairs.size()>;
+using StraightWeights = std::array<Plane, straight_pairs>;
 
 /// Columns that are worked on at a time, so that all about them stays at hand.
 inline constexpr int kernel_chunk = 256;
@@ -51,7 +54,7 @@ struct KernelTap {
 class KernelTaps {
 public:
     /// @param own  of the row's own pixels, the weights
-    KernelTaps(const PairWeights& weights, int step, int y, const float* own) {
+    KernelTaps(std::span<const Plane> weights, int step, int y, const float* own) {
         taps_[0] = {own, y, 0, 0};
         for (std::size_t k = 0; k < weights.size(); ++k) {
             const int shift = kernel_pairs[k].i * step;
@@ -146,7 +149,7 @@ private:
 
 /// Calls visit(y, sums) for all pixels, some of a row at a time.
 template <std::size_t planes, class Visit>
-void for_kernel_sums(const std::array<Plane, planes>& from, const PairWeights& weights, int step,
+void for_kernel_sums(const std::array<Plane, planes>& from, std::span<const Plane> weights, int step,
                      const ParallelFor& parallel_for, Visit&& visit) {
     const int width = from[0].width(), height = from[0].height();
     const std::vector<float> own(static_cast<std::size_t>(width), KernelPair{0, 0}.share());
@@ -160,7 +163,7 @@ void for_kernel_sums(const std::array<Plane, planes>& from, const PairWeights& w
 /// The means over the kernels around all pixels, by their weights.
 /// @param means  of the same size, anything
 template <std::size_t planes>
-void write_kernel_means(const std::array<Plane, planes>& from, const PairWeights& weights, int step,
+void write_kernel_means(const std::array<Plane, planes>& from, std::span<const Plane> weights, int step,
                         const ParallelFor& parallel_for, std::array<Plane, planes>& means) {
     for_kernel_sums(from, weights, step, parallel_for, [&](int y, const auto& sums) {
         for (std::size_t c = 0; c < planes; ++c)
