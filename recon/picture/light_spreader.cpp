@@ -11,6 +11,11 @@
 
 namespace tessera {
 
+double sum_of_sizes(const RgbImage& light, const ParallelFor& parallel_for) {
+    return sum_over_pixels(light.width(), light.height(), parallel_for,
+                           [&](std::size_t i) { return size_of(light.data()[i]); });
+}
+
 namespace {
 
 constexpr float stands_out = 0.1f; // of a pixel's brightness: more is not given to it
@@ -25,11 +30,6 @@ Rgb colour_at(const Channels& channels, std::size_t i) {
 void set_colour(Channels& channels, std::size_t i, Rgb colour) {
     for (std::size_t c = 0; c < channels.size(); ++c)
         channels[c].data()[i] = colour[static_cast<int>(c)];
-}
-
-double sum_of_sizes(const RgbImage& image, const ParallelFor& parallel_for) {
-    return sum_over_pixels(image.width(), image.height(), parallel_for,
-                           [&](std::size_t i) { return size_of(image.data()[i]); });
 }
 
 /// S: albedo times light, and a little more. As much more as keeps its quotients with what is spread finite.

@@ -15,6 +15,9 @@ namespace tessera {
 //     S K(H / K(S)) ,
 // which has the sum of H: what a pixel q has goes to p as S(p) K(p, q) / (sum over the p' of S(p') K(p', q)).
 
+/// The sum of |light| over all pixels; 0: there is nothing to spread.
+double sum_of_sizes(const RgbImage& light, const ParallelFor& parallel_for);
+
 /// Spreads over the pixels that look alike, by their brightness and albedo: a spike on a wall is found all over
 /// the wall. Keeps the light's sum, but for rounding.
 /// @param light   radiance to spread; becomes what is left over, and where: what pixels would have had beyond

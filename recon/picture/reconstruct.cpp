@@ -131,7 +131,7 @@ struct Reconstructor::Solvers {
 struct Reconstructor::Limits {
     RgbImage held; ///< radiance that spikes hold back
     UpperBounds bounds;
-    LitSurroundings surroundings; ///< of the picture in which light was spread
+    LitSurroundings surroundings; ///< of the picture in which light was spread; empty: there was none
 
     void spread(const GuideImages& guides, const AlikePixels& alike, RgbImage& image,
                 const ParallelFor& parallel_for);
@@ -145,6 +145,8 @@ void Reconstructor::Limits::spread(const GuideImages& guides, const AlikePixels&
     RgbImage light = copy_of(held, parallel_for);
     if (!bounds.empty())
         add(light, take_excess(bounds, reach, image, parallel_for), parallel_for);
+    if (!(sum_of_sizes(light, parallel_for) > 0))
+        return;
     const RgbImage room = room_below(bounds, reach, image, parallel_for);
     spread_to_alike(light, image, alike, guides, room, parallel_for);
     surroundings = lit_surroundings(image, alike, bounds.black, parallel_for);
@@ -162,6 +164,12 @@ void Reconstructor::forget() {
     for (std::optional<WeightedSolver>* solver : {&solvers_->weighted, &solvers_->noise})
         if (*solver)
             (*solver)->forget();
+}
+
+bool holds_back(const GradientImages& images, const ReconstructionSettings& settings) {
+    // The denoiser has learnt what samples look like, spikes among them.
+    const bool takes_samples = settings.norm == Norm::oidn && !images.has_gradients();
+    return settings.spikes == Spikes::consistent && can_limit(images) && !takes_samples;
 }
 
 std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int threads, int parts,
@@ -340,9 +348,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
         solvers_->noise->forget(); // its last noise is long ago
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    // The denoiser has learnt what samples look like, spikes among them.
-    const bool takes_samples = settings.norm == Norm::oidn && !images.has_gradients();
-    const bool is_limited = settings.spikes == Spikes::consistent && can_limit(images) && !takes_samples;
+    const bool is_limited = holds_back(images, settings);
     RgbImage held;
     const GradientImages limited_images = is_limited ? limited(images, held, parallel_for) : GradientImages();
     const GradientImages& counted = is_limited ? limited_images : images;

@@ -24,6 +24,9 @@ struct ReconstructionSettings {
     bool operator==(const ReconstructionSettings&) const = default;
 };
 
+/// Whether single samples are held back (recon/picture/spikes.h) where the images are reconstructed so.
+bool holds_back(const GradientImages& images, const ReconstructionSettings& settings);
+
 struct Reconstruction {
     RgbImage image;      ///< radiance, very direct light included; empty when stopped
     double residual = 0; ///< relative residual of the normal equations (L2)

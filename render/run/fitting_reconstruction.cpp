@@ -17,7 +17,7 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const Norm norm = applied(settings.norm, images.has_gradients());
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
     const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
-    const bool is_limited = settings.spikes == Spikes::consistent && can_limit(images);
+    const bool is_limited = holds_back(images, settings);
     const std::uint64_t limits =
         is_limited ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
                    : 0;
