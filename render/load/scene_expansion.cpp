@@ -144,7 +144,7 @@ private:
 
     void note_version(const XmlDocument& outer, const XmlDocument& included) {
         const XmlElement root = included.root();
-        const std::string version = outer.root().attribute("version");
+        const std::string& version = outer.version();
         if (root.has("version") && root.attribute("version") != version)
             notes_.push_back({root.position("version"),
                               "the version of the file that includes this one counts, '" + version + "'"});

@@ -2,10 +2,13 @@
 #include "render/sampling/sampling.h"
 #include "render/scene/sky.h"
 
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -35,6 +38,11 @@ PlaceAndTime place_and_time(Properties& p) {
     when.year = p.integer("year", when.year);
     when.month = p.integer("month", when.month);
     when.day = p.integer("day", when.day);
+    const std::chrono::year_month_day date{std::chrono::year(when.year),
+                                           std::chrono::month(static_cast<unsigned>(when.month)),
+                                           std::chrono::day(static_cast<unsigned>(when.day))};
+    if (std::abs(when.year) > 9999 || when.month > 12 || when.day > 31 || !date.ok())
+        p.element().fail(fmt::format("there is no day {}-{}-{}", when.year, when.month, when.day));
     when.hour = p.number("hour", static_cast<float>(when.hour));
     when.minute = p.number("minute", static_cast<float>(when.minute));
     when.second = p.number("second", static_cast<float>(when.second));
@@ -113,8 +121,12 @@ glm::vec3 disk_direction(const Daylight& day) {
 
 void add_sun(LoadContext& context, Properties& p, const Daylight& day, float scale) {
     float radius = sun_angular_radius * factor(p, "sun_radius_scale");
-    if (p.has("sun_aperture")) // degrees across
-        radius = glm::radians(p.number("sun_aperture", 1)) / 2;
+    if (p.has("sun_aperture")) { // degrees across
+        const float across = p.number("sun_aperture", 1);
+        if (across < 0 || across > 180)
+            p.take("sun_aperture")->fail("'sun_aperture' must be from 0 to 180 degrees", "value");
+        radius = glm::radians(across) / 2;
+    }
     const Rgb radiance = scale * sun_radiance(day.turbidity, day.elevation());
     const glm::vec3 direction = disk_direction(day);
     if (radius < smallest_disk)

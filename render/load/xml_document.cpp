@@ -45,8 +45,10 @@ XmlDocument::XmlDocument(std::string text, std::string name, std::optional<std::
         if (text_[i] == '\n')
             line_starts_.push_back(i + 1);
     const auto result = tree_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (result)
+    if (result) {
+        version_ = root().attribute("version");
         return;
+    }
     // At the end of a file the offset is one past the last character; the last line is shown then.
     const std::size_t last = text_.empty() ? 0 : text_.find_last_not_of(white_space);
     const std::size_t offset =
@@ -94,6 +96,7 @@ std::vector<XmlElement> XmlDocument::elements() const {
 XmlDocument& XmlDocument::include(pugi::xml_node node, std::unique_ptr<XmlDocument> document) {
     std::unique_ptr<XmlDocument>& place = included_[node.internal_object()];
     place = std::move(document);
+    place->version_ = version_;
     include_order_.push_back(place.get());
     return *place;
 }

@@ -31,6 +31,8 @@ public:
     /// Whether the bytes were no UTF-8 and were taken for Latin-1.
     bool was_latin1() const { return was_latin1_; }
     XmlElement root() const;
+    /// Of Mitsuba, as the file says that includes this one, if any does, or as this one says; empty: it does not.
+    const std::string& version() const { return version_; }
     pugi::xml_document& tree() { return tree_; }
 
     /// All elements in order of the file, the root first, those of included files in the place of the <include>.
@@ -54,6 +56,7 @@ private:
     std::string text_; // as it was in the file; the tree's values may have been replaced since
     std::string name_;
     std::optional<std::filesystem::path> folder_;
+    std::string version_;
     bool was_latin1_ = false;
     std::vector<std::size_t> line_starts_;
     pugi::xml_document tree_;
@@ -96,9 +99,9 @@ private:
     pugi::xml_node node_;
 };
 
-/// Whether the document that the element stands in says that it is of Mitsuba 0.x.
+/// Whether the element is of a scene of Mitsuba 0.x.
 inline bool is_of_version_0(const XmlElement& element) {
-    return element.document().root().attribute("version").starts_with("0.");
+    return element.document().version().starts_with("0.");
 }
 
 } // namespace tessera

@@ -1,10 +1,13 @@
 #include "render/mesh/ply_format.h"
 
+#include "render/io/text.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -200,6 +203,8 @@ double PlyValues::next_word() {
     const auto [read, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
     if (read != end || error == std::errc::invalid_argument)
         throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a number");
+    if (error == std::errc::result_out_of_range) // as good as 0, or more than any number
+        value = parse_number(word).value_or(std::numeric_limits<double>::infinity());
     bytes_.take(word.size());
     return value;
 }

@@ -166,6 +166,12 @@ TEST(EmitterPlugins, BadValuesAreNamed) {
     EXPECT_THAT(error_of("<emitter type='projector'><rgb name='irradiance' value='-1'/></emitter>"),
                 has("'irradiance' must not be negative"));
     EXPECT_THAT(error_of("<emitter type='envmap'/>"), has("'envmap' needs a 'filename'"));
+    EXPECT_THAT(error_of("<emitter type='sunsky'><integer name='month' value='13'/></emitter>"),
+                has("there is no day 2010-13-10"));
+    EXPECT_THAT(error_of("<emitter type='sun'><integer name='year' value='70000'/></emitter>"),
+                has("there is no day 70000-7-10"));
+    EXPECT_THAT(error_of("<emitter type='sun'><float name='sun_aperture' value='-1'/></emitter>"),
+                has("'sun_aperture' must be from 0 to 180 degrees"));
     EXPECT_THAT(error_of("<emitter type='sky'><float name='turbidity' value='70'/></emitter>"),
                 has("'turbidity' must be from 1 to 10"));
 }

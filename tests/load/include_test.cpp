@@ -145,6 +145,20 @@ TEST_F(Include, WhatIsNoFile) {
     }
 }
 
+/// What an element means depends on the version: of the scene, not of the file it stands in.
+TEST_F(Include, AnIncludedFileIsOfTheVersionOfTheOneThatIncludesIt) {
+    const std::string shape = "<shape type='rectangle'><transform name='to_world'><rotate y='2' angle='90'/>"
+                              "</transform></shape>";
+    folder.write("b.xml", scene_with(shape));
+    folder.write("c.xml", "<scene>" + shape + "<include filename='b.xml'/></scene>");
+    const std::string old =
+        "<scene version='0.6.0'><sensor type='perspective'/><include filename='c.xml'/>" + shape + "</scene>";
+    const LoadedScene loaded = load_mitsuba_xml(folder.write("old.xml", old), {}, serial_for, nullptr, true);
+    ASSERT_EQ(loaded.description.shapes.size(), 3u);
+    for (const Shape& s : loaded.description.shapes)
+        EXPECT_EQ(s.mesh.positions, loaded.description.shapes.back().mesh.positions); // not stretched
+}
+
 TEST_F(Include, AnotherVersionInsideHasANote) {
     folder.write("b.xml", "<scene version='0.6.0'><bsdf type='diffuse'/></scene>");
     const LoadedScene loaded = load("<sensor type='perspective'/><include filename='b.xml'/>");

@@ -182,6 +182,8 @@ TEST(Ply, Errors) {
     EXPECT_EQ(error_of(small(three, "3 0 1")), "face 0: the file ends too early");
     EXPECT_EQ(error_of(small("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its y is not a finite number");
     EXPECT_EQ(error_of(small("0 0 0\n1 0 1e300\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its z is not a finite number");
+    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e400\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its z is not a finite number");
+    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e-400\n0 1 0\n", "3 0 1 2\n")), "no error");
     EXPECT_EQ(error_of(small("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
     EXPECT_EQ(error_of(small(three, "3 0 1 2\n", 3, 1000000000)),
               "the header promises 1000000000 rows of 'face', but the file ends too early for them");
