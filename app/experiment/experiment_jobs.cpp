@@ -111,7 +111,6 @@ std::size_t ExperimentJobs::left() {
 std::string ExperimentJobs::list() {
     std::string text;
     int number = 0;
-    double all = 0;
     for (std::size_t item = 0; item < items_.size(); ++item) {
         const Item& i = items_[item];
         if (i.reference)
@@ -125,7 +124,6 @@ std::string ExperimentJobs::list() {
                             : owner.empty() ? "open"
                                             : "claimed by " + owner,
                             about, i.experiment->text_of(i.experiment->jobs()[i.job]));
-        all += done || std::isnan(seconds) ? 0 : seconds;
     }
     return text;
 }

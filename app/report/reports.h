@@ -91,6 +91,8 @@ std::vector<Chart> sweep_charts(const ExperimentOptions& options, const std::vec
 /// The results as CSV, a line for each: scene, method, reconstruction, what is varied, the share of time or
 /// samples, all columns of result.h, and the kinds of machines; an empty cell where there is no value.
 std::string to_csv(const ExperimentOptions& options, const std::vector<Result>& results);
+/// A cell of such a file: in quotes where the text would else be more than one.
+std::string csv_cell(const std::string& text);
 
 /// The results as JSON, with the machine, all settings and every single run.
 std::string to_json(const ExperimentOptions& options, const std::vector<Result>& results);

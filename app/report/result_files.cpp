@@ -17,8 +17,6 @@ namespace tessera {
 
 using nlohmann::ordered_json;
 
-namespace {
-
 std::string csv_cell(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == text.npos)
         return text;
@@ -27,6 +25,8 @@ std::string csv_cell(const std::string& text) {
         quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + "\"";
 }
+
+namespace {
 
 /// JSON knows no infinities, and no "not a number": null.
 ordered_json number(double value) {
@@ -161,9 +161,9 @@ std::string speed_up_csv(const ExperimentOptions& options, const std::vector<Sce
                 if (is_gpr(slower) || !is_gpr(faster))
                     continue;
                 const SpeedUp s = speed_up(slower, faster);
-                text += fmt::format("{},\"{}\",\"{}\",{},{},{},{},{}\n", scene.name, curve_label(options, slower),
-                                    curve_label(options, faster), kind_name(s.kind), cell(s.factor), cell(s.low),
-                                    cell(s.high), cell(s.error));
+                text += fmt::format("{},{},{},{},{},{},{},{}\n", csv_cell(scene.name),
+                                    csv_cell(curve_label(options, slower)), csv_cell(curve_label(options, faster)),
+                                    kind_name(s.kind), cell(s.factor), cell(s.low), cell(s.high), cell(s.error));
             }
     return text;
 }

@@ -63,9 +63,9 @@ std::string to_csv(const std::vector<StabilityRow>& rows) {
     for (const StabilityRow& row : rows) {
         const Findings& f = row.findings;
         const PictureSettings& s = row.result.setup.settings;
-        text += fmt::format("{},{},{},{},\"{}\",{}", row.of->name(), short_name(s.render.method),
-                            to_string(s.reconstruction.norm), to_string(row.verdict.kind), row.verdict.cause,
-                            row.result.runs.size());
+        text += fmt::format("{},{},{},{},{},{}", csv_cell(row.of->name()), short_name(s.render.method),
+                            to_string(s.reconstruction.norm), to_string(row.verdict.kind),
+                            csv_cell(row.verdict.cause), row.result.runs.size());
         for (double value : {spp_of(row.result),
                              cpu_seconds_of(row.result),
                              f.energy.value,
@@ -92,7 +92,7 @@ std::string to_csv(const std::vector<StabilityRow>& rows) {
                              f.halo_energy,
                              f.halo_peak})
             text += std::isfinite(value) ? fmt::format(",{:.7g}", value) : ",";
-        text += fmt::format(",{},{},\"{}\"\n", f.bad_pixels, f.refused, row.result.machine);
+        text += fmt::format(",{},{},{}\n", f.bad_pixels, f.refused, csv_cell(row.result.machine));
     }
     return text;
 }
