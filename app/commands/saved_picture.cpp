@@ -1,6 +1,7 @@
 #include "app/cli/picture_layers.h"
 #include "app/cli/render_stats.h"
 #include "app/commands/commands.h"
+#include "recon/picture/oidn.h"
 #include "render/io/json_text.h"
 #include "render/run/first_hits.h"
 #include "render/scene/camera.h"
@@ -33,6 +34,13 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
                         {"spp", snapshot.spp}};
     json.update(counters_json(snapshot.counters));
     return json;
+}
+
+/// A session makes the picture of `guided` where the denoiser is missing: so it is saved.
+SavedPicture possible(SavedPicture picture) {
+    if (picture.reconstruction.norm == Norm::oidn && !oidn_problem().empty())
+        picture.reconstruction.norm = Norm::guided;
+    return picture;
 }
 
 /// The snapshot's own, if the same samples and settings would give it again; null: they would not.
@@ -88,7 +96,8 @@ void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
 
 } // namespace
 
-void write_saved_picture(const std::filesystem::path& file, const SavedPicture& picture) {
+void write_saved_picture(const std::filesystem::path& file, const SavedPicture& shown) {
+    const SavedPicture picture = possible(shown);
     const Snapshot& snapshot = *picture.snapshot;
     const Norm norm = applied(picture.reconstruction.norm, has_gradients(snapshot.settings.method));
     std::vector<ReconstructionStats> stats;

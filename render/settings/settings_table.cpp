@@ -239,8 +239,8 @@ std::vector<Setting> settings_of(RenderSettings& s) {
         {"positions", "Positions",
          "Where a pixel sees several things, as at edges, a pass sees it from so many places within it, and each "
          "base path is shared at one of them. 1: all are shared at the same, and an edge is as rough as one "
-         "sample.",
-         Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method), true},
+         "sample. (Not of parts.)",
+         Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method) && !is_expanded(s), true},
         {"very_direct_rays", "Lamp rays",
          "Where lamps that the camera sees have their edges, a sample looks for them with so many rays, of which "
          "powers of two lie most evenly. 1: with the ray of its path.",

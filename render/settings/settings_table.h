@@ -34,7 +34,7 @@ ReconstructionSettings applied(const ReconstructionSettings& settings, bool has_
 
 Setting method_setting(Method& method);
 Setting seed_setting(std::uint64_t& seed);
-/// `least` is above 0 where a picture needs samples, or two for its two halves; `help` says of what they are.
+/// `least` is above 0 where a picture needs samples, or two for its two halves.
 Setting spp_setting(int& spp, int least = 1);
 /// `least` is 0 where that may stand for one a hardware thread.
 Setting threads_setting(int& threads, int least = 0);

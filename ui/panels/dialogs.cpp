@@ -23,9 +23,9 @@ void draw_method(Controls& controls, ReferenceMaking& making) {
     static const std::vector<ChoiceItem> methods = [] {
         constexpr const char* helps[] = {
             "Path tracing: slow, and free of what tiles have in common.", "Path reusing in tiles of 8 pixels.",
-            "Gradients of neighbours, reconstructed by L2.",
-            "Gradients of tiles of 8 pixels, reconstructed by L2: the quickest on most "
-            "scenes."};
+            "Gradients of neighbours, reconstructed by L2, or as sampled where that is nearer.",
+            "Gradients of tiles of 8 pixels, reconstructed by L2, or as sampled where that is nearer: the "
+            "quickest on most scenes."};
         std::vector<ChoiceItem> list;
         for (Method method : all_methods)
             list.push_back({std::string(short_name(method)), std::string(paper_name(method)),

@@ -185,10 +185,9 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
 void draw_reference_settings(Controls& controls, ViewerState& state) {
     const Reference* reference = state.companions.reference.get();
     std::string file = reference ? short_path(reference->name) : "";
-    if (controls.text(
-            "reference", "File", file, "an EXR file",
-            "EXR file with the image to measure errors against (7, 8, 9): type its name, or drop it on the "
-            "window."))
+    if (controls.text("reference", "File", file, "an EXR file",
+                      "EXR file with the image to measure errors against (7, 8): type its name, or drop it on the "
+                      "window."))
         state.wishes.open_reference = file;
     if (controls.button("reference_open", "Open ...", "Chooses an EXR file."))
         state.layout.choosing = FilePurpose::reference;
@@ -233,7 +232,7 @@ void draw_preset(Controls& controls, ViewerState& state) {
     if (controls.bare_choice(
             "preset", shown.c_str(), items, index, -FLT_MIN,
             "Settings that belong together, for the active pane, or for all that have the same. Marked "
-            "is what differs from them. Chosen again, it takes all changes back.") ||
+            "is what differs from them. A right click here takes all changes back.") ||
         (index == state.preset && !is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
         state.preset = index;
         apply(presets()[static_cast<std::size_t>(index)], state.active().settings);

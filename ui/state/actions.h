@@ -114,7 +114,7 @@ void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
 /// From the whole of coefficients to their first part, and so on through all that some pane has.
 void next_part(ViewerState& state);
-/// Four panes of the active one's samples: the primal, and what L2, L1 and the weighted norm make of them.
+/// Four panes of the active one's samples: the primal, and what L1, the weighted norm and guides make of them.
 void compare_reconstructions(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);

@@ -101,6 +101,7 @@ void Viewer::take_scene() {
     }
     if (!state_.scene)
         state_.scene_problem = {result->error, true};
+    state_.wishes.open_settings.clear(); // they were to follow that scene
     state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
 }
 
@@ -129,11 +130,13 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
     const auto depth_of = [&](const Scene& s) {
         return std::clamp(options_.max_depth.value_or(s.max_depth()), 1, most_edges);
     };
-    for (PaneState& pane : state_.panes) {
-        int& depth = pane.settings.render.max_depth;
+    const auto set_depth = [&](PaneSettings& pane) {
+        int& depth = pane.render.max_depth;
         if (!again || depth == depth_of(*before)) // not one that the user has set
             depth = depth_of(*state_.scene);
-    }
+    };
+    std::ranges::for_each(state_.panes, set_depth, &PaneState::settings);
+    std::ranges::for_each(state_.spare_panes, set_depth);
 }
 
 // --- drawing ---

@@ -88,6 +88,7 @@ void Viewer::fulfil_wishes() {
                            Message::Origin::failed_load);
         load_.cancel();
         state_.loading.clear();
+        state_.wishes.open_settings.clear(); // they were to follow that scene
         if (!state_.scene)
             state_.scene_problem = {"Loading " + load_.origin().name + " was given up.", false};
     }

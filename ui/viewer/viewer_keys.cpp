@@ -54,8 +54,9 @@ void Viewer::read_keyboard() {
     state_.wishes.redraw |= list_steps_pending();
     if (state_.layout.show_palette)
         steer_palette(typed, state_.layout);
-    run_shortcuts(typed, io.WantTextInput, state_);
-    const bool held_back = io.WantTextInput || in_list || state_.layout.choosing || state_.layout.show_palette;
+    const bool is_typing = io.WantTextInput || state_.layout.show_palette;
+    run_shortcuts(typed, is_typing, state_);
+    const bool held_back = is_typing || in_list || state_.layout.choosing;
     state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
     flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
