@@ -30,13 +30,6 @@ std::string_view to_string(Spikes spikes) {
     return spikes == Spikes::off ? "off" : "consistent";
 }
 
-std::optional<Norm> norm_from_name(std::string_view name) {
-    for (const Norm norm : all_norms)
-        if (to_string(norm) == name)
-            return norm;
-    return {};
-}
-
 bool expands(Norm norm) {
     return norm == Norm::l2 || norm == Norm::l1 || norm == Norm::mixed || norm == Norm::weighted;
 }

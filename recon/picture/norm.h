@@ -3,7 +3,6 @@
 #include "recon/enumeration.h"
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 namespace tessera {
@@ -31,8 +30,6 @@ inline Norm applied(Norm norm, bool has_gradients) {
 
 /// "none", "l2", "l1", "mixed", "uniform", "weighted", "guided", "smoothed", "oidn".
 std::string_view to_string(Norm norm);
-/// Empty: no such norm.
-std::optional<Norm> norm_from_name(std::string_view name);
 
 /// Whether the image is a linear function of primal and gradients, and so as unbiased as they are, if spikes count
 /// in full.

@@ -52,8 +52,8 @@ private:
 void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
               BsdfLanes& values);
 
-/// What became of one light path x of a base path of pixel k in each offset pixel m, a lane a pixel (METHODS.md,
-/// 3):
+/// What became of one light path x of a base path of pixel k in each offset pixel m, a lane a pixel
+/// (METHODS.md, "The weight"):
 ///   ratio = r_m = P_m(y_m) |J| / P_k(x), where y_m is the shifted path, P the density with which a pixel's
 ///   samplers
 ///           make a path, summed over strategies, and J the shift's Jacobian; no unit, 0: the shift failed
