@@ -155,10 +155,12 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     return true;
 }
 
-/// What is seen in mirrors alone is very direct light: of a base path's light paths it is none.
-void take_mirrored_light(BasePath& path) {
+/// What is seen in mirrors alone is very direct light: of a base path's light paths it is none. And what is seen
+/// in them tells the path's albedo: light is as smooth there as where it is seen directly.
+void look_into_mirrors(const Tracer& tracer, BasePath& path) {
     Rgb throughput(1);
-    for (int i = 0; i < path.size() && path[i].vertex.bsdf.is_mirror(); ++i) {
+    int i = 0;
+    for (; i < path.size() && path[i].vertex.bsdf.is_mirror(); ++i) {
         BaseVertex& v = path[i];
         if (i + 1 == path.size() && !v.escapes)
             break;
@@ -166,6 +168,8 @@ void take_mirrored_light(BasePath& path) {
         path.very_direct += throughput * v.hit_brings;
         v.hit_brings = Rgb(0);
     }
+    if (path[0].vertex.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors())
+        path.albedo = tracer.albedo_in_mirrors(throughput, i + 1, i < path.size() ? &path[i].vertex : nullptr);
 }
 
 /// Sums the light from the far end to the camera, so that each vertex knows what arrives from beyond it.
@@ -201,7 +205,7 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
         if (!extend(tracer, i, purpose.bounce, path))
             break;
     }
-    take_mirrored_light(path);
+    look_into_mirrors(tracer, path);
     gather(path);
 }
 
@@ -241,7 +245,7 @@ void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth 
     for (int i = 1; i < tracer.settings.max_depth && path[i - 1].vertex.bsdf.is_mirror(); ++i)
         if (!extend(tracer, i, RayKind::bounce, path))
             break;
-    take_mirrored_light(path);
+    look_into_mirrors(tracer, path);
     path.cut();
 }
 

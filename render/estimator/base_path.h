@@ -52,7 +52,7 @@ struct BasePath {
     Rgb very_direct{0}; ///< emission seen by the camera itself, straight or in mirrors
     Rgb direct{0};      ///< sum over its light paths of two edges
     Rgb indirect{0};    ///< sum over all longer ones
-    Rgb albedo{1};      ///< of x_1, about (Bsdf::albedo); 1 where it sees nothing
+    Rgb albedo{1};      ///< of x_1, about (Bsdf::albedo), or of what mirrors show there; 1 where it sees nothing
     Random random{0, 0, 0};
     float pixel_width = 0; ///< at x_1, across the view: scene units
     float pixel_angle = 0; ///< what that grows by with distance from the camera (PixelWidth)

@@ -212,10 +212,10 @@ namespace {
 constexpr int cells_along = 4; // of the grid, of a pixel and of the lens, by which edges of lamps are looked for
 }
 
-int very_direct_looks(const Pass& pass, const Scene& scene) {
+int very_direct_looks(const Pass& pass) {
     if (pass.settings.very_direct_rays == 1)
         return 0;
-    return pass.has_lens() ? cells_along * cells_along : scene.has_masks() ? cells_along : 1;
+    return pass.has_lens() ? cells_along * cells_along : cells_along;
 }
 
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture) {
@@ -225,11 +225,10 @@ void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer&
     constexpr int n = cells_along;
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            const int row = pass.has_lens() ? look / n : look; // all cells, or some on a diagonal
+            const int row = pass.has_lens() ? look / n : look; // all parts, or those of a diagonal
             const glm::vec2 cell((x + 1 + look) % n, (y + 1 + row) % n);
             const glm::vec2 in_cell = (cell + 0.5f) / static_cast<float>(n);
-            const glm::vec2 subpixel = tracer.scene.has_masks() ? in_cell : glm::vec2(0.5f);
-            const Ray ray = pass.camera_ray(x, y, {subpixel, sample_disk(in_cell)});
+            const Ray ray = pass.camera_ray(x, y, {in_cell, sample_disk(in_cell)});
             picture(x + 1, y + 1) = tracer.very_direct_along(ray);
         }
 }

@@ -77,8 +77,8 @@ public:
     /// no two rays are in one place, as they would be in a grid.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
-    /// What a base path's radiance is divided by: the albedo at x_1, black where it sees nothing; or 1, where
-    /// settings.basis has no albedo.
+    /// What a base path's radiance is divided by: the albedo at x_1 or of what mirrors show there, black where it
+    /// sees nothing; or 1, where settings.basis has no albedo.
     Rgb albedo_of(const BasePath& path) const {
         if (!is_demodulated(settings))
             return Rgb(1);
@@ -95,10 +95,9 @@ public:
     bool has_lens() const { return has_lens_; }
 
     /// The numbers of a pixel's path; `path` as in camera_sample(). What is drawn at x_1 is a net over the passes
-    /// that go by one plan, and over blocks of pixels, and independent of the passes before, by which that was made.
-    Random random(int x, int y, int path = 0) const {
-        return numbers_.of_path({x, y}, size.x, path);
-    }
+    /// that go by one plan, and over blocks of pixels, and independent of the passes before, by which that was
+    /// made.
+    Random random(int x, int y, int path = 0) const { return numbers_.of_path({x, y}, size.x, path); }
 
 private:
     std::uint32_t place_of(glm::ivec2 pixel) const; // for PassNumbers
@@ -224,15 +223,14 @@ bool tells_of_light(const Pass& pass, const Random& random);
 /// Notes what light the base path of a pixel has found, if it is to tell of it.
 void note_light(const Pass& pass, const BasePath& path, std::vector<FoundLight>& found);
 
-/// How many looks it takes to find the edges of lamps: with a lens one through each of 16 parts, as what
-/// it blurs is seen through some of its points only; a few where surfaces may be there for one ray and not for
-/// another, behind which a lamp has edges everywhere.
-int very_direct_looks(const Pass& pass, const Scene& scene);
+/// How many looks it takes to find the edges of lamps: some, as lamps may be narrower than pixels, and surfaces
+/// before them may be there for one ray and not for another; with a lens one through each of 16 parts, as what it
+/// blurs is seen through some of its points only.
+int very_direct_looks(const Pass& pass);
 
 /// Very direct light of the block's pixels, and of those beside it beyond the image's borders, along a ray through
-/// the middle of each. Pixels side by side look through different parts of the lens, and differ where a lamp is
-/// blurred, too; over all looks each sees through every part. Where there are masks, rays are not in the middle,
-/// as the same ray sees the same.
+/// one of 16 parts of each, by turns, and through that part of the lens: pixels side by side look through
+/// different ones, and differ where a lamp is blurred, too.
 /// @param picture  with a pixel more than the image on all four sides
 void show_very_direct(const Pass& pass, int look, PixelRect block, const Tracer& tracer, RgbImage& picture);
 

@@ -229,10 +229,15 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     Guide& guide = look.guide;
     float length = 0;
     Vertex x;
+    bool is_seen_in_mirrors = true; // alone, so far
     for (int i = 1; tracer.closest(ray, x, RayKind::look); ++i) {
         length += glm::distance(ray.origin, x.position);
-        if (i == 1)
+        const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
+        if (i == 1 && !is_mirror)
             look.albedo = x.bsdf.albedo(x.to_previous);
+        else if (is_seen_in_mirrors)
+            look.albedo = tracer.albedo_in_mirrors(guide.albedo, i, &x);
+        is_seen_in_mirrors = is_seen_in_mirrors && is_mirror;
         const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
         const auto s = is_mirror_or_glass && i < most_bounces
                            ? x.sample(random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))

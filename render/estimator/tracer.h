@@ -182,6 +182,18 @@ struct Tracer {
     /// mirrors.
     Rgb very_direct_along(Ray ray) const;
 
+    /// Whether all that look into a mirror from one point see the same there, whatever numbers they draw: not
+    /// where surfaces are there for one ray and not for another.
+    bool sees_the_same_in_mirrors() const { return !scene.has_masks(); }
+    /// About the albedo of a pixel that sees x_index in mirrors, which leave `throughput` of its light.
+    /// @param seen  x_index; null: mirrors show nothing. That, another mirror, and what has no light path with an
+    /// edge beyond it, count as next to black. Never 0, so that light can be divided by it.
+    Rgb albedo_in_mirrors(Rgb throughput, int index, const Vertex* seen) const {
+        const bool has_light = seen && !seen->bsdf.is_mirror() && index < settings.max_depth;
+        const Rgb albedo = has_light ? throughput * seen->bsdf.albedo(seen->to_previous) : Rgb(0);
+        return glm::max(albedo, Rgb(1e-4f));
+    }
+
     /// The ray that leaves a vertex in a unit direction (world).
     Ray leave(const Vertex& from, glm::vec3 direction) const {
         return {scene.intersector().off_surface(from.position, from.geometric_normal, direction), direction};

@@ -13,7 +13,7 @@ namespace tessera {
 
 /// What one camera ray tells of a pixel.
 struct Look {
-    Rgb albedo{0}; ///< at x_1; black where it meets nothing
+    Rgb albedo{0}; ///< at x_1, or of what mirrors show there; black where it meets nothing
     Guide guide;
 };
 

@@ -141,7 +141,7 @@ private:
 bool Render::look_first(Workers& workers) {
     const Pass pass(*scene_, camera_, size_, settings_, plan_, 0);
     const std::vector<PixelRect> blocks = blocks_of(pass);
-    const int looks = very_direct_looks(pass, *scene_);
+    const int looks = very_direct_looks(pass);
     for (int look = 0; look < looks; ++look) {
         RgbImage lamps(size_.x + 2, size_.y + 2);
         if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {

@@ -23,7 +23,7 @@ struct Measured {
 struct NaiveMeasured {
     Measured light; ///< all but very direct light
     Measured very_direct;
-    Measured coefficient; ///< light over the albedo of what is seen first
+    Measured coefficient; ///< light over the albedo of what is seen first, straight or in mirrors
 };
 
 /// The judge: a path tracer without emitter sampling and without weights, with random numbers of its own; light is
