@@ -71,6 +71,12 @@ TEST_F(Panes, CommandsAreFoundByWords) {
     type(Key::down);
     type(Key::escape);
     EXPECT_FALSE(has("palette.text"));
+
+    const Method method = state().active().settings.render.method;
+    state().layout.show_palette = true;
+    type(Key::m); // before its text has the keyboard
+    EXPECT_EQ(state().active().settings.render.method, method);
+    EXPECT_TRUE(state().layout.show_palette);
 }
 
 TEST_F(Panes, TheHelpIsFoundByWords) {

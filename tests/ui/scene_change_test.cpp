@@ -188,6 +188,20 @@ TEST_F(SceneChange, DroppedSceneIsLoaded) {
     EXPECT_EQ(file.loads, 3);
 }
 
+TEST_F(SceneChange, PanesThatWereTakenAwayHaveTheDepthOfTheScene) {
+    show();
+    state().linked = false;
+    state().set_pane_count(2);
+    for (PaneState& pane : state().panes)
+        pane.settings.render.max_depth = 31;
+    state().set_pane_count(1);
+    viewer.drop({"other.xml"});
+    settle();
+    state().set_pane_count(2);
+    EXPECT_NE(state().panes[0].settings.render.max_depth, 31);
+    EXPECT_EQ(state().panes[1].settings.render.max_depth, state().panes[0].settings.render.max_depth);
+}
+
 TEST_F(SceneChange, DroppedFileOfAnotherKindGetsAMessage) {
     show();
     viewer.drop({"/pictures/cat.png", "list.txt"});
@@ -202,10 +216,12 @@ TEST_F(SceneChange, DroppedFileOfAnotherKindGetsAMessage) {
 TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
     show();
     file.error = "other.xml:1:1: broken";
-    viewer.drop({"other.xml"});
+    viewer.drop({"other.xml", "of_other.json"});
     settle();
     EXPECT_EQ(state().scene_name, "room.xml");
     EXPECT_TRUE(says("other.xml:1:1"));
+    EXPECT_TRUE(state().wishes.open_settings.empty());
+    EXPECT_FALSE(says("of_other.json")) << "its settings are not for the scene that is left";
     file.error.clear();
     reload();
     EXPECT_EQ(state().scene_name, "room.xml");
@@ -251,6 +267,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
             return nullptr;
         });
         wait_until([&] { return !state().loading.empty() && has("cancel_load"); });
+        viewer.drop({"of_slow.json"});
         frames(2);
         save("cancel_load.png");
         if (by_key) {
@@ -268,6 +285,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
         frames(3);
         EXPECT_EQ(state().scene_name, "room.xml");
         EXPECT_TRUE(says("slow.xml was given up"));
+        EXPECT_FALSE(says("of_slow.json"));
         EXPECT_FALSE(has("cancel_load"));
     }
 }
