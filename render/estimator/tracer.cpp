@@ -224,7 +224,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
 }
 
 Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
-    constexpr int most_bounces = 8; // what is seen beyond so many mirrors is as good a guide as any
+    constexpr int most_bounces = 8; // what is seen beyond so many mirrors is as good a guide as any, but no albedo
     Look look{Rgb(0), {Rgb(1)}};
     Guide& guide = look.guide;
     float length = 0;
@@ -239,7 +239,8 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
             look.albedo = tracer.albedo_in_mirrors(guide.albedo, i, &x);
         is_seen_in_mirrors = is_seen_in_mirrors && is_mirror;
         const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
-        const auto s = is_mirror_or_glass && i < most_bounces
+        const int most = is_seen_in_mirrors ? std::max(tracer.settings.max_depth, most_bounces) : most_bounces;
+        const auto s = is_mirror_or_glass && i < most
                            ? x.sample(random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
                            : std::nullopt;
         if (!s) {

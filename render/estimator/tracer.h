@@ -183,8 +183,9 @@ struct Tracer {
     Rgb very_direct_along(Ray ray) const;
 
     /// Whether all that look into a mirror from one point see the same there, whatever numbers they draw: not
-    /// where surfaces are there for one ray and not for another.
-    bool sees_the_same_in_mirrors() const { return !scene.has_masks(); }
+    /// where surfaces are there for one ray and not for another, nor where textures are filtered by footprints,
+    /// which looks have none of.
+    bool sees_the_same_in_mirrors() const { return !scene.has_masks() && view.filter() == TextureFilter::off; }
     /// About the albedo of a pixel that sees x_index in mirrors, which leave `throughput` of its light.
     /// @param seen  x_index; null: mirrors show nothing. That, another mirror, and what has no light path with an
     /// edge beyond it, count as next to black. Never 0, so that light can be divided by it.

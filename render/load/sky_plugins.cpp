@@ -2,6 +2,7 @@
 #include "render/sampling/sampling.h"
 #include "render/scene/sky.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -41,7 +42,8 @@ PlaceAndTime place_and_time(Properties& p) {
     const std::chrono::year_month_day date{std::chrono::year(when.year),
                                            std::chrono::month(static_cast<unsigned>(when.month)),
                                            std::chrono::day(static_cast<unsigned>(when.day))};
-    if (std::abs(when.year) > 9999 || when.month > 12 || when.day > 31 || !date.ok())
+    if (std::abs(when.year) > 9999 || std::min(when.month, when.day) < 1 || std::max(when.month, when.day) > 31 ||
+        !date.ok())
         p.element().fail(fmt::format("there is no day {}-{}-{}", when.year, when.month, when.day));
     when.hour = p.number("hour", static_cast<float>(when.hour));
     when.minute = p.number("minute", static_cast<float>(when.minute));

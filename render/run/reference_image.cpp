@@ -18,7 +18,7 @@ namespace {
 constexpr const char* reference_attribute = "tessera:reference";
 constexpr const char* scene_attribute = "tessera:scene";
 
-/// Whether there is nothing, or a surface that is black: Bsdf::albedo is 0.01 there.
+/// Whether there is nothing, or a surface that is black, whose Bsdf::albedo is 0.01, or a mirror that shows either.
 bool sees_black(const GradientImages& images, std::size_t i) {
     if (images.demodulation.empty())
         return false;

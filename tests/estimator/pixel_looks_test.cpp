@@ -89,6 +89,28 @@ TEST(PixelLooks, LightInAMirrorIsOverTheAlbedoOfWhatItShows) {
     EXPECT_GT(variation(masked.primal), 0.1);
 }
 
+/// Between two mirrors that face each other, ten of them before a wall.
+TEST(PixelLooks, AlbedosAreFollowedAsFarAsPaths) {
+    SceneBuilder scene;
+    const int mirror = scene.mirror();
+    scene.quad({1, -1, 0}, {0, 2, 0}, {0, 0, -20}, mirror);
+    scene.quad({-1, -1, -20}, {0, 2, 0}, {0, 0, 20}, mirror);
+    scene.quad({-1, -1, -20.5f}, {2, 0, 0}, {0, 2, 0}, scene.diffuse({0.6f, 0.3f, 0.1f}), scene.light(Rgb(1)));
+    scene.camera({0, 0, 0}, {1, 0, -1}, 0.5f);
+    const auto built = scene.build();
+    for (const int depth : {8, 14}) {
+        RenderSettings settings;
+        settings.method = Method::gpr;
+        settings.max_depth = depth;
+        Render render(built, built->camera(), {5, 5}, settings);
+        ThreadPool pool(1);
+        render.pass(pool);
+        const Demodulation known = render.images().demodulation;
+        EXPECT_EQ(known.albedo(2, 2), known.sampled_albedo(2, 2));
+        EXPECT_EQ(known.albedo(2, 2).r > 0.01f, depth == 14) << "whether paths reach the wall";
+    }
+}
+
 /// Pixels that see one thing need few looks, those at an edge more.
 TEST(PixelLooks, AreManyWherePixelsSeeMoreThanOneThing) {
     PixelLooks looks(9, 9, true);

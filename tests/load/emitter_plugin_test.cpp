@@ -168,6 +168,8 @@ TEST(EmitterPlugins, BadValuesAreNamed) {
     EXPECT_THAT(error_of("<emitter type='envmap'/>"), has("'envmap' needs a 'filename'"));
     EXPECT_THAT(error_of("<emitter type='sunsky'><integer name='month' value='13'/></emitter>"),
                 has("there is no day 2010-13-10"));
+    EXPECT_THAT(error_of("<emitter type='sunsky'><integer name='month' value='-250'/></emitter>"),
+                has("there is no day 2010--250-10"));
     EXPECT_THAT(error_of("<emitter type='sun'><integer name='year' value='70000'/></emitter>"),
                 has("there is no day 70000-7-10"));
     EXPECT_THAT(error_of("<emitter type='sun'><float name='sun_aperture' value='-1'/></emitter>"),

@@ -2,6 +2,7 @@
 
 #include "render/io/available_memory.h"
 
+#include <system_error>
 #include <exception>
 #include <stop_token>
 #include <utility>
@@ -24,6 +25,13 @@ SceneLoadResult load_scene(const SceneOrigin& origin, LoadProgress& progress) {
 }
 
 } // namespace
+
+bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
+    std::error_code ignored;
+    const std::filesystem::path &one = a.source.file, &other = b.source.file;
+    return (a.name == b.name && one == other) ||
+           (!one.empty() && !other.empty() && std::filesystem::equivalent(one, other, ignored));
+}
 
 void SceneLoad::start(SceneOrigin origin, std::function<void()> on_done) {
     const Load load{std::move(origin), std::make_shared<LoadProgress>(), Clock::now()};

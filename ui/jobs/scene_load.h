@@ -33,11 +33,10 @@ struct SceneOrigin {
     std::string name;   ///< to show
     SceneSource source; ///< without a camera: that is the viewer's
     SceneLoader loader;
-
-    bool operator==(const SceneOrigin& other) const {
-        return name == other.name && source.file == other.source.file;
-    }
 };
+
+/// Whether both are one scene, whatever way its file is named.
+bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b);
 
 /// Makes the origin of a scene file.
 using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;

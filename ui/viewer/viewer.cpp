@@ -45,13 +45,6 @@ ScreenRect pane_rect(const ScreenRect& all, int pane, int panes, glm::vec2 pictu
     return {glm::floor(min), glm::floor(min + cell)};
 }
 
-/// Whether both are one scene, whatever way its file is named.
-bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b) {
-    std::error_code ignored;
-    const std::filesystem::path &one = a.source.file, &other = b.source.file;
-    return a == b || (!one.empty() && !other.empty() && std::filesystem::equivalent(one, other, ignored));
-}
-
 } // namespace
 
 Viewer::Viewer(Session& session, ViewerOptions options) : link_(session), options_(std::move(options)) {
@@ -101,7 +94,7 @@ void Viewer::take_scene() {
     }
     if (!state_.scene)
         state_.scene_problem = {result->error, true};
-    state_.wishes.open_settings.clear(); // they were to follow that scene
+    drop_settings_of(result->origin);
     state_.add_message(Message::Kind::error, std::move(result->error), Origin::failed_load);
 }
 

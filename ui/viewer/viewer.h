@@ -169,6 +169,8 @@ private:
     void open(const std::filesystem::path& file);
     void fulfil_wishes();
     void load_settings(const std::filesystem::path& file);
+    /// Those that were to follow a scene which does not come; not those for the one that is shown.
+    void drop_settings_of(const SceneOrigin& origin);
     void follow_jobs();
     void fulfil_saves();
     void take(const SaveQueue::Outcome& outcome);

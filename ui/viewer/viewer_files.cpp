@@ -71,6 +71,11 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
                                                      "settings, a .json file");
 }
 
+void Viewer::drop_settings_of(const SceneOrigin& origin) {
+    if (!is_same_scene(shown_, origin))
+        state_.wishes.open_settings.clear();
+}
+
 void Viewer::load_settings(const std::filesystem::path& file) {
     try {
         apply_settings_file(state_, file);
@@ -88,7 +93,7 @@ void Viewer::fulfil_wishes() {
                            Message::Origin::failed_load);
         load_.cancel();
         state_.loading.clear();
-        state_.wishes.open_settings.clear(); // they were to follow that scene
+        drop_settings_of(load_.origin());
         if (!state_.scene)
             state_.scene_problem = {"Loading " + load_.origin().name + " was given up.", false};
     }
