@@ -36,13 +36,6 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
     return json;
 }
 
-/// A session makes the picture of `guided` where the denoiser is missing: so it is saved.
-SavedPicture possible(SavedPicture picture) {
-    if (picture.reconstruction.norm == Norm::oidn && !oidn_problem().empty())
-        picture.reconstruction.norm = Norm::guided;
-    return picture;
-}
-
 /// The snapshot's own, if the same samples and settings would give it again; null: they would not.
 const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
     const Snapshot& s = *picture.snapshot;
@@ -97,7 +90,8 @@ void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
 } // namespace
 
 void write_saved_picture(const std::filesystem::path& file, const SavedPicture& shown) {
-    const SavedPicture picture = possible(shown);
+    SavedPicture picture = shown;
+    picture.reconstruction.norm = possible(shown.reconstruction.norm); // as the session shows it
     const Snapshot& snapshot = *picture.snapshot;
     const Norm norm = applied(picture.reconstruction.norm, has_gradients(snapshot.settings.method));
     std::vector<ReconstructionStats> stats;

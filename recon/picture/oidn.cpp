@@ -167,6 +167,10 @@ std::uint64_t bytes_of_oidn(int width, int height) {
     return 64'000'000 + 900 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
+Norm possible(Norm norm) {
+    return norm == Norm::oidn && !oidn_problem().empty() ? Norm::guided : norm;
+}
+
 RgbImage denoised_by_oidn(const RgbImage& image, const GuideImages& guides) {
     if (!oidn_problem().empty())
         throw std::runtime_error(oidn_problem());

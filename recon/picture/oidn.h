@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "recon/picture/norm.h"
 
 #include <cstdint>
 #include <string>
@@ -14,6 +15,9 @@ namespace tessera {
 
 /// Why the denoiser cannot be used, and how to get it; empty: it can.
 const std::string& oidn_problem();
+
+/// The norm, or guided in place of oidn where the denoiser cannot be used.
+Norm possible(Norm norm);
 
 /// What the denoiser makes of radiance without very direct light, by the guides' albedo and normals; empty guides:
 /// by the picture alone. In the calling thread. Throws std::runtime_error with oidn_problem() or what the library

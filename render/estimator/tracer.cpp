@@ -233,10 +233,9 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     for (int i = 1; tracer.closest(ray, x, RayKind::look); ++i) {
         length += glm::distance(ray.origin, x.position);
         const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
-        if (i == 1 && !is_mirror)
-            look.albedo = x.bsdf.albedo(x.to_previous);
-        else if (is_seen_in_mirrors)
-            look.albedo = tracer.albedo_in_mirrors(guide.albedo, i, &x);
+        if (is_seen_in_mirrors)
+            look.albedo =
+                i > 1 || is_mirror ? tracer.albedo_in_mirrors(guide.albedo, i, &x) : x.bsdf.albedo(x.to_previous);
         is_seen_in_mirrors = is_seen_in_mirrors && is_mirror;
         const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
         const int most = is_seen_in_mirrors ? std::max(tracer.settings.max_depth, most_bounces) : most_bounces;

@@ -142,16 +142,17 @@ ReconstructionSettings Session::possible_reconstruction(Pane& pane) {
         const std::lock_guard lock(mutex_);
         settings = pane.reconstruction;
     }
-    if (settings.norm != Norm::oidn || oidn_problem().empty())
+    const Norm norm = possible(settings.norm);
+    if (norm == settings.norm)
         return settings;
     {
         const std::lock_guard lock(mutex_);
         if (pane.reconstruction == settings) { // not chosen anew meanwhile
-            pane.reconstruction.norm = Norm::guided;
+            pane.reconstruction.norm = norm;
             messages_.push_back(oidn_problem() + "; the picture is that of guided");
         }
     }
-    settings.norm = Norm::guided;
+    settings.norm = norm;
     return settings;
 }
 

@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "recon/picture/oidn.h"
 #include "render/io/exr.h"
 #include "render/run/first_hits.h"
 #include "render/run/thread_pool.h"
@@ -87,6 +88,15 @@ TEST_F(SavedPictureTest, TheReconstructionIsTheOneOnShow) {
     EXPECT_TRUE(stats.at("cpu").is_null());
     EXPECT_EQ(stats.at("norm"), "guided");
     EXPECT_NE(find_layer(exr, "primal"), nullptr);
+}
+
+/// The session shows that of guided then.
+TEST_F(SavedPictureTest, WithoutTheDenoiserItIsThatOfGuided) {
+    if (oidn_problem().empty())
+        GTEST_SKIP() << "the denoiser is here";
+    reconstruct(7);
+    settings.norm = Norm::oidn;
+    EXPECT_EQ(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4), marked(3, 4));
 }
 
 TEST_F(SavedPictureTest, TheReconstructionIsMadeWhereTheOneOnShowIsAnother) {

@@ -52,8 +52,10 @@ public:
             }
             Vertex v;
             make_vertex(scene_, hit, ray, v);
-            if (edges == 1 || (is_very_direct && !scene_.has_masks()))
-                albedo = albedo_of(v, throughput, edges < max_depth);
+            if (edges == 1)
+                albedo = v.bsdf.albedo(v.to_previous);
+            else if (is_very_direct && !scene_.has_masks()) // seen in mirrors alone
+                albedo = glm::max(throughput * v.bsdf.albedo(v.to_previous), Rgb(1e-4f));
             sums[is_very_direct ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
             is_very_direct = is_very_direct && v.bsdf.is_mirror();
             if (edges < max_depth)
@@ -85,15 +87,6 @@ public:
     std::vector<ByDirection> by_direction;
 
 private:
-    /// Of what is seen first, or where there are no masks in mirrors that leave `mirrored` of its light. Where
-    /// they show another mirror, or what sends no light but its own, any number does: no light is divided by it.
-    Rgb albedo_of(const Vertex& v, Rgb mirrored, bool goes_on) const {
-        if (scene_.has_masks() || (mirrored == Rgb(1) && !v.bsdf.is_mirror()))
-            return v.bsdf.albedo(v.to_previous);
-        return v.bsdf.is_mirror() || !goes_on ? Rgb(1e-4f)
-                                              : glm::max(mirrored * v.bsdf.albedo(v.to_previous), Rgb(1e-4f));
-    }
-
     /// Inverse square law and Lambert's, for every point and every directional light.
     Rgb from_lights_without_extent(const Vertex& v, bool is_first) {
         Rgb sum(0);

@@ -2,9 +2,9 @@
 
 #include "render/io/available_memory.h"
 
-#include <system_error>
 #include <exception>
 #include <stop_token>
+#include <system_error>
 #include <utility>
 
 namespace tessera {

@@ -22,9 +22,10 @@ namespace fs = std::filesystem;
 std::string stem_of(const ViewerState& state, SaveKind kind) {
     const fs::path& scene = state.scene_source.file;
     const bool has_folder_name = scene.stem() == "scene" && scene.has_parent_path(); // as most are called
-    std::error_code no_folder;                                                       // the current one may be gone
+    // The current folder may be gone.
+    std::error_code ignored;
     std::string stem = scene.empty()     ? "cornell-box"
-                       : has_folder_name ? fs::absolute(scene, no_folder).parent_path().filename().string()
+                       : has_folder_name ? fs::absolute(scene, ignored).parent_path().filename().string()
                                          : scene.stem().string();
     const PaneSettings& pane = state.active().settings;
     if (kind == SaveKind::picture || kind == SaveKind::exr)
