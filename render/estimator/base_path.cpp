@@ -121,12 +121,12 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
     const Ray ray = tracer.leave(x, direction);
-    const float width = tracer.width_beyond(path.own_width, 0, s->is_delta);
+    const Tracer::Footprint seen = tracer.footprint(tracer.width_beyond(path.own_width, 0, s->is_delta));
     using Met = Tracer::Met;
     Met met = Met::light;
     if (index + 1 == tracer.settings.max_depth)
-        met = tracer.closest_light(ray, next.vertex, kind, width);
-    else if (!tracer.closest(ray, next.vertex, kind, width))
+        met = tracer.closest_light(ray, next.vertex, kind, seen);
+    else if (!tracer.closest(ray, next.vertex, kind, seen))
         met = Met::infinity;
     if (met == Met::darkness)
         return false;
@@ -214,7 +214,7 @@ bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_wi
                 BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     BaseVertex& primary = path.spare();
-    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera)) {
+    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera, tracer.first_footprint())) {
         path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
         return false;
     }

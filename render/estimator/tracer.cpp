@@ -146,10 +146,11 @@ Rgb Tracer::very_direct_along(Ray ray) const {
     Rgb sum(0), throughput(1);
     Vertex x;
     RayKind kind = RayKind::camera;
+    Footprint seen = first_footprint();
     float width = view.first_width();
     for (int edges = 1; edges <= settings.max_depth; ++edges) {
         const bool may_go_on = edges < settings.max_depth && scene.has_mirrors();
-        const Met met = closest_light(ray, x, kind, width_beyond(width, 0, true), may_go_on);
+        const Met met = closest_light(ray, x, kind, seen, may_go_on);
         if (met == Met::darkness)
             break;
         if (met == Met::infinity)
@@ -162,6 +163,7 @@ Rgb Tracer::very_direct_along(Ray ray) const {
             break;
         throughput *= mirrored.value;
         width = width_beyond(width, glm::distance(ray.origin, x.position), true);
+        seen = footprint(width);
         kind = RayKind::bounce;
         ray = leave(x, x.to_world(mirrored.to_next));
     }
@@ -230,8 +232,11 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     float length = 0;
     Vertex x;
     bool is_seen_in_mirrors = true; // alone, so far
-    for (int i = 1; tracer.closest(ray, x, RayKind::look); ++i) {
-        length += glm::distance(ray.origin, x.position);
+    Tracer::Footprint seen = tracer.first_footprint();
+    float width = tracer.view.first_width();
+    for (int i = 1; tracer.closest(ray, x, RayKind::look, seen); ++i) {
+        const float distance = glm::distance(ray.origin, x.position);
+        length += distance;
         const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
         if (is_seen_in_mirrors)
             look.albedo =
@@ -250,6 +255,8 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
             break;
         }
         guide.albedo *= s->f_cos / s->pdf_w;
+        width = tracer.width_beyond(width, distance, s->is_delta);
+        seen = tracer.footprint(width);
         ray = tracer.leave(x, x.to_world(s->to_next));
     }
     return look;

@@ -116,13 +116,19 @@ struct Tracer {
 
     float density_factor() const { return static_cast<float>(settings.light_samples); }
 
-    static bool sees_first(RayKind kind) { return kind == RayKind::camera || kind == RayKind::look; }
-    /// What make_vertex() wants to know of textures. Camera rays have a width of their own.
-    const TextureView* texture_view(RayKind kind) const {
-        const bool is_spared = sees_first(kind) && view.spares_first();
-        return view.filter() == TextureFilter::off || is_spared ? nullptr : &view;
+    /// How wide what is looked up in textures is, as make_vertex() has it.
+    struct Footprint {
+        const TextureView* view;
+        float width;
+    };
+    /// Of what rays from surfaces meet.
+    Footprint footprint(float width = no_width) const {
+        return {view.filter() == TextureFilter::off ? nullptr : &view, width};
     }
-    float width_of(RayKind kind, float width) const { return sees_first(kind) ? view.first_width() : width; }
+    /// Of x_1, of which the width where camera rays begin is known.
+    Footprint first_footprint() const {
+        return view.spares_first() ? Footprint{nullptr, no_width} : footprint(view.first_width());
+    }
     /// That of the pixel which sees what lies beyond a vertex, by that of the vertex.
     float width_beyond(float width, float distance, bool is_delta) const {
         const bool is_its_own = width >= 0 && is_delta && view.filter() == TextureFilter::path;
@@ -130,15 +136,14 @@ struct Tracer {
     }
 
     /// Makes `vertex` what the ray meets first. False: it leaves the scene.
-    /// @param width  as make_vertex() has it; of camera rays it is known
-    bool closest(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width) const {
+    bool closest(const Ray& ray, Vertex& vertex, RayKind kind, Footprint footprint) const {
         ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return false;
         if (hits) [[unlikely]]
             hits->push_back(hit);
-        make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
+        make_vertex(scene, hit, ray, vertex, footprint.view, footprint.width);
         if (guiding && vertex.bsdf.roughness() >= PathGuiding::least_roughness)
             vertex.guide = guiding->at(vertex.position, vertex.frame.normal);
         return true;
@@ -148,7 +153,7 @@ struct Tracer {
 
     /// Traces a ray on which only a light is of interest, or what may be a mirror if so asked: `vertex` is made
     /// where it meets one.
-    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, float width = no_width,
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, Footprint footprint,
                       bool or_mirror = false) const {
         if (!or_mirror && !scene.lights().may_be_hit(ray))
             return Met::darkness;
@@ -161,13 +166,13 @@ struct Tracer {
             return Met::darkness;
         if (hits) [[unlikely]]
             hits->push_back(hit);
-        make_vertex(scene, hit, ray, vertex, texture_view(kind), width_of(kind, width));
+        make_vertex(scene, hit, ray, vertex, footprint.view, footprint.width);
         return Met::light;
     }
 
     /// The light that a ray runs into; black: none. `scratch` is overwritten.
-    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, float width = no_width) const {
-        switch (closest_light(ray, scratch, kind, width)) {
+    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, Footprint footprint) const {
+        switch (closest_light(ray, scratch, kind, footprint)) {
         case Met::light:
             return light_of(scratch, -ray.direction);
         case Met::infinity:
@@ -183,9 +188,8 @@ struct Tracer {
     Rgb very_direct_along(Ray ray) const;
 
     /// Whether all that look into a mirror from one point see the same there, whatever numbers they draw: not
-    /// where surfaces are there for one ray and not for another, nor where textures are filtered by footprints,
-    /// which looks have none of.
-    bool sees_the_same_in_mirrors() const { return !scene.has_masks() && view.filter() == TextureFilter::off; }
+    /// where surfaces are there for one ray and not for another.
+    bool sees_the_same_in_mirrors() const { return !scene.has_masks(); }
     /// About the albedo of a pixel that sees x_index in mirrors, which leave `throughput` of its light.
     /// @param seen  x_index; null: mirrors show nothing. That, another mirror, and what has no light path with an
     /// edge beyond it, count as next to black. Never 0, so that light can be divided by it.

@@ -49,11 +49,11 @@ TEST(PixelLooks, AMirrorShowsWhatIsSeenInIt) {
 
 /// The room, its wall now in squares of two colours, evenly lit; in front of the mirror, if it is masked, a
 /// surface that few rays meet.
-GradientImages squares_in_a_mirror(bool is_masked) {
+GradientImages squares_in_a_mirror(bool is_masked, float many = 40, TextureFilter filter = TextureFilter::off) {
     SceneBuilder scene;
     DiffuseMaterial squares;
     squares.reflectance.kind = CheckerboardTexture{Rgb(0.8f), Rgb(0.1f)};
-    squares.reflectance.to_uv = glm::mat3(40, 0, 0, 0, 40, 0, 0, 0, 1);
+    squares.reflectance.to_uv = glm::mat3(many, 0, 0, 0, many, 0, 0, 0, 1);
     scene.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, scene.mirror());
     scene.quad({-20, -20, 5}, {0, 40, 0}, {40, 0, 0}, scene.material({"squares", squares}));
     Material mask;
@@ -64,6 +64,7 @@ GradientImages squares_in_a_mirror(bool is_masked) {
     scene.camera({0, 0, 3}, {0, 0, 0}, 30);
     RenderSettings settings;
     settings.method = Method::gpr;
+    settings.filter_textures = filter;
     settings.max_depth = 3; // no light of the wall comes back to it
     const auto built = scene.build();
     Render render(built, built->camera(), {33, 33}, settings);
@@ -87,6 +88,17 @@ TEST(PixelLooks, LightInAMirrorIsOverTheAlbedoOfWhatItShows) {
     EXPECT_LT(variation(clear.primal), 1e-5);
     EXPECT_GT(variation(clear.radiance()), 0.1);
     EXPECT_GT(variation(masked.primal), 0.1);
+}
+
+/// Looks see squares much smaller than a pixel as paths see them: in one colour.
+TEST(PixelLooks, SeeInMirrorsWhatFilteredPathsSee) {
+    for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path}) {
+        const Demodulation known = squares_in_a_mirror(false, 20000, filter).demodulation;
+        for (int x = 14; x < 19; ++x) {
+            EXPECT_NEAR(known.sampled_albedo(x, 16).g, 0.45f, 0.02f);
+            EXPECT_NEAR(known.albedo(x, 16).g, 0.45f, 0.02f);
+        }
+    }
 }
 
 /// Between two mirrors that face each other, ten of them before a wall.

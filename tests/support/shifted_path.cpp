@@ -111,7 +111,7 @@ private:
         const glm::vec3 direction = y.vertex.to_world(s->to_next);
         Vertex next;
         if (!tracer_.closest(tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce,
-                             tracer_.width_beyond(path_.own_width, 0, y.is_delta)))
+                             tracer_.footprint(tracer_.width_beyond(path_.own_width, 0, y.is_delta))))
             return ends_by_hit(i) && escape(y, direction);
         path_.own_width =
             tracer_.width_beyond(path_.own_width, glm::distance(y.vertex.position, next.position), y.is_delta);
@@ -177,7 +177,7 @@ private:
                 return false;
             Vertex scratch;
             const Ray ray = tracer_.leave(y, y.to_world(s->to_next));
-            drawn.light = tracer_.light_along(ray, scratch, RayKind::shift_bounce);
+            drawn.light = tracer_.light_along(ray, scratch, RayKind::shift_bounce, tracer_.footprint());
         }
         const std::optional<LightRay> seen = drawn.light.seen_from(y.position);
         if (!seen)
