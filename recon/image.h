@@ -44,6 +44,19 @@ inline Rgb rgb_of_xyz(glm::vec3 xyz) {
     return columns * xyz;
 }
 
+/// The CIE's matching functions of 1931, at a wavelength in nm: x, y and z, to about 1 % [Wyman, Sloan and Shirley
+/// 2013, eq. 4 and table 1].
+inline glm::vec3 color_matching(float nm) {
+    const auto bell = [nm](float center, float width_below, float width_above) {
+        const float t = (nm - center) / (nm < center ? width_below : width_above);
+        return std::exp(-0.5f * t * t);
+    };
+    return {1.056f * bell(599.8f, 37.9f, 31.0f) + 0.362f * bell(442.0f, 16.0f, 26.7f) -
+                0.065f * bell(501.1f, 20.4f, 26.2f),
+            0.821f * bell(568.8f, 46.9f, 40.5f) + 0.286f * bell(530.9f, 16.3f, 31.1f),
+            1.217f * bell(437.0f, 11.8f, 36.0f) + 0.681f * bell(459.0f, 26.0f, 13.8f)};
+}
+
 /// The transfer function of sRGB [IEC 61966-2-1], from code 0 to 1 to linear.
 inline float srgb_to_linear(float code) {
     return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);

@@ -87,7 +87,7 @@ bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
 /// Adds steps to the correction; returns how many. What is not finite empties all that is kept.
 int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
                             const ParallelFor& parallel_for, const SolveWatch& watch) {
-    Channels rz_before{}, step{};
+    StepFactors factors;
     double first = 0;
     for (int i = 0; i < iterations; ++i) {
         if (!watch.goes_on(i, iterations))
@@ -102,19 +102,13 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
             first = total(rz);
         if (!(total(rz) > rounding * first))
             return i; // solved, as far as floats can tell
-        Channels turn{};
-        for (int c = 0; c < 3; ++c) {
-            turn[c] = step[c] > 0 ? rz[c] / rz_before[c] : 0;
-            const double curvature = wz[c] - (step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
-            step[c] = rz[c] > 0 && curvature > 0 ? rz[c] / curvature : 0;
-        }
-        const Factors turns(turn), steps(step);
+        factors.take(rz, wz);
+        const Factors turns = factors.turns(), steps = factors.steps();
         parallel_for(height_, [&](int y) {
             take_step(turns, steps, width_, values(solved_, 0, y), values(applied_, 0, y),
                       values(direction_, 0, y), values(applied_step_, 0, y), values(correction_, 0, y),
                       values(residual_, 0, y));
         });
-        rz_before = rz;
     }
     return iterations;
 }

@@ -126,6 +126,26 @@ struct Factors {
     float value[period];
 };
 
+/// The factors of the steps of conjugate gradients, channel by channel, in the form that needs all its sums at one
+/// time [Chronopoulos and Gear 1989]. Each is 0 where there is nothing left to solve.
+class StepFactors {
+public:
+    /// From r z and w z of the step to come, where w = A z.
+    void take(const Channels& rz, const Channels& wz) {
+        for (int c = 0; c < 3; ++c) {
+            turn_[c] = step_[c] > 0 ? rz[c] / rz_[c] : 0;
+            const double curvature = wz[c] - (step_[c] > 0 ? turn_[c] * rz[c] / step_[c] : 0);
+            step_[c] = rz[c] > 0 && curvature > 0 ? rz[c] / curvature : 0;
+        }
+        rz_ = rz;
+    }
+    Factors turns() const { return Factors(turn_); }
+    Factors steps() const { return Factors(step_); }
+
+private:
+    Channels rz_{}, turn_{}, step_{};
+};
+
 /// The step of one row: p = z + turn p, s = w + turn s, c += step p, r -= step s, where w = A z and s = A p.
 inline void take_step(const Factors& turn, const Factors& step, int count, const float* __restrict z,
                       const float* __restrict w, float* __restrict p, float* __restrict s,

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <utility>
 
 #include <fmt/core.h>
 #include <stb_easy_font.h>
@@ -135,6 +138,18 @@ std::string figures_of(const Result& result, std::uint64_t seed) {
     return "";
 }
 
+/// The picture of a file; empty, with a warning: it cannot be read. One damaged file is no reason to be without
+/// the report of a long run.
+RgbImage read_picture(const std::filesystem::path& file) {
+    try {
+        const ExrFile exr = read_exr(file, {}, {""});
+        return require_layer(exr, "", file);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "warning: not on the page: {}; removed, it is rendered again\n", error.what());
+        return {};
+    }
+}
+
 } // namespace
 
 std::vector<PagePicture> pictures_of(const Experiment& experiment, const std::vector<NamedResult>& results,
@@ -144,10 +159,10 @@ std::vector<PagePicture> pictures_of(const Experiment& experiment, const std::ve
         const std::filesystem::path file = experiment.image_file(result->scene, result->setup);
         if (!std::filesystem::exists(file))
             continue;
-        const ExrFile exr = read_exr(file, {}, {""});
-        const RgbImage& image = require_layer(exr, "", file);
+        RgbImage image = read_picture(file);
         if (image.width() == reference.width() && image.height() == reference.height())
-            pictures.push_back({name, figures_of(*result, experiment.options().settings.render.seed), image});
+            pictures.push_back(
+                {name, figures_of(*result, experiment.options().settings.render.seed), std::move(image)});
     }
     return pictures;
 }

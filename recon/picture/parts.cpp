@@ -140,7 +140,7 @@ bool PartsSolver::descend(const GradientImages& images, float alpha, int iterati
                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = solver_.width(), height = solver_.height(), next_row = 3 * width;
     const float weight = alpha * alpha;
-    Channels rz_before{}, step{};
+    StepFactors factors;
     for (int i = 0; i < iterations; ++i) {
         if (!watch.goes_on(done_++, all_))
             return false;
@@ -176,20 +176,14 @@ bool PartsSolver::descend(const GradientImages& images, float alpha, int iterati
         const Channels rz = total(rows_rz), wz = total(rows_wz);
         if (!std::isfinite(total(rz) + total(wz)))
             return true; // too large for floats: no further than here
-        Channels turn{};
-        for (int c = 0; c < 3; ++c) {
-            turn[c] = step[c] > 0 ? rz[c] / rz_before[c] : 0;
-            const double curvature = wz[c] - (step[c] > 0 ? turn[c] * rz[c] / step[c] : 0);
-            step[c] = rz[c] > 0 && curvature > 0 ? rz[c] / curvature : 0;
-        }
-        const Factors turns(turn), steps(step);
+        factors.take(rz, wz);
+        const Factors turns = factors.turns(), steps = factors.steps();
         parallel_for(height, [&](int y) {
             for (Part& part : parts_)
                 take_step(turns, steps, width, values(part.solved, 0, y), values(part.applied, 0, y),
                           values(part.direction, 0, y), values(part.applied_step, 0, y), values(part.image, 0, y),
                           values(part.residual, 0, y));
         });
-        rz_before = rz;
     }
     return true;
 }

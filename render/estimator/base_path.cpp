@@ -15,6 +15,7 @@ void BasePath::reset(const Random& numbers, int light_samples) {
     albedo = Rgb(1);
     random = numbers;
     pixel_width = pixel_angle = own_width = 0;
+    mirrors = 0;
     size_ = 0;
     light_samples_ = light_samples;
 }
@@ -121,7 +122,8 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
     const Ray ray = tracer.leave(x, direction);
-    const Tracer::Footprint seen = tracer.footprint(tracer.width_beyond(path.own_width, 0, s->is_delta));
+    const Tracer::Footprint seen =
+        tracer.footprint(tracer.width_beyond(path.own_width, 0, s->is_delta), path.mirrors == index);
     using Met = Tracer::Met;
     Met met = Met::light;
     if (index + 1 == tracer.settings.max_depth)
@@ -152,6 +154,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
     }
     path.keep();
+    path.mirrors += path.mirrors == index && next.vertex.bsdf.is_mirror();
     return true;
 }
 
@@ -160,7 +163,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
 void look_into_mirrors(const Tracer& tracer, BasePath& path) {
     Rgb throughput(1);
     int i = 0;
-    for (; i < path.size() && path[i].vertex.bsdf.is_mirror(); ++i) {
+    for (; i < path.mirrors; ++i) {
         BaseVertex& v = path[i];
         if (i + 1 == path.size() && !v.escapes)
             break;
@@ -168,7 +171,7 @@ void look_into_mirrors(const Tracer& tracer, BasePath& path) {
         path.very_direct += throughput * v.hit_brings;
         v.hit_brings = Rgb(0);
     }
-    if (path[0].vertex.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors())
+    if (path.mirrors > 0 && tracer.sees_the_same_in_mirrors())
         path.albedo = tracer.albedo_in_mirrors(throughput, i + 1, i < path.size() ? &path[i].vertex : nullptr);
 }
 
@@ -219,6 +222,7 @@ bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_wi
         return false;
     }
     path.keep();
+    path.mirrors = primary.vertex.bsdf.is_mirror();
     path.pixel_width = pixel_width.at(glm::distance(camera_ray.origin, primary.vertex.position));
     path.pixel_angle = pixel_width.angle;
     path.own_width = path.pixel_width;
@@ -242,7 +246,7 @@ void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth 
                         BasePath& path) {
     if (!begin_path(tracer, camera_ray, pixel_width, random, path))
         return;
-    for (int i = 1; i < tracer.settings.max_depth && path[i - 1].vertex.bsdf.is_mirror(); ++i)
+    for (int i = 1; i < tracer.settings.max_depth && path.mirrors == i; ++i)
         if (!extend(tracer, i, RayKind::bounce, path))
             break;
     look_into_mirrors(tracer, path);
@@ -252,6 +256,7 @@ void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth 
 void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     path.spare().vertex = seen[0].vertex;
+    path.mirrors = seen[0].vertex.bsdf.is_mirror();
     path.pixel_width = path.own_width = seen.pixel_width;
     path.pixel_angle = seen.pixel_angle;
     path.keep();

@@ -56,6 +56,7 @@ struct BasePath {
     Random random{0, 0, 0};
     float pixel_width = 0; ///< at x_1, across the view: scene units
     float pixel_angle = 0; ///< what that grows by with distance from the camera (PixelWidth)
+    int mirrors = 0;       ///< so many of x_1, x_2, ... are mirrors, before any other
     float own_width = 0;   ///< of its pixel at the last vertex so far, as Tracer::width_beyond() has it
 
     /// Without very direct light: an unbiased estimate for the pixel.

@@ -49,8 +49,9 @@ bool Shift::bounce(int i) {
 const Vertex* Shift::meet(int i, int m, glm::vec3 direction) {
     const BaseVertex& x = base(i);
     const auto trace = [&](Vertex& next) {
-        return tracer_.closest(tracer_.leave((*y_)[m], direction), next, RayKind::shift_bounce,
-                               tracer_.footprint(tracer_.width_beyond(own_width_[m], 0, x.is_delta)));
+        return tracer_.closest(
+            tracer_.leave((*y_)[m], direction), next, RayKind::shift_bounce,
+            tracer_.footprint(tracer_.width_beyond(own_width_[m], 0, x.is_delta), base_->mirrors > i));
     };
     if (i == 0 && x.is_delta) {
         bool is_new = false;

@@ -163,7 +163,7 @@ Rgb Tracer::very_direct_along(Ray ray) const {
             break;
         throughput *= mirrored.value;
         width = width_beyond(width, glm::distance(ray.origin, x.position), true);
-        seen = footprint(width);
+        seen = footprint(width, true);
         kind = RayKind::bounce;
         ray = leave(x, x.to_world(mirrored.to_next));
     }
@@ -256,7 +256,7 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
         }
         guide.albedo *= s->f_cos / s->pdf_w;
         width = tracer.width_beyond(width, distance, s->is_delta);
-        seen = tracer.footprint(width);
+        seen = tracer.footprint(width, is_seen_in_mirrors);
         ray = tracer.leave(x, x.to_world(s->to_next));
     }
     return look;

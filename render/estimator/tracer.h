@@ -122,8 +122,11 @@ struct Tracer {
         float width;
     };
     /// Of what rays from surfaces meet.
-    Footprint footprint(float width = no_width) const {
-        return {view.filter() == TextureFilter::off ? nullptr : &view, width};
+    /// @param is_in_mirrors  it is seen by the camera in mirrors alone: it is spared where x_1 is, as light is
+    ///                       divided by its albedo
+    Footprint footprint(float width = no_width, bool is_in_mirrors = false) const {
+        const bool is_spared = is_in_mirrors && view.spares_first() && sees_the_same_in_mirrors();
+        return {view.filter() == TextureFilter::off || is_spared ? nullptr : &view, width};
     }
     /// Of x_1, of which the width where camera rays begin is known.
     Footprint first_footprint() const {

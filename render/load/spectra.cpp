@@ -8,7 +8,7 @@
 #include <string>
 
 #include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace tessera {
 
@@ -16,27 +16,6 @@ namespace {
 
 constexpr int first_nm = 360;
 constexpr int last_nm = 830;
-
-/// One lobe of a colour matching function: a Gaussian with two widths.
-double lobe(double nm, double height, double center, double width_below, double width_above) {
-    const double t = (nm - center) / (nm < center ? width_below : width_above);
-    return height * std::exp(-0.5 * t * t);
-}
-
-/// The CIE's colour matching functions of 1931 [Wyman, Sloan and Shirley 2013, eq. 4 and table 1].
-glm::dvec3 matching_functions(double nm) {
-    return {lobe(nm, 1.056, 599.8, 37.9, 31.0) + lobe(nm, 0.362, 442.0, 16.0, 26.7) -
-                lobe(nm, 0.065, 501.1, 20.4, 26.2),
-            lobe(nm, 0.821, 568.8, 46.9, 40.5) + lobe(nm, 0.286, 530.9, 16.3, 31.1),
-            lobe(nm, 1.217, 437.0, 11.8, 36.0) + lobe(nm, 0.681, 459.0, 26.0, 13.8)};
-}
-
-/// Takes X, Y and Z to linear sRGB [IEC 61966-2-1].
-glm::dvec3 rgb_of_xyz(glm::dvec3 xyz) {
-    const glm::dmat3 columns(3.240970, -0.969244, 0.055630, -1.537383, 1.875968, -0.203977, -0.498611, 0.041555,
-                             1.056972);
-    return columns * xyz;
-}
 
 // The CIE's standard illuminant D65, every 10 nm [ISO/CIE 11664-2].
 constexpr double d65[] = {46.6383, 52.0891, 49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008,
@@ -54,15 +33,15 @@ double d65_at(int nm) {
 
 /// The integral of a spectrum with the matching functions, over that of Y.
 template <class Spectrum>
-glm::dvec3 linear_rgb(const Spectrum& spectrum) {
+Rgb linear_rgb(const Spectrum& spectrum) {
     glm::dvec3 xyz(0);
     double y = 0;
     for (int nm = first_nm; nm <= last_nm; ++nm) {
-        const glm::dvec3 weights = matching_functions(nm);
+        const glm::dvec3 weights(color_matching(static_cast<float>(nm)));
         xyz += weights * spectrum(static_cast<double>(nm));
         y += weights.y;
     }
-    return rgb_of_xyz(xyz / y);
+    return rgb_of_xyz(glm::vec3(xyz / y));
 }
 
 double interpolate(const std::vector<glm::vec2>& samples, double nm) {
@@ -83,11 +62,11 @@ Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what) {
     if (samples.size() < 2)
         return Rgb(samples.empty() ? 0.0f : samples[0].y);
     if (what == SpectrumOf::emission)
-        return glm::max(Rgb(linear_rgb([&](double nm) { return interpolate(samples, nm); })), Rgb(0));
+        return glm::max(linear_rgb([&](double nm) { return interpolate(samples, nm); }), Rgb(0));
     const auto lit = [](double nm, double value) { return value * d65_at(static_cast<int>(nm)); };
-    static const glm::dvec3 white = linear_rgb([&](double nm) { return lit(nm, 1); });
-    const glm::dvec3 rgb = linear_rgb([&](double nm) { return lit(nm, interpolate(samples, nm)); }) / white;
-    return glm::max(Rgb(rgb), Rgb(0));
+    static const Rgb white = linear_rgb([&](double nm) { return lit(nm, 1); });
+    const Rgb rgb = linear_rgb([&](double nm) { return lit(nm, interpolate(samples, nm)); }) / white;
+    return glm::max(rgb, Rgb(0));
 }
 
 Rgb rgb_of_black_body(double kelvin) {
@@ -97,7 +76,7 @@ Rgb rgb_of_black_body(double kelvin) {
         const double m = nm * 1e-9;
         return 1e-9 * 2 * h * c * c / std::pow(m, 5) / std::expm1(h * c / (m * k * kelvin));
     };
-    return glm::max(Rgb(linear_rgb(radiance)), Rgb(0));
+    return glm::max(linear_rgb(radiance), Rgb(0));
 }
 
 namespace {

@@ -178,20 +178,6 @@ float transmittance(float wavelength, float mass, float turbidity) {
                     0.2385f * vapour / std::pow(1 + 20.07f * vapour, 0.45f));
 }
 
-/// A bell with a width for each side.
-float bell(float wavelength, float mean, float below, float above) {
-    const float t = (wavelength - mean) / (wavelength < mean ? below : above);
-    return std::exp(-0.5f * t * t);
-}
-
-/// The CIE's matching functions of 1931, to about 1 % [Wyman 2013, eq. 4].
-glm::vec3 color_matching(float w) {
-    return {1.056f * bell(w, 599.8f, 37.9f, 31.0f) + 0.362f * bell(w, 442.0f, 16.0f, 26.7f) -
-                0.065f * bell(w, 501.1f, 20.4f, 26.2f),
-            0.821f * bell(w, 568.8f, 46.9f, 40.5f) + 0.286f * bell(w, 530.9f, 16.3f, 31.1f),
-            1.217f * bell(w, 437.0f, 11.8f, 36.0f) + 0.681f * bell(w, 459.0f, 26.0f, 13.8f)};
-}
-
 } // namespace
 
 Rgb sun_radiance(float turbidity, float elevation) {

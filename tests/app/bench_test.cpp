@@ -82,6 +82,12 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
         EXPECT_THAT(page, HasSubstr(part));
     for (const char* part : {"src=\"http", "href=", "<script src", "src=\"out"})
         EXPECT_THAT(page, Not(HasSubstr(part))) << "it needs no other file";
+
+    fs::resize_file(folder() / "out/images/box-pt.exr", 200);
+    const Outcome again = run(folder(), "bench box.xml --methods pt,gpr --recon l2,l1 --seeds 2" + small_);
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_THAT(again.output, HasSubstr("box-pt.exr"));
+    EXPECT_THAT(text("out/bench.html"), HasSubstr("alt=\"gpr l1\"")) << "the other pictures";
 }
 
 TEST_F(BenchCommand, AQuickOneTakesLessWhereNothingIsSaid) {

@@ -110,8 +110,9 @@ private:
         y.pdf_w = s->pdf_w;
         const glm::vec3 direction = y.vertex.to_world(s->to_next);
         Vertex next;
-        if (!tracer_.closest(tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce,
-                             tracer_.footprint(tracer_.width_beyond(path_.own_width, 0, y.is_delta))))
+        if (!tracer_.closest(
+                tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce,
+                tracer_.footprint(tracer_.width_beyond(path_.own_width, 0, y.is_delta), base_.mirrors > i)))
             return ends_by_hit(i) && escape(y, direction);
         path_.own_width =
             tracer_.width_beyond(path_.own_width, glm::distance(y.vertex.position, next.position), y.is_delta);

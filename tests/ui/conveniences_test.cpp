@@ -172,6 +172,10 @@ TEST_F(Panes, PresetsMarkWhatDiffersAndBringItBack) {
     EXPECT_EQ(pane(1).settings.render.tile, 6);
     EXPECT_EQ(pane(0).settings.render.tile, 6);
     EXPECT_EQ(preset_of(pane(1).settings), state().preset);
+    click_at("tile", 0.99f);
+    ASSERT_NE(pane(1).settings.render.tile, 6);
+    choose("preset", "bauszat2017");
+    EXPECT_EQ(pane(1).settings.render.tile, 6) << "chosen anew";
 }
 
 TEST(PaneHeaders, HaveTileAndNormOfTheirOwn) {

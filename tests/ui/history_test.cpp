@@ -21,7 +21,6 @@ Document document_with(int panes) {
         document.panes.emplace_back().settings = settings;
         document.panes.back().slot = static_cast<int>(document.panes.size()) - 1;
     }
-    document.scenes_shown = 1;
     return document;
 }
 
@@ -77,17 +76,6 @@ TEST(History, PanesComeBackWithTheirSettings) {
     EXPECT_FALSE(document.linked);
 }
 
-TEST(History, AnotherSceneBeginsAnew) {
-    Document document = document_with(1);
-    History history;
-    history.note(document, false);
-    document.tone.exposure = 1;
-    history.note(document, false);
-    ++document.scenes_shown;
-    history.note(document, false);
-    EXPECT_FALSE(history.can_undo());
-}
-
 TEST(History, WhatIsDoneAfterUndoEndsRedo) {
     Document document = document_with(1);
     History history;
@@ -110,12 +98,14 @@ TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {
             pane.render.method = method;
             pane.render.max_depth = 17;
             pane.render.seed = 5;
+            pane.render.very_direct_rays = 7;
             pane.buffer = Buffer::dx;
             apply(presets()[i], pane);
             EXPECT_EQ(pane.render.method, method);
             EXPECT_EQ(pane.render.max_depth, 17);
             EXPECT_EQ(pane.render.seed, 5u);
             EXPECT_EQ(pane.buffer, Buffer::dx);
+            EXPECT_EQ(pane.render.very_direct_rays, i == 0 ? 16 : 1) << "as published";
             EXPECT_EQ(preset_of(pane), static_cast<int>(i));
             EXPECT_NO_THROW(check(pane.render));
             pane.render.tile = 11;

@@ -95,6 +95,17 @@ TEST_F(SceneChange, ReloadKeepsCameraAndSettings) {
     EXPECT_EQ(pane(1).settings.render.max_depth, 7);
     EXPECT_EQ(state().tone.exposure, 1.5f);
     EXPECT_EQ(state().scene_name, "room.xml");
+    EXPECT_TRUE(state().history.can_undo()) << "what was done before, too";
+}
+
+TEST_F(SceneChange, AnotherSceneBeginsAnewWhatCanBeUndone) {
+    show();
+    state().tone.exposure = 1.5f;
+    frames(3);
+    EXPECT_TRUE(state().history.can_undo());
+    viewer.load("other.xml", file.loader(), {"other.xml", {}, {}});
+    settle();
+    EXPECT_FALSE(state().history.can_undo());
 }
 
 TEST_F(SceneChange, ReloadTakesTheFilesCameraIfThatHasChanged) {

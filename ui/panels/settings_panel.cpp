@@ -227,15 +227,15 @@ void draw_preset(Controls& controls, ViewerState& state) {
     const Preset& held_against = presets()[static_cast<std::size_t>(state.preset)];
     const bool is_pure = preset_of(state.active().settings) == state.preset;
     const std::string shown = std::string(held_against.label) + (is_pure ? "" : ", changed");
-    int index = state.preset;
+    int index = is_pure ? state.preset : -1; // what has changed can be chosen anew
     controls.label("Preset");
     if (controls.bare_choice(
             "preset", shown.c_str(), items, index, -FLT_MIN,
             "Settings that belong together, for the active pane, or for all that have the same. Marked "
-            "is what differs from them. A right click here takes all changes back.") ||
-        (index == state.preset && !is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
-        state.preset = index;
-        apply(presets()[static_cast<std::size_t>(index)], state.active().settings);
+            "is what differs from them. A right click here takes all changes back, as choosing it anew does.") ||
+        (!is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
+        state.preset = index >= 0 ? index : state.preset;
+        apply(presets()[static_cast<std::size_t>(state.preset)], state.active().settings);
         state.share_settings();
     }
 }

@@ -32,10 +32,6 @@ void take(const UndoPoint& point, Document& document) {
 } // namespace
 
 void History::note(const Document& document, bool is_held) {
-    if (document.scenes_shown != scenes_shown_) {
-        *this = History();
-        scenes_shown_ = document.scenes_shown;
-    }
     if (is_held)
         return;
     UndoPoint point = point_of(document);

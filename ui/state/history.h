@@ -20,11 +20,11 @@ struct UndoPoint {
     bool operator==(const UndoPoint&) const = default;
 };
 
-/// The points that the document has been at since its scene was loaded, to go back to, and forth again.
+/// The points that the document has been at since its scene was loaded first, to go back to, and forth again.
 class History {
 public:
     /// Takes down where the document is. While something is held (a drag, a key), it is on its way, and nothing is
-    /// taken down: a drag is one step. Another scene, `scenes_shown`, begins anew.
+    /// taken down: a drag is one step.
     void note(const Document& document, bool is_held);
 
     bool can_undo() const { return !before_.empty(); }
@@ -39,7 +39,6 @@ private:
 
     std::deque<UndoPoint> before_, after_; // the nearest last
     std::optional<UndoPoint> now_;         // empty: nothing was taken down yet
-    int scenes_shown_ = 0;
 };
 
 } // namespace tessera

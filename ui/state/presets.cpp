@@ -7,7 +7,7 @@ namespace tessera {
 namespace {
 
 /// Nothing that came after the papers: each pixel the radiance itself, from one position, all spikes, all edges
-/// joined, tiles whole.
+/// joined, tiles whole, one ray at the edges of lamps, too.
 PaneSettings plain() {
     PaneSettings s;
     s.render.adapt_tile = false;
@@ -18,6 +18,7 @@ PaneSettings plain() {
     s.render.weight_threshold = 0;
     s.render.roulette_depth = 0;
     s.render.path_guiding = Guiding::off;
+    s.render.very_direct_rays = 1;
     s.reconstruction.spikes = Spikes::off;
     return s;
 }
@@ -60,8 +61,7 @@ constexpr Preset table[] = {
     {"ours", "Tessera", "The settings that the program begins with.", [] { return PaneSettings(); }},
     {"bekaert2002", "Bekaert 2002",
      "PR as first published: N-rooks patterns of 8, x1 joined to x2, direct light each pixel's own, no roulette "
-     "on "
-     "reuse.",
+     "on reuse.",
      bekaert},
     {"kettunen2015", "Kettunen 2015",
      "G-PT as first published: half-vector copy and reconnection, L1 with alpha 0.2; nothing is divided by the "
@@ -82,7 +82,6 @@ PaneSettings with_own(PaneSettings preset, const PaneSettings& pane) {
     preset.render.seed = pane.render.seed;
     preset.render.max_depth = pane.render.max_depth;
     preset.render.light_samples = pane.render.light_samples;
-    preset.render.very_direct_rays = pane.render.very_direct_rays;
     preset.buffer = pane.buffer;
     preset.comparison = pane.comparison;
     return preset;

@@ -12,14 +12,14 @@ struct Preset {
     std::string_view id;
     std::string_view label;
     std::string_view help;
-    PaneSettings (*settings)(); ///< render (without seed and depth) and reconstruction
+    PaneSettings (*settings)(); ///< render (without what the pane keeps) and reconstruction
 };
 
 /// All presets; the program's own is the first.
 std::span<const Preset> presets();
 
-/// Gives a pane the preset's settings. Its method and its depth, seed, light samples and lamp rays stay, which are
-/// the scene's or the user's, and so do its buffer and comparison.
+/// Gives a pane the preset's settings. Its method and its depth, seed and light samples stay, which are the
+/// scene's or the user's, and so do its buffer and comparison.
 void apply(const Preset& preset, PaneSettings& pane);
 
 /// The preset that the pane's settings are those of, whatever it keeps of its own; -1: none.

@@ -117,6 +117,7 @@ void Viewer::show_scene(std::shared_ptr<const Scene> scene, const SceneOrigin& o
         state_.set_view({});
     }
     if (!again) {
+        state_.history = {};
         state_.bookmarks.clear();
         state_.bookmark = -1;
     }
