@@ -3,6 +3,7 @@
 #include "render/estimator/join_rule.h"
 #include "render/estimator/tracer.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -81,7 +82,10 @@ struct BasePath {
     BaseVertex& spare();
     void keep() { ++size_; }
     /// Leaves x_1 alone.
-    void cut() { size_ = 1; }
+    void cut() {
+        size_ = 1;
+        mirrors = std::min(mirrors, 1);
+    }
 
 private:
     std::size_t light_count() const { return static_cast<std::size_t>(light_samples_); }

@@ -39,11 +39,11 @@ struct Tally {
 class Sharing {
 public:
     Sharing(const TestScene& t, ShiftSettings settings, int light_samples, int roulette_depth,
-            TextureFilter filter)
+            TextureFilter filter, bool spares_first = false)
         : scene_(*t.scene), settings_(settings), tracer_{scene_,
                                                          counters_,
                                                          {t.max_depth, light_samples, roulette_depth, filter},
-                                                         {filter, false, scene_.camera(), size}},
+                                                         {filter, spares_first, scene_.camera(), size}},
           reuse_(tracer_, settings_, 0) {}
 
     Tally run(int sets) {
@@ -233,6 +233,31 @@ std::vector<TestScene> scenes_without_masks() {
 
 INSTANTIATE_TEST_SUITE_P(scenes, Shares, testing::ValuesIn(scenes_without_masks()),
                          [](const auto& p) { return p.param.name; });
+
+/// Small squares between two mirrors that face each other: what is beyond the first of them is remembered of each
+/// pixel's own path, what is beyond more of them an offset path meets itself.
+TEST(SharesInMirrors, AreTheSameWhateverIsFilteredThere) {
+    SceneBuilder b;
+    b.quad({1, -2, 0}, {0, 4, 0}, {0, 0, -9}, b.mirror());
+    b.quad({-1, -2, -9}, {0, 4, 0}, {0, 0, 9}, b.mirror());
+    DiffuseMaterial squares;
+    squares.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.2f, 0.1f), Rgb(0.1f, 0.3f, 0.8f)};
+    squares.reflectance.to_uv = glm::mat3(60, 0, 0, 0, 200, 0, 0, 0, 1);
+    b.quad({-1, -1, 0}, {2, 0, 0}, {0, 0, -9}, b.material({"squares", squares}));
+    b.quad({-1, 2, -9}, {2, 0, 0}, {0, 0, 9}, b.diffuse(Rgb(0.5f)), b.light(Rgb(3)));
+    b.camera({0, 0.5f, -0.5f}, {1, 0.1f, -1.5f}, 40);
+    const TestScene scene{"beyond_mirrors", b.build(), 7};
+    for (const ShiftKind kind : {ShiftKind::half_vector, ShiftKind::replay, ShiftKind::replay_reconnection})
+        for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path})
+            for (const bool spares_first : {false, true}) {
+                const Tally t =
+                    Sharing(scene, {kind, 0.001f, 0, JoinKind::footprint}, 1, 0, filter, spares_first).run(60);
+                EXPECT_GT(t.shared, 200);
+                EXPECT_EQ(t.lost, 0);
+                EXPECT_LE(t.unequal, 0.04 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;
+                EXPECT_LE(t.apart, 0.001 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;
+            }
+}
 
 /// More pixels than there are lanes would be written beyond their end.
 TEST(PathReuse, RefusesASetThatHasNoLanes) {

@@ -67,6 +67,7 @@ private:
 
     void keep(const Vertex& vertex) {
         path_.spare().vertex = vertex;
+        path_.mirrors += path_.mirrors == path_.size() && vertex.bsdf.is_mirror();
         path_.keep();
         BaseVertex& y = path_[path_.size() - 1];
         y.hit_pdf_w = 0;
