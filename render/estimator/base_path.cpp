@@ -122,8 +122,8 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         return false;
     const glm::vec3 direction = x.to_world(s->to_next);
     const Ray ray = tracer.leave(x, direction);
-    const Tracer::Footprint seen =
-        tracer.footprint(tracer.width_beyond(path.own_width, 0, s->is_delta), path.mirrors == index);
+    const Tracer::TextureLookup seen =
+        tracer.lookup(tracer.width_beyond(path.own_width, 0, s->is_delta), path.mirrors == index);
     using Met = Tracer::Met;
     Met met = Met::light;
     if (index + 1 == tracer.settings.max_depth)
@@ -217,7 +217,7 @@ bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_wi
                 BasePath& path) {
     path.reset(random, tracer.settings.light_samples);
     BaseVertex& primary = path.spare();
-    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera, tracer.first_footprint())) {
+    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera, tracer.first_lookup())) {
         path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
         return false;
     }

@@ -107,7 +107,7 @@ bool Pass::look_at(const Tracer& tracer, int x, int y, int point, Vertex& seen) 
     constexpr std::uint64_t middle = 0x8000'0000'8000'0000u; // where the first look is
     const CameraSample sample = look_from(middle ^ net_point(0, looks_in_pixel),
                                           middle ^ net_point(0, looks_on_lens), static_cast<std::uint32_t>(point));
-    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera, tracer.first_footprint());
+    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera, tracer.first_lookup());
 }
 
 namespace {

@@ -51,7 +51,7 @@ const Vertex* Shift::meet(int i, int m, glm::vec3 direction) {
     const auto trace = [&](Vertex& next) {
         return tracer_.closest(
             tracer_.leave((*y_)[m], direction), next, RayKind::shift_bounce,
-            tracer_.footprint(tracer_.width_beyond(own_width_[m], 0, x.is_delta), base_->mirrors > i));
+            tracer_.lookup(tracer_.width_beyond(own_width_[m], 0, x.is_delta), base_->mirrors > i));
     };
     if (i == 0 && x.is_delta) {
         bool is_new = false;
@@ -111,7 +111,7 @@ void Shift::bounce_out(int i, int m) {
     Vertex scratch;
     const LightPoint light =
         tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch, RayKind::shift_bounce,
-                            tracer_.footprint(tracer_.width_beyond(own_width_[m], 0, x.is_delta)));
+                            tracer_.lookup(tracer_.width_beyond(own_width_[m], 0, x.is_delta)));
     end_at_light(light_->hit_slot(i), m, *s, y.position, light, x.pdf_w + x.hit_pdf_w, x.is_delta);
 }
 
@@ -125,7 +125,7 @@ void Shift::bounce_to_light(int i, int sample, int m) {
     keep_bounce(m, *s, false);
     Vertex scratch;
     const LightPoint light = tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch,
-                                                 RayKind::shift_bounce, tracer_.footprint());
+                                                 RayKind::shift_bounce, tracer_.lookup());
     end_at_light(light_->emitter_slot(i, sample), m, *s, y.position, light, x.pdf_sum, false);
 }
 

@@ -146,7 +146,7 @@ Rgb Tracer::very_direct_along(Ray ray) const {
     Rgb sum(0), throughput(1);
     Vertex x;
     RayKind kind = RayKind::camera;
-    Footprint seen = first_footprint();
+    TextureLookup seen = first_lookup();
     float width = view.first_width();
     for (int edges = 1; edges <= settings.max_depth; ++edges) {
         const bool may_go_on = edges < settings.max_depth && scene.has_mirrors();
@@ -163,7 +163,7 @@ Rgb Tracer::very_direct_along(Ray ray) const {
             break;
         throughput *= mirrored.value;
         width = width_beyond(width, glm::distance(ray.origin, x.position), true);
-        seen = footprint(width, true);
+        seen = lookup(width, true);
         kind = RayKind::bounce;
         ray = leave(x, x.to_world(mirrored.to_next));
     }
@@ -232,7 +232,7 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
     float length = 0;
     Vertex x;
     bool is_seen_in_mirrors = true; // alone, so far
-    Tracer::Footprint seen = tracer.first_footprint();
+    Tracer::TextureLookup seen = tracer.first_lookup();
     float width = tracer.view.first_width();
     for (int i = 1; tracer.closest(ray, x, RayKind::look, seen); ++i) {
         const float distance = glm::distance(ray.origin, x.position);
@@ -256,7 +256,7 @@ Look look_along(const Tracer& tracer, Ray ray, const Random& random) {
         }
         guide.albedo *= s->f_cos / s->pdf_w;
         width = tracer.width_beyond(width, distance, s->is_delta);
-        seen = tracer.footprint(width, is_seen_in_mirrors);
+        seen = tracer.lookup(width, is_seen_in_mirrors);
         ray = tracer.leave(x, x.to_world(s->to_next));
     }
     return look;

@@ -117,20 +117,20 @@ struct Tracer {
     float density_factor() const { return static_cast<float>(settings.light_samples); }
 
     /// How wide what is looked up in textures is, as make_vertex() has it.
-    struct Footprint {
+    struct TextureLookup {
         const TextureView* view;
         float width;
     };
     /// Of what rays from surfaces meet.
     /// @param is_in_mirrors  it is seen by the camera in mirrors alone: it is spared where x_1 is, as light is
     ///                       divided by its albedo
-    Footprint footprint(float width = no_width, bool is_in_mirrors = false) const {
+    TextureLookup lookup(float width = no_width, bool is_in_mirrors = false) const {
         const bool is_spared = is_in_mirrors && view.spares_first() && sees_the_same_in_mirrors();
         return {view.filter() == TextureFilter::off || is_spared ? nullptr : &view, width};
     }
     /// Of x_1, of which the width where camera rays begin is known.
-    Footprint first_footprint() const {
-        return view.spares_first() ? Footprint{nullptr, no_width} : footprint(view.first_width());
+    TextureLookup first_lookup() const {
+        return view.spares_first() ? TextureLookup{nullptr, no_width} : lookup(view.first_width());
     }
     /// That of the pixel which sees what lies beyond a vertex, by that of the vertex.
     float width_beyond(float width, float distance, bool is_delta) const {
@@ -139,14 +139,14 @@ struct Tracer {
     }
 
     /// Makes `vertex` what the ray meets first. False: it leaves the scene.
-    bool closest(const Ray& ray, Vertex& vertex, RayKind kind, Footprint footprint) const {
+    bool closest(const Ray& ray, Vertex& vertex, RayKind kind, TextureLookup lookup) const {
         ++counters.rays[static_cast<std::size_t>(kind)];
         Hit hit;
         if (!scene.intersector().closest(ray, hit))
             return false;
         if (hits) [[unlikely]]
             hits->push_back(hit);
-        make_vertex(scene, hit, ray, vertex, footprint.view, footprint.width);
+        make_vertex(scene, hit, ray, vertex, lookup.view, lookup.width);
         if (guiding && vertex.bsdf.roughness() >= PathGuiding::least_roughness)
             vertex.guide = guiding->at(vertex.position, vertex.frame.normal);
         return true;
@@ -156,7 +156,7 @@ struct Tracer {
 
     /// Traces a ray on which only a light is of interest, or what may be a mirror if so asked: `vertex` is made
     /// where it meets one.
-    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, Footprint footprint,
+    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, TextureLookup lookup,
                       bool or_mirror = false) const {
         if (!or_mirror && !scene.lights().may_be_hit(ray))
             return Met::darkness;
@@ -169,13 +169,13 @@ struct Tracer {
             return Met::darkness;
         if (hits) [[unlikely]]
             hits->push_back(hit);
-        make_vertex(scene, hit, ray, vertex, footprint.view, footprint.width);
+        make_vertex(scene, hit, ray, vertex, lookup.view, lookup.width);
         return Met::light;
     }
 
     /// The light that a ray runs into; black: none. `scratch` is overwritten.
-    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, Footprint footprint) const {
-        switch (closest_light(ray, scratch, kind, footprint)) {
+    LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, TextureLookup lookup) const {
+        switch (closest_light(ray, scratch, kind, lookup)) {
         case Met::light:
             return light_of(scratch, -ray.direction);
         case Met::infinity:

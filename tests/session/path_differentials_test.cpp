@@ -52,7 +52,7 @@ std::vector<Place> replay(const Tracer& tracer, const Projection& projection, co
     Ray ray = projection.ray({n.u[0], n.u[1]});
     std::size_t used = 2;
     float log_value = 0;
-    for (std::size_t i = 0; tracer.closest(ray, x, RayKind::bounce, tracer.footprint()); ++i) {
+    for (std::size_t i = 0; tracer.closest(ray, x, RayKind::bounce, tracer.lookup()); ++i) {
         places.push_back({x.position, x.geometric_normal, log_value});
         if (i == n.lobes.size())
             break;

@@ -113,7 +113,7 @@ private:
         Vertex next;
         if (!tracer_.closest(
                 tracer_.leave(y.vertex, direction), next, RayKind::shift_bounce,
-                tracer_.footprint(tracer_.width_beyond(path_.own_width, 0, y.is_delta), base_.mirrors > i)))
+                tracer_.lookup(tracer_.width_beyond(path_.own_width, 0, y.is_delta), base_.mirrors > i)))
             return ends_by_hit(i) && escape(y, direction);
         path_.own_width =
             tracer_.width_beyond(path_.own_width, glm::distance(y.vertex.position, next.position), y.is_delta);
@@ -179,7 +179,7 @@ private:
                 return false;
             Vertex scratch;
             const Ray ray = tracer_.leave(y, y.to_world(s->to_next));
-            drawn.light = tracer_.light_along(ray, scratch, RayKind::shift_bounce, tracer_.footprint());
+            drawn.light = tracer_.light_along(ray, scratch, RayKind::shift_bounce, tracer_.lookup());
         }
         const std::optional<LightRay> seen = drawn.light.seen_from(y.position);
         if (!seen)
