@@ -36,11 +36,12 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
     return json;
 }
 
-/// The snapshot's own, if the same samples and settings would give it again; null: they would not.
+/// The snapshot's own, if the same samples and settings would give it again, but for where its solver began; null:
+/// they would not.
 const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
     const Snapshot& s = *picture.snapshot;
-    const bool is_current =
-        s.reconstruction && s.reconstruction_spp == s.spp && s.reconstructed_with == picture.reconstruction;
+    const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
+                            s.reconstructed_with == picture.reconstruction && !s.reconstruction->goes_on;
     return is_current && s.reconstruction->image.size() == s.images->primal.size() ? s.reconstruction.get()
                                                                                    : nullptr;
 }

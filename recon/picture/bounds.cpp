@@ -63,11 +63,11 @@ bool can_bound(const GradientImages& images) {
     return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
 }
 
-UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const AlikePixels& alike,
+UpperBounds upper_bounds(const GradientImages& images, const GradientImages& given, const AlikePixels& alike,
                          const ParallelFor& parallel_for) {
     UpperBounds bounds;
-    if (!images.guides.empty())
-        bounds.black = black_pixels(images.guides, found, parallel_for);
+    if (!given.guides.empty())
+        bounds.black = black_pixels(given.guides, given.radiance(), parallel_for);
     if (!can_bound(images))
         return bounds;
     const Image<float> squares = squared_errors(images.primal_variance, alike, parallel_for);

@@ -39,9 +39,10 @@ struct UpperBounds {
 
     bool empty() const { return light.empty() && black.empty(); }
 };
-/// @param found  radiance without very direct light, of all samples in full
-/// @param alike  by the guides of `images`; without guides all pixels look alike, and a dark bar knows no better
-UpperBounds upper_bounds(const GradientImages& images, const RgbImage& found, const AlikePixels& alike,
+/// @param images  without what spikes hold back
+/// @param given   with it, and with guides, if there are any
+/// @param alike   by these; without guides all pixels look alike, and a dark bar knows no better
+UpperBounds upper_bounds(const GradientImages& images, const GradientImages& given, const AlikePixels& alike,
                          const ParallelFor& parallel_for);
 
 /// Takes what is above P + reach s, and all of a black pixel, from the image, and returns it.

@@ -51,17 +51,17 @@ float alikeness(float unlike) {
 }
 
 /// @param weights  in a row, at the first of each pair
-void weigh(const GuidePlanes& guides, const PixelRuns& runs, float share, float* weights) {
-    std::fill_n(weights, runs.count, 0.0f);
+void weigh(const GuidePlanes& guides, const PixelRuns& runs, PairWeight* weights) {
+    float unlike[kernel_chunk] = {};
     for (const Plane& guide : guides) {
         if (guide.empty())
             continue;
         const float *here = guide.row(runs.y) + runs.x, *there = guide.row(runs.to_y) + runs.to_x;
         for (int i = 0; i < runs.count; ++i)
-            weights[i] += (here[i] - there[i]) * (here[i] - there[i]);
+            unlike[i] += (here[i] - there[i]) * (here[i] - there[i]);
     }
     for (int i = 0; i < runs.count; ++i)
-        weights[i] = share * alikeness(weights[i]);
+        weights[i] = pair_weight(alikeness(unlike[i]));
 }
 
 void write_weights_by_guides(const GuidePlanes& guides, int step, const ParallelFor& parallel_for,
@@ -73,24 +73,25 @@ void write_weights_by_guides(const GuidePlanes& guides, int step, const Parallel
             const PairedPixels columns(width, apart.i), rows(height, apart.j);
             for (int x = columns.begin; y < rows.end && x < columns.end; x += kernel_chunk)
                 weigh(guides, {x, y, x + apart.i, y + apart.j, std::min(kernel_chunk, columns.end - x)},
-                      kernel_pairs[k].share(), weights[k].row(y) + x);
+                      weights[k].row(y) + x);
         }
     });
 }
 
-/// Calls visit(x, unlike) for pixels of row y: by what their brightness differs from that of those a step on,
-/// squared, in variances of its noise.
+/// Calls visit(i, unlike) for the i-th of some pixels of row y: by what their brightness differs from that of
+/// those a step on, squared, in variances of its noise.
 /// @param brightness, noise  logarithm, and the variance of its noise
 template <class Visit>
 void for_unlikeness(const Plane& brightness, const Plane& noise, int y, KernelPair step, PairedPixels columns,
                     const Visit& visit) {
     if (columns.begin == columns.end)
         return;
-    const float *own = brightness.row(y), *other = brightness.row(y + step.j) + step.i;
-    const float *own_noise = noise.row(y), *other_noise = noise.row(y + step.j) + step.i;
-    for (int x = columns.begin; x < columns.end; ++x) {
-        const float d = own[x] - other[x];
-        visit(x, d * d / (own_noise[x] + other_noise[x] + 1e-7f));
+    const int here = columns.begin, there = columns.begin + step.i;
+    const float *own = brightness.row(y) + here, *other = brightness.row(y + step.j) + there;
+    const float *own_noise = noise.row(y) + here, *other_noise = noise.row(y + step.j) + there;
+    for (int i = 0; i < columns.end - columns.begin; ++i) {
+        const float d = own[i] - other[i];
+        visit(i, d * d / (own_noise[i] + other_noise[i] + 1e-7f));
     }
 }
 
@@ -134,31 +135,39 @@ void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFo
 }
 
 void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
-                         const ParallelFor& parallel_for, Plane& scratch, StraightWeights& weights) {
+                         const ParallelFor& parallel_for, Plane& pairs, Plane& square_rows,
+                         StraightWeights& weights) {
     const int width = noise.width(), height = noise.height(), radius = (3 * step + 1) / 2;
     std::vector<float> shares(static_cast<std::size_t>(width));
     for (std::size_t k = 0; k < weights.size(); ++k) {
         const KernelPair apart{kernel_pairs[k].i * step, kernel_pairs[k].j * step};
         const PairedPixels columns(width, apart.i), rows(height, apart.j);
-        Plane& pairs = weights[k];
         parallel_for(height, [&](int y) {
             float* row = pairs.row(y);
             std::fill_n(row, width, 0.0f);
             if (y < rows.end)
                 for_unlikeness(brightness, noise, y, apart, columns,
-                               [=](int x, float own) { row[x] = std::min(own, most_unlike); });
+                               [=](int i, float own) { row[columns.begin + i] = std::min(own, most_unlike); });
         });
-        take_wide_means(pairs, radius, scratch, parallel_for);
+        take_wide_means(pairs, radius, square_rows, parallel_for);
         for (int x = columns.begin; x < columns.end; ++x)
             shares[static_cast<std::size_t>(x)] = columns.of_paired(x, radius) / square_width;
         parallel_for(rows.end, [&](int y) {
-            float* row = pairs.row(y);
-            const float* guided = by_guides[k].row(y);
             const float share = rows.of_paired(y, radius);
-            for_unlikeness(brightness, noise, y, apart, columns, [&, row, guided](int x, float own) {
-                const float of_square = share * shares[static_cast<std::size_t>(x)] * row[x];
-                row[x] = guided[x] * alikeness(0.5f * (own / pixel_width + of_square));
-            });
+            for (PairedPixels run = columns; run.begin < columns.end; run.begin = run.end) {
+                run.end = std::min(run.begin + kernel_chunk, columns.end);
+                const float *squares = pairs.row(y) + run.begin, *whole = shares.data() + run.begin;
+                const PairWeight* guided = by_guides[k].row(y) + run.begin;
+                float parts[kernel_chunk];
+                for_unlikeness(brightness, noise, y, apart, run, [&, squares, whole, guided](int i, float own) {
+                    const float of_square = share * whole[i] * squares[i];
+                    const float by_guide = static_cast<float>(guided[i]) / most_weight;
+                    parts[i] = by_guide * alikeness(0.5f * (own / pixel_width + of_square));
+                });
+                PairWeight* row = weights[k].row(y) + run.begin;
+                for (int i = 0; i < run.end - run.begin; ++i)
+                    row[i] = pair_weight(parts[i]);
+            }
         });
     }
 }

@@ -58,7 +58,7 @@ public:
     void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
 
     static constexpr std::size_t bytes_a_pixel =
-        (steps.size() * kernel_pairs.size() + guide_count) * sizeof(float);
+        steps.size() * kernel_pairs.size() * sizeof(PairWeight) + guide_count * sizeof(float);
 
 private:
     GuidePlanes guides_;
@@ -73,9 +73,9 @@ private:
 /// @param by_guides   of pairs `step` apart
 /// @param brightness  its logarithm
 /// @param noise       the variance of its noise
-/// @param scratch     of the picture's size, anything
-/// @param weights     likewise
+/// @param pairs, square_rows, weights  of the picture's size, anything; the first two are of no use after
 void write_noisy_weights(const PairWeights& by_guides, const Plane& brightness, const Plane& noise, int step,
-                         const ParallelFor& parallel_for, Plane& scratch, StraightWeights& weights);
+                         const ParallelFor& parallel_for, Plane& pairs, Plane& square_rows,
+                         StraightWeights& weights);
 
 } // namespace tessera

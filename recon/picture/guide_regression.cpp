@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 
 namespace tessera {
 
@@ -152,10 +153,10 @@ void solve(Squares& squares) {
 
 /// Shares sum to 1 but for rounding, which is made up for. Where guides are beyond what floats can square, a pixel
 /// stays what it is.
-void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlanes& fitted) {
+void apply(std::span<const Plane> values, const Squares& squares, std::span<Plane> fitted) {
     const int x = squares.x;
     Lanes all = squares.own * squares.solution[squares.terms - 1];
-    Lanes own[std::tuple_size_v<RegressedPlanes>], sums[std::tuple_size_v<RegressedPlanes>];
+    Lanes own[most_regressed], sums[most_regressed];
     for (std::size_t c = 0; c < values.size(); ++c) {
         own[c] = Stretch(values[c], x, squares.y).from(radius);
         sums[c] = all * own[c];
@@ -185,8 +186,10 @@ void apply(const RegressedPlanes& values, const Squares& squares, RegressedPlane
 
 } // namespace
 
-void write_regressions(const RegressedPlanes& values, const GuidePlanes& guides, const Plane& weights,
-                       const ParallelFor& parallel_for, RegressedPlanes& fitted) {
+void write_regressions(std::span<const Plane> values, const GuidePlanes& guides, const Plane& weights,
+                       const ParallelFor& parallel_for, std::span<Plane> fitted) {
+    if (values.size() > most_regressed || fitted.size() != values.size())
+        throw std::invalid_argument("a regression is of six planes at the most, and has as many answers");
     parallel_for(weights.height(), [&](int y) {
         Squares squares;
         squares.y = y;

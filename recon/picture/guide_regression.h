@@ -3,7 +3,8 @@
 #include "recon/parallel.h"
 #include "recon/picture/guide_kernel.h"
 
-#include <array>
+#include <cstddef>
+#include <span>
 
 namespace tessera {
 
@@ -17,14 +18,13 @@ namespace tessera {
 // thousandth of all the weights more. That is linear in the pixels' values x: what the same does to their noise is
 // the noise of a.
 
-/// Planes that take part: three channels of a picture and three of its noise.
-using RegressedPlanes = std::array<Plane, 6>;
+inline constexpr std::size_t most_regressed = 6; ///< planes at a time
 
-/// Writes a of all pixels. Where guides are beyond what floats can square, or no numbers, pixels stay what they
-/// are.
+/// Writes a of all pixels, for each plane of values. Where guides are beyond what floats can square, or no
+/// numbers, pixels stay what they are.
 /// @param weights  w of each pixel, > 0 and at most 1; those of a square no further apart than 1e14
-/// @param fitted   of the picture's size, anything
-void write_regressions(const RegressedPlanes& values, const GuidePlanes& guides, const Plane& weights,
-                       const ParallelFor& parallel_for, RegressedPlanes& fitted);
+/// @param fitted   as many as values, of the picture's size, anything
+void write_regressions(std::span<const Plane> values, const GuidePlanes& guides, const Plane& weights,
+                       const ParallelFor& parallel_for, std::span<Plane> fitted);
 
 } // namespace tessera

@@ -2,12 +2,13 @@
 
 #include "recon/image.h"
 #include "recon/parallel.h"
+#include "recon/picture/guide_kernel.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace tessera {
-
-class AlikePixels;
 
 // What a solver leaves is smoothed where pixels look alike, as far as it is noise. The measure of noise is the
 // half difference of two halves of the samples (HalfDifferences), which has gone through the same solver as the
@@ -30,14 +31,36 @@ struct NoisyPicture {
     RgbImage image, noise;
 };
 
+/// What smoothing finds about a picture and its noise, so that a picture of about the same samples can be smoothed
+/// likewise: that asks for no noise. Empty: nothing has been found.
+struct SmoothingFit {
+    static constexpr std::size_t levels = 4; ///< of AlikePixels: pixels within 80
+
+    std::array<StraightWeights, levels> weights; ///< how much pixels count for each other
+    std::array<Plane, levels + 1> trust;         ///< c of each level, and of the regression, if there was one
+
+    static constexpr std::size_t bytes_a_pixel =
+        levels * straight_pairs * sizeof(PairWeight) + (levels + 1) * sizeof(float);
+    bool empty() const { return trust[0].empty(); }
+};
+
 /// Smooths radiance without very direct light, over the albedo of its guides: what a texture does to light is
 /// known. Light is not quite kept. With the noise that is left: what of the noise has gone the same way. Empty:
 /// stopped. The same bits for any parallel_for.
 /// @param alike  by these guides
+/// @param fit    null: not asked for. Becomes empty where pictures stay what they are, as good as black or not
+///               finite; anything: stopped
 NoisyPicture smooth_by_guides(NoisyPicture picture, const GuideImages& guides, const AlikePixels& alike,
-                              const ParallelFor& parallel_for, const SolveWatch& watch = {});
+                              const ParallelFor& parallel_for, const SolveWatch& watch = {},
+                              SmoothingFit* fit = nullptr);
 
-/// The memory that it takes, beside what it is given.
+/// Does with a picture what has been done with that of `fit`, not empty; one that is not finite stays what it is.
+/// Empty: stopped.
+/// @param guides, alike  about those of the fit
+RgbImage smooth_likewise(RgbImage picture, const GuideImages& guides, const AlikePixels& alike,
+                         const SmoothingFit& fit, const ParallelFor& parallel_for, const SolveWatch& watch = {});
+
+/// The memory that smoothing takes, beside what it is given and a fit.
 std::uint64_t bytes_to_smooth(int width, int height);
 
 } // namespace tessera

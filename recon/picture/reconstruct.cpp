@@ -7,17 +7,16 @@
 #include "recon/picture/guided.h"
 #include "recon/picture/light_spreader.h"
 #include "recon/picture/oidn.h"
-#include "recon/picture/parts.h"
+#include "recon/picture/picture_solvers.h"
 #include "recon/picture/shrinkage.h"
 #include "recon/picture/spikes.h"
 #include "recon/pixel_loops.h"
-#include "recon/poisson_direct.h"
-#include "recon/poisson_l1.h"
-#include "recon/poisson_weighted.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -26,8 +25,6 @@
 namespace tessera {
 
 namespace {
-
-constexpr int uniform_iterations = 50;
 
 void check_sizes(const GradientImages& images) {
     const auto check = [&](const auto& image) {
@@ -99,71 +96,87 @@ void hold_to_bounds(const UpperBounds& bounds, RgbImage& picture, const Parallel
 /// Gives the picture the light that it had, by one factor.
 void keep_light(double before, RgbImage& picture, const ParallelFor& parallel_for) {
     const double after = sum_of(picture, parallel_for);
-    if (!(before > 0 && after > 0))
-        return;
     const auto factor = static_cast<float>(before / after);
+    if (!(before > 0 && after > 0 && std::isfinite(factor)))
+        return;
     for_pixels(picture.width(), picture.height(), parallel_for,
                [&](std::size_t i) { picture.data()[i] *= factor; });
 }
 
+/// What a picture is made of and how, as far as that tells what is found about it.
+struct Circumstances {
+    ReconstructionSettings settings;
+    bool is_limited, is_smoothed, has_gradients, has_variances, has_guides, is_demodulated;
+    std::size_t parts;
+    float patch;
+
+    Circumstances(const GradientImages& images, const ReconstructionSettings& asked)
+        : settings(asked), is_limited(holds_back(images, asked)), is_smoothed(smooths(images, asked.norm)),
+          has_gradients(images.has_gradients()), has_variances(images.has_variances()),
+          has_guides(!images.guides.empty()), is_demodulated(!images.demodulation.empty()),
+          parts(images.parts.size()), patch(images.patch) {}
+    bool operator==(const Circumstances&) const = default;
+};
+
 } // namespace
 
-/// The solvers of one size; each is made when it is first asked for.
-struct Reconstructor::Solvers {
-    template <class Solver>
-    Solver& made(std::optional<Solver>& solver) {
-        if (!solver)
-            solver.emplace(width, height);
-        return *solver;
+/// What is found about a picture beside its light.
+struct Reconstructor::Fit {
+    Circumstances circumstances;
+    int samples;                        ///< that each pixel had; 0: unknown
+    std::optional<AlikePixels> alike{}; ///< none: nothing is smoothed or held back
+    EdgeWeights weights{};
+    UpperBounds bounds{};
+    LitSurroundings surroundings{}; ///< of the picture in which light was spread; empty: there was none
+    SmoothingFit smoothing{};
+
+    /// With a quarter more samples, noise is less by a tenth.
+    bool holds_for(const Circumstances& now, int samples_now) const {
+        return circumstances == now && samples_now >= samples && 4 * samples_now < 5 * samples;
+    }
+    /// Whether it would for one sample more, and has all that it takes.
+    bool is_of_use() const {
+        return holds_for(circumstances, samples + 1) && circumstances.settings.norm != Norm::oidn &&
+               smoothing.empty() == !circumstances.is_smoothed;
     }
 
-    int width, height;
-    std::optional<PoissonSolver> l2;
-    std::optional<L1Solver> l1;
-    std::optional<WeightedSolver> weighted;
-    std::optional<WeightedSolver> noise; ///< of guided
-    EdgeWeights weights;                 ///< of the last images, until their picture is made
-    std::optional<PartsSolver> parts;
-    bool has_variances = false; ///< the last images that were weighted
+    std::uint64_t bytes() const {
+        const auto bytes_of = [](const auto& image) { return image.size() * sizeof(*image.data()); };
+        const std::uint64_t pixels = smoothing.trust[0].size();
+        return (alike ? AlikePixels::bytes_a_pixel * alike->guides()[0].size() : 0) + bytes_of(weights.x) +
+               bytes_of(weights.y) + bytes_of(bounds.light) + bytes_of(bounds.error) + bytes_of(bounds.black) +
+               bytes_of(surroundings.brightness) + bytes_of(surroundings.around) +
+               SmoothingFit::bytes_a_pixel * pixels;
+    }
 };
 
-/// What single samples are not believed, and what becomes of it.
-struct Reconstructor::Limits {
-    RgbImage held; ///< radiance that spikes hold back
-    UpperBounds bounds;
-    LitSurroundings surroundings; ///< of the picture in which light was spread; empty: there was none
-
-    void spread(const GuideImages& guides, const AlikePixels& alike, RgbImage& image,
-                const ParallelFor& parallel_for);
+/// A picture that is being made.
+struct Reconstructor::Task {
+    const GradientImages& given;
+    const GradientImages& images; ///< `given` without what spikes hold back
+    const RgbImage* held;         ///< radiance that they do; null: they are let through
+    const ReconstructionSettings& settings;
+    Fit& fit;
+    bool has_fit;   ///< `fit` is one of before
+    bool keeps_fit; ///< it is for pictures to come
+    const ParallelFor& parallel_for;
+    const SolveWatch& watch;
 };
-
-/// Gives what spikes hold back, and what the solver has put above the bounds, to pixels that look alike and have
-/// room below theirs; and what is left over to those around, whatever their bounds: no light is lost, but where
-/// all is black, and hardly any goes where it is known to be dark. Without bounds, only what is held.
-void Reconstructor::Limits::spread(const GuideImages& guides, const AlikePixels& alike, RgbImage& image,
-                                   const ParallelFor& parallel_for) {
-    RgbImage light = copy_of(held, parallel_for);
-    if (!bounds.empty())
-        add(light, take_excess(bounds, reach, image, parallel_for), parallel_for);
-    if (!(sum_of_sizes(light, parallel_for) > 0))
-        return;
-    const RgbImage room = room_below(bounds, reach, image, parallel_for);
-    spread_to_alike(light, image, alike, guides, room, parallel_for);
-    surroundings = lit_surroundings(image, alike, bounds.black, parallel_for);
-    spread_around(light, surroundings, image, parallel_for);
-}
 
 Reconstructor::Reconstructor() = default;
 Reconstructor::~Reconstructor() = default;
 
 void Reconstructor::forget() {
-    if (!solvers_)
-        return;
-    if (solvers_->l1)
-        solvers_->l1->forget();
-    for (std::optional<WeightedSolver>* solver : {&solvers_->weighted, &solvers_->noise})
-        if (*solver)
-            (*solver)->forget();
+    has_solved_ = false;
+    fit_.reset();
+    if (solvers_)
+        solvers_->forget();
+}
+
+void Reconstructor::set_keeps(bool keeps) {
+    keeps_ = keeps;
+    if (!keeps)
+        fit_.reset();
 }
 
 bool holds_back(const GradientImages& images, const ReconstructionSettings& settings) {
@@ -176,31 +189,25 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
                                        bool is_limited) const {
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * height, image = sizeof(Rgb) * pixels;
     const std::uint64_t alike = is_limited ? 0 : AlikePixels::bytes_a_pixel * pixels;
-    const Solvers* kept =
-        solvers_ && solvers_->width == width && solvers_->height == height ? &*solvers_ : nullptr;
+    const PictureSolvers none(width, height);
+    const bool has_some = solvers_ && solvers_->width() == width && solvers_->height() == height;
+    const std::uint64_t solvers = (has_some ? *solvers_ : none).bytes_for(norm, threads, parts);
     if (parts > 0 && expands(norm))
-        return image + (kept && kept->parts && kept->parts->parts() >= parts
-                            ? 0
-                            : PartsSolver::bytes(width, height, parts, threads));
+        return image + solvers;
     switch (norm) {
     case Norm::none:
-        return image;
-    case Norm::uniform:
-        return 2 * image;
     case Norm::l2:
-        return image + (kept && kept->l2 ? 0 : PoissonSolver::bytes(width, height, threads));
     case Norm::l1:
     case Norm::mixed:
-        return image + (kept && kept->l1 ? 0 : L1Solver::bytes(width, height, threads));
+        return image + solvers;
+    case Norm::uniform:
+        return 2 * image;
     case Norm::weighted:
-        return image + EdgeWeights::bytes(width, height) +
-               (kept && kept->weighted ? 0 : WeightedSolver::bytes(width, height, threads));
+        return image + EdgeWeights::bytes(width, height) + solvers;
     case Norm::guided:
     case Norm::oidn: { // the smoothing comes when both are solved, and the denoiser after it
-        const std::uint64_t solver = WeightedSolver::bytes(width, height, threads);
         const std::uint64_t denoiser = norm == Norm::oidn ? 6 * image + bytes_of_oidn(width, height) : 0;
-        return 2 * image + alike + std::max(bytes_to_smooth(width, height), denoiser) +
-               (kept && kept->weighted ? 0 : solver) + (kept && kept->noise ? 0 : solver);
+        return 2 * image + alike + std::max(bytes_to_smooth(width, height), denoiser) + solvers;
     }
     case Norm::smoothed:
         return 2 * image + alike + bytes_to_smooth(width, height);
@@ -208,135 +215,122 @@ std::uint64_t Reconstructor::bytes_for(int width, int height, Norm norm, int thr
     return 0;
 }
 
-int Reconstructor::solve_weighted(const GradientImages& images, const PoissonProblem& problem,
-                                  const AlikePixels* alike, RgbImage& image, const ParallelFor& parallel_for,
-                                  const SolveWatch& watch) {
-    WeightedSolver& solver = solvers_->made(solvers_->weighted);
-    if (std::exchange(solvers_->has_variances, images.has_variances()) != images.has_variances())
-        forget(); // weights from neighbours are unlike those from samples
-    solvers_->weights = weights_of_gradients(images, problem.alpha, alike, parallel_for);
-    return solver.solve(problem, solvers_->weights, {}, image, parallel_for, watch);
+std::uint64_t Reconstructor::bytes_to_keep(int width, int height) {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * height;
+    return SmoothingFit::bytes_a_pixel * pixels + EdgeWeights::bytes(width, height);
+}
+
+std::uint64_t Reconstructor::bytes_kept() const {
+    return fit_ ? fit_->bytes() : 0;
+}
+
+/// Without very direct light.
+Reconstruction Reconstructor::picture_of(const Task& task) {
+    const GradientImages& images = task.images;
+    const Norm norm = task.settings.norm;
+    const bool is_weighted = PictureSolvers::weighs_gradients(images, norm);
+    if (is_weighted && std::exchange(has_variances_, images.has_variances()) != images.has_variances())
+        solvers_->forget(); // weights from neighbours are unlike those from samples
+    if (is_weighted && !task.has_fit) {
+        const bool is_told_alike = task.held && !task.given.guides.empty();
+        task.fit.weights = weights_of_gradients(images, weighted_alpha(task.settings.alpha, images.patch),
+                                                is_told_alike ? &*task.fit.alike : nullptr, task.parallel_for);
+    }
+    Reconstruction result =
+        solvers_->solve(images, task.settings, task.fit.weights, task.has_fit, task.parallel_for, task.watch);
+    const bool is_unbiased = images.has_gradients() && is_linear(norm);
+    if (!images.demodulation.empty() && !result.image.empty())
+        remodulate(images, is_unbiased, result.image, task.parallel_for);
+    if (!is_unbiased && (images.has_gradients() || !images.demodulation.empty()))
+        lift_to_black(images.radiance(), result.image, task.parallel_for);
+    return result;
+}
+
+/// Gives what spikes hold back, and what the solver has put above the bounds, to pixels that look alike and have
+/// room below theirs; and what is left over to those around, whatever their bounds: no light is lost, but where
+/// all is black, and hardly any goes where it is known to be dark. Without bounds, only what is held.
+void Reconstructor::spread_held(const Task& task, RgbImage& image) {
+    Fit& fit = task.fit;
+    const ParallelFor& parallel_for = task.parallel_for;
+    if (!task.has_fit)
+        fit.bounds = upper_bounds(task.images, task.given, *fit.alike, parallel_for);
+    RgbImage light = copy_of(*task.held, parallel_for);
+    if (!fit.bounds.empty())
+        add(light, take_excess(fit.bounds, reach, image, parallel_for), parallel_for);
+    if (!(sum_of_sizes(light, parallel_for) > 0))
+        return;
+    const RgbImage room = room_below(fit.bounds, reach, image, parallel_for);
+    spread_to_alike(light, image, *fit.alike, task.given.guides, room, parallel_for);
+    if (fit.surroundings.brightness.empty())
+        fit.surroundings = lit_surroundings(image, *fit.alike, fit.bounds.black, parallel_for);
+    spread_around(light, fit.surroundings, image, parallel_for);
 }
 
 /// The noise of a picture that was made by the same equations, radiance: what the halves of the samples make of
 /// it, with what of the light held back is in one or the other. Anything: stopped.
-RgbImage Reconstructor::noise_of(const GradientImages& images, const ReconstructionSettings& settings,
-                                 const Limits* limits, const ParallelFor& parallel_for, const SolveWatch& watch) {
+RgbImage Reconstructor::noise_of(const Task& task) {
+    const GradientImages& images = task.images;
+    const ParallelFor& parallel_for = task.parallel_for;
     RgbImage noise;
-    if (images.has_gradients() && settings.norm != Norm::smoothed) {
-        const float alpha = weighted_alpha(settings.alpha, images.patch);
-        const PoissonProblem halves{images.halves.primal, images.halves.dx, images.halves.dy, alpha};
-        // Noise need not be known better than it is alike from one half to another.
-        constexpr WeightedSettings quick{.cold_iterations = 2, .warm_iterations = 2};
-        solvers_->made(solvers_->noise).solve(halves, solvers_->weights, quick, noise, parallel_for, watch);
-        solvers_->weights = {};
-    } else {
+    if (PictureSolvers::weighs_gradients(images, task.settings.norm))
+        noise = solvers_->solve_halves(images, task.settings.alpha, task.fit.weights, parallel_for, task.watch);
+    else
         noise = copy_of(images.halves.primal, parallel_for);
-    }
+    if (!task.keeps_fit)
+        task.fit.weights = {};
     multiply_by_known_albedo(images.demodulation, noise, parallel_for);
-    if (limits && !images.brightest.half.empty()) {
+    if (!task.fit.surroundings.brightness.empty() && !images.brightest.half.empty()) {
         RgbImage held(noise.width(), noise.height(), Unfilled());
         for_pixels(held.width(), held.height(), parallel_for, [&](std::size_t i) {
-            held.data()[i] = limits->held.data()[i] * images.brightest.half.data()[i];
+            held.data()[i] = task.held->data()[i] * images.brightest.half.data()[i];
         });
         // To pixels that look alike farther away, too, is level.
-        spread_around(held, limits->surroundings, noise, parallel_for);
+        spread_around(held, task.fit.surroundings, noise, parallel_for);
     }
     return noise;
 }
 
-/// Reconstructs without very direct light, and takes no time.
-Reconstruction Reconstructor::solve(const GradientImages& images, const ReconstructionSettings& settings,
-                                    const AlikePixels* alike, const ParallelFor& parallel_for,
-                                    const SolveWatch& watch) {
-    const int width = images.primal.width(), height = images.primal.height();
-    if (!solvers_ || solvers_->width != width || solvers_->height != height)
-        solvers_ = std::make_unique<Solvers>(width, height);
-    PoissonProblem problem{images.primal, images.dx, images.dy, settings.alpha};
-    Reconstruction result;
-    if (images.parts.empty())
-        solvers_->parts.reset();
-    if (!images.parts.empty() && expands(settings.norm)) {
-        const float alpha =
-            settings.norm == Norm::weighted ? weighted_alpha(settings.alpha, images.patch) : settings.alpha;
-        result.iterations =
-            solvers_->made(solvers_->parts).solve(images, settings.norm, alpha, result.image, parallel_for, watch);
-        if (watch.is_stopped())
-            result.image = {};
-        return result;
+/// Smooths a picture without very direct light, and returns the noise that is left, as far as it is told.
+RgbImage Reconstructor::smooth(const Task& task, RgbImage& picture) {
+    const GuideImages& guides = task.given.guides;
+    Fit& fit = task.fit;
+    const double light = sum_of(picture, task.parallel_for);
+    RgbImage noise;
+    if (task.has_fit) {
+        picture =
+            smooth_likewise(std::move(picture), guides, *fit.alike, fit.smoothing, task.parallel_for, task.watch);
+    } else {
+        NoisyPicture smooth =
+            smooth_by_guides({std::move(picture), noise_of(task)}, guides, *fit.alike, task.parallel_for,
+                             task.watch, task.keeps_fit ? &fit.smoothing : nullptr);
+        picture = std::move(smooth.image);
+        noise = std::move(smooth.noise);
     }
-    switch (images.has_gradients() ? settings.norm : Norm::none) {
-    case Norm::none:
-    case Norm::smoothed:
-        result.image = copy_of(images.primal, parallel_for);
-        break;
-    case Norm::l2:
-        solvers_->made(solvers_->l2).solve(problem, result.image, parallel_for);
-        result.residual = poisson_residual(problem, result.image, parallel_for);
-        result.iterations = 1;
-        break;
-    case Norm::l1:
-    case Norm::mixed: {
-        const L1Settings l1{.square_primal = settings.norm == Norm::mixed, .joint_colour = settings.joint_colour};
-        result.iterations = solvers_->made(solvers_->l1).solve(problem, l1, result.image, parallel_for, watch);
-        break;
-    }
-    case Norm::uniform:
-        result.iterations = average_neighbours(problem, uniform_iterations, result.image, parallel_for, watch);
-        break;
-    case Norm::weighted:
-    case Norm::guided: // what comes after these is reconstruct()'s
-    case Norm::oidn:
-        problem.alpha = weighted_alpha(settings.alpha, images.patch);
-        result.iterations = solve_weighted(images, problem, alike, result.image, parallel_for, watch);
-        break;
-    }
-    if (watch.is_stopped())
-        result.image = {};
-    return result;
-}
-
-/// Without very direct light.
-Reconstruction Reconstructor::picture_of(const GradientImages& images, const ReconstructionSettings& settings,
-                                         const AlikePixels* alike, const ParallelFor& parallel_for,
-                                         const SolveWatch& watch) {
-    Reconstruction result = solve(images, settings, alike, parallel_for, watch);
-    const bool is_unbiased = images.has_gradients() && is_linear(settings.norm);
-    if (!images.demodulation.empty() && !result.image.empty())
-        remodulate(images, is_unbiased, result.image, parallel_for);
-    if (!is_unbiased && (images.has_gradients() || !images.demodulation.empty()))
-        lift_to_black(images.radiance(), result.image, parallel_for);
-    return result;
+    if (task.held && !picture.empty())
+        hold_to_bounds(fit.bounds, picture, task.parallel_for);
+    // Pixels do not get of others what they give them, and bounds take some.
+    keep_light(light, picture, task.parallel_for);
+    return noise;
 }
 
 /// What is done to a picture without very direct light after it is solved. Empties it: stopped.
-void Reconstructor::finish(const GradientImages& images, const ReconstructionSettings& settings,
-                           const AlikePixels* alike, const Limits* limits, RgbImage& picture,
-                           const ParallelFor& parallel_for, const SolveWatch& watch) {
-    const bool has_gradients = images.has_gradients();
-    const double light = sum_of(picture, parallel_for);
+void Reconstructor::finish(const Task& task, RgbImage& picture) {
+    const GradientImages& given = task.given;
+    const bool has_gradients = given.has_gradients();
+    const double light = sum_of(picture, task.parallel_for);
     RgbImage noise;
-    if (smooths(images, settings.norm)) {
-        noise = noise_of(images, settings, limits, parallel_for, watch);
-        NoisyPicture smooth =
-            smooth_by_guides({std::move(picture), std::move(noise)}, images.guides, *alike, parallel_for, watch);
-        picture = std::move(smooth.image);
-        noise = std::move(smooth.noise);
-        if (limits && !picture.empty())
-            hold_to_bounds(limits->bounds, picture, parallel_for);
-        // Pixels do not get of others what they give them, and bounds take some.
-        keep_light(light, picture, parallel_for);
-    }
-    if (settings.norm == Norm::oidn && !watch.is_stopped()) {
-        const bool has_own = has_gradients && !images.own.empty();
-        const RgbImage target = denoised_by_oidn(has_own ? images.own : picture, images.guides);
-        picture = shrink_toward(target, {std::move(picture), std::move(noise)}, images.guides, parallel_for);
-        if (limits)
-            hold_to_bounds(limits->bounds, picture, parallel_for); // of the target's light in the dark, too
+    if (smooths(given, task.settings.norm))
+        noise = smooth(task, picture);
+    if (task.settings.norm == Norm::oidn && !task.watch.is_stopped()) {
+        const bool has_own = has_gradients && !given.own.empty();
+        const RgbImage target = denoised_by_oidn(has_own ? given.own : picture, given.guides);
+        picture = shrink_toward(target, {std::move(picture), std::move(noise)}, given.guides, task.parallel_for);
+        if (task.held)
+            hold_to_bounds(task.fit.bounds, picture, task.parallel_for); // of the target's light in the dark, too
         if (has_gradients)
-            keep_light(light, picture, parallel_for);
+            keep_light(light, picture, task.parallel_for);
     }
-    if (watch.is_stopped())
+    if (task.watch.is_stopped())
         picture = {};
 }
 
@@ -344,33 +338,49 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
                                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const auto start = std::chrono::steady_clock::now();
     check_sizes(images);
-    if (settings.norm != Norm::guided && settings.norm != Norm::oidn && solvers_ && solvers_->noise)
-        solvers_->noise->forget(); // its last noise is long ago
     if (settings.norm != Norm::none && !(settings.alpha > 0))
         throw std::invalid_argument("the reconstruction's alpha must be above 0");
-    const bool is_limited = holds_back(images, settings);
+    const int width = images.primal.width(), height = images.primal.height();
+    if (!solvers_ || solvers_->width() != width || solvers_->height() != height) {
+        forget();
+        solvers_ = std::make_unique<PictureSolvers>(width, height);
+    }
+    if (settings.norm != Norm::guided && settings.norm != Norm::oidn)
+        solvers_->forget_halves(); // the last ones are long ago
+    const Circumstances now(images, settings);
+    const bool has_fit = fit_ && fit_->holds_for(now, images.brightest.samples);
+    if (!has_fit)
+        fit_.reset();
+    auto fit = has_fit ? std::move(fit_) : std::make_unique<Fit>(Fit{now, images.brightest.samples});
     RgbImage held;
-    const GradientImages limited_images = is_limited ? limited(images, held, parallel_for) : GradientImages();
-    const GradientImages& counted = is_limited ? limited_images : images;
-    std::optional<AlikePixels> alike;
-    if (is_limited || smooths(images, settings.norm))
-        alike.emplace(glm::ivec2(images.primal.width(), images.primal.height()), images.guides, parallel_for);
-    const bool is_told_alike = is_limited && !images.guides.empty();
-    Reconstruction result = picture_of(counted, settings, is_told_alike ? &*alike : nullptr, parallel_for, watch);
-    std::optional<Limits> limits;
-    if (is_limited && !result.image.empty()) {
-        UpperBounds bounds = upper_bounds(counted, images.radiance(), *alike, parallel_for);
-        limits.emplace(std::move(held), std::move(bounds), LitSurroundings());
-        limits->spread(images.guides, *alike, result.image, parallel_for);
+    const GradientImages limited_images =
+        now.is_limited ? limited(images, !has_fit, held, parallel_for) : GradientImages();
+    if (!has_fit && (now.is_limited || now.is_smoothed))
+        fit->alike.emplace(glm::ivec2(width, height), images.guides, parallel_for);
+    const Task task{.given = images,
+                    .images = now.is_limited ? limited_images : images,
+                    .held = now.is_limited ? &held : nullptr,
+                    .settings = settings,
+                    .fit = *fit,
+                    .has_fit = has_fit,
+                    .keeps_fit = keeps_ && has_solved_ && fit->samples > 0,
+                    .parallel_for = parallel_for,
+                    .watch = watch};
+    Reconstruction result = picture_of(task);
+    result.goes_on = has_fit;
+    if (now.is_limited && !result.image.empty()) {
+        spread_held(task, result.image);
         const double all = sum_of(images.radiance(), parallel_for);
-        result.held_share = all > 0 ? sum_of(limits->held, parallel_for) / all : 0;
+        result.held_share = all > 0 ? sum_of(held, parallel_for) / all : 0;
     }
     if (!result.image.empty())
-        finish(counted, settings, alike ? &*alike : nullptr, limits ? &*limits : nullptr, result.image,
-               parallel_for, watch);
-    solvers_->weights = {};
-    if (!result.image.empty())
+        finish(task, result.image);
+    if (!result.image.empty()) {
         add(result.image, images.very_direct, parallel_for);
+        has_solved_ = true;
+        if (task.keeps_fit && fit->is_of_use())
+            fit_ = std::move(fit);
+    }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

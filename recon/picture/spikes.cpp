@@ -126,13 +126,11 @@ void for_each_limited(const GradientImages& images, const ParallelFor& parallel_
     });
 }
 
-/// All that a picture is made of but parts and very direct light; of the brightest samples, which halves they are
-/// in.
-GradientImages copied(const GradientImages& images, const ParallelFor& parallel_for) {
+/// What a picture is made of as far as limits change it, and what is needed beside that; of the brightest samples,
+/// which halves they are in.
+GradientImages copied(const GradientImages& images, bool with_halves, const ParallelFor& parallel_for) {
     const auto copy = [&](const auto& image) { return copy_of(image, parallel_for); };
     const Demodulation& d = images.demodulation;
-    const HalfDifferences& h = images.halves;
-    const GuideImages& g = images.guides;
     GradientImages result{copy(images.primal), copy(images.dx), copy(images.dy), {}};
     result.primal_variance = copy(images.primal_variance);
     result.dx_variance = copy(images.dx_variance);
@@ -140,10 +138,10 @@ GradientImages copied(const GradientImages& images, const ParallelFor& parallel_
     result.demodulation = {
         copy(d.value),         copy(d.albedo),           copy(d.sampled_albedo),   copy(d.albedo_variance),
         copy(d.sampled_share), copy(d.sampled_variance), copy(d.value_covariance), copy(d.unexplained_variance)};
-    result.brightest.half = copy(images.brightest.half);
-    result.halves = {copy(h.primal), copy(h.dx), copy(h.dy)};
-    result.guides = {copy(g.albedo), copy(g.normal), copy(g.nearness), copy(g.roughness)};
-    result.own = copy(images.own);
+    if (with_halves) {
+        result.brightest.half = copy(images.brightest.half);
+        result.halves = {copy(images.halves.primal), copy(images.halves.dx), copy(images.halves.dy)};
+    }
     result.patch = images.patch;
     return result;
 }
@@ -154,10 +152,11 @@ bool can_limit(const GradientImages& images) {
     return !images.brightest.empty() && images.brightest.samples > 1 && images.parts.empty();
 }
 
-GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for) {
+GradientImages limited(const GradientImages& images, bool with_halves, RgbImage& held,
+                       const ParallelFor& parallel_for) {
     const BrightestSamples& b = images.brightest;
     held = filled_image(images.primal.width(), images.primal.height(), Rgb(0), parallel_for);
-    GradientImages result = copied(images, parallel_for);
+    GradientImages result = copied(images, with_halves, parallel_for);
     for_each_limited(images, parallel_for, [&](std::size_t i, Limits t) {
         const double n = b.samples;
         limit_halves(result.halves, b, i, t);
@@ -186,9 +185,9 @@ RgbImage held_light(const GradientImages& images) {
 }
 
 std::size_t bytes_to_limit(bool has_gradients, bool is_demodulated) {
-    const std::size_t copies = (has_gradients ? 4 : 1) * sizeof(Rgb) + (has_gradients ? 3 : 1) * sizeof(float) +
+    const std::size_t copies = (has_gradients ? 3 : 1) * sizeof(Rgb) + (has_gradients ? 3 : 1) * sizeof(float) +
                                (is_demodulated ? Demodulation::bytes_a_pixel : 0) + sizeof(float) +
-                               HalfDifferences::bytes_a_pixel + GuideImages::bytes_a_pixel;
+                               HalfDifferences::bytes_a_pixel;
     // Two images of light to be spread, two of the bounds and the room below them, and which pixels are black.
     return copies + 5 * sizeof(Rgb) + sizeof(std::uint8_t) + bytes_to_spread_a_pixel;
 }

@@ -28,10 +28,12 @@ namespace tessera {
 bool can_limit(const GradientImages& images);
 
 /// The images with limited samples: primal, gradients, halves, and what of a Demodulation depends on them. Left
-/// out are very direct light, parts, of which there are none, and the brightest samples but for their halves:
-/// nothing is left to limit.
-/// @param held  becomes the radiance that is held back; black where there is nothing
-GradientImages limited(const GradientImages& images, RgbImage& held, const ParallelFor& parallel_for);
+/// out are very direct light, guides and each pixel's own, which no limits change, parts, of which there are none,
+/// and the brightest samples but for their halves: nothing is left to limit.
+/// @param with_halves  false: these are left out, too
+/// @param held         becomes the radiance that is held back; black where there is nothing
+GradientImages limited(const GradientImages& images, bool with_halves, RgbImage& held,
+                       const ParallelFor& parallel_for);
 
 /// The radiance that limited() holds back; black where it is not to be used.
 RgbImage held_light(const GradientImages& images);

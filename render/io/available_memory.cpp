@@ -91,11 +91,17 @@ std::string memory_text(std::uint64_t bytes) {
     return size < gib ? fmt::format("{:.0f} MiB", size / mib) : fmt::format("{:.1f} GiB", size / gib);
 }
 
+constexpr std::uint64_t hardly_any = 1 << 20; // nobody runs out of that: and asking takes a while
+
 } // namespace
 
+bool is_memory_free(std::uint64_t bytes) {
+    return bytes < hardly_any || bytes <= available_memory();
+}
+
 void ask_for_memory(std::uint64_t bytes, const std::string& what) {
-    if (bytes < (1 << 20))
-        return; // nobody runs out of that: and asking takes a while
+    if (bytes < hardly_any)
+        return;
     const std::uint64_t available = available_memory();
     if (bytes > available)
         throw OutOfMemory(fmt::format("{} need {} of memory, and {} are free", what, memory_text(bytes),

@@ -21,6 +21,9 @@ public:
 /// space (ulimit -v) leaves fewer `bytes`. `what` is in the plural.
 void ask_for_memory(std::uint64_t bytes, const std::string& what);
 
+/// Whether so many can be taken, for what can be done without.
+bool is_memory_free(std::uint64_t bytes);
+
 /// Does `work`, and returns what it returns. Where memory ends in the midst of it, unforeseen, throws OutOfMemory
 /// that says during what: "there is not enough memory for loading box.xml".
 template <class Work>

@@ -4,6 +4,8 @@
 #include "recon/picture/spikes.h"
 #include "render/io/available_memory.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include <fmt/core.h>
@@ -22,8 +24,14 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
         is_limited ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
                    : 0;
     const auto parts = static_cast<int>(images.parts.size());
-    ask_for_memory(
-        reconstructor.bytes_for(width, height, norm, threads, parts, is_limited) + remodulation + limits, what);
+    const std::uint64_t all =
+        reconstructor.bytes_for(width, height, norm, threads, parts, is_limited) + remodulation + limits;
+    const auto beside_kept = [&](std::uint64_t bytes) {
+        return bytes - std::min(bytes, reconstructor.bytes_kept());
+    };
+    // Others may need memory, too.
+    reconstructor.set_keeps(is_memory_free(2 * beside_kept(all + Reconstructor::bytes_to_keep(width, height))));
+    ask_for_memory(beside_kept(all), what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });
 }
 

@@ -34,7 +34,7 @@ GradientImages even_images() {
 RgbImage bounded(const GradientImages& images, float value, const ParallelFor& parallel_for = serial_for) {
     RgbImage image(width, height, Rgb(value));
     const AlikePixels alike({width, height}, images.guides, parallel_for);
-    take_excess(upper_bounds(images, images.radiance(), alike, parallel_for), 2, image, parallel_for);
+    take_excess(upper_bounds(images, images, alike, parallel_for), 2, image, parallel_for);
     return image;
 }
 

@@ -28,7 +28,7 @@ Plane random_plane(int width, int height, std::uint32_t seed, float mean, float 
 
 struct Case {
     GuidePlanes guides;
-    RegressedPlanes values;
+    std::array<Plane, 6> values;
     Plane weights;
 
     Case(int width, int height) {
@@ -43,8 +43,8 @@ struct Case {
             w = std::exp(w);
     }
 
-    RegressedPlanes fitted(const ParallelFor& parallel_for = serial_for) const {
-        RegressedPlanes fitted;
+    std::array<Plane, 6> fitted(const ParallelFor& parallel_for = serial_for) const {
+        std::array<Plane, 6> fitted;
         make_planes(fitted, weights.width(), weights.height());
         write_regressions(values, guides, weights, parallel_for, fitted);
         return fitted;
@@ -97,7 +97,7 @@ double naive(const Case& c, std::size_t channel, int x, int y) {
 TEST(GuideRegression, IsTheLeastSquaresOfEachSquare) {
     for (const auto& [width, height] : {std::pair(37, 9), std::pair(16, 5), std::pair(3, 2), std::pair(1, 1)}) {
         const Case c(width, height);
-        const RegressedPlanes fitted = c.fitted();
+        const std::array<Plane, 6> fitted = c.fitted();
         for (std::size_t channel = 0; channel < 6; ++channel)
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
@@ -112,7 +112,7 @@ TEST(GuideRegression, NeedsNoGuidesThatDoNotVary) {
     for (std::size_t k = 0; k < guide_count; ++k)
         for (int y = 0; y < 9; ++y)
             std::fill_n(c.guides[k].row(y), 7 * k, static_cast<float>(k));
-    const RegressedPlanes fitted = c.fitted();
+    const std::array<Plane, 6> fitted = c.fitted();
     for (std::size_t channel = 0; channel < 6; ++channel)
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 61; ++x)
@@ -122,9 +122,9 @@ TEST(GuideRegression, NeedsNoGuidesThatDoNotVary) {
 /// A guide that is the same everywhere, but for where it is no number: there, pixels stay what they are.
 TEST(GuideRegression, LeavesPixelsBesideNoNumberAlone) {
     Case c(61, 9);
-    const RegressedPlanes before = c.fitted();
+    const std::array<Plane, 6> before = c.fitted();
     c.guides[3](20, 4) = std::numeric_limits<float>::quiet_NaN();
-    const RegressedPlanes after = c.fitted();
+    const std::array<Plane, 6> after = c.fitted();
     for (std::size_t channel = 0; channel < 6; ++channel)
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 61; ++x) {
@@ -149,14 +149,14 @@ TEST(GuideRegression, FindsWhatGuidesTell) {
     Case c(40, 20);
     for (std::size_t i = 0; i < c.weights.size(); ++i)
         c.values[0].data()[i] = 3 + 2 * c.guides[1].data()[i] - c.guides[6].data()[i];
-    const RegressedPlanes fitted = c.fitted();
+    const std::array<Plane, 6> fitted = c.fitted();
     for (std::size_t i = 0; i < c.weights.size(); ++i)
         EXPECT_NEAR(fitted[0].data()[i], c.values[0].data()[i], 0.1);
 }
 
 TEST(GuideRegression, SameBitsInAnyOrder) {
     const Case c(50, 30);
-    const RegressedPlanes forward = c.fitted(), backward = c.fitted([](int count, const auto&body) {
+    const std::array<Plane, 6> forward = c.fitted(), backward = c.fitted([](int count, const auto&body) {
         for (int i = count; i-- > 0;)
             body(i);
     });

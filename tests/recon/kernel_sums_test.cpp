@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <random>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -21,17 +21,14 @@ Plane plane_of(int width, int height, std::uint32_t seed) {
     return plane;
 }
 
-/// Of pairs; no number where one of the two is beyond the picture.
-PairWeights random_weights(int width, int height, int step) {
+/// Of pairs; anything where one of the two is beyond the picture.
+PairWeights random_weights(int width, int height) {
     PairWeights weights;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-        weights[k] = plane_of(width, height, 10 + static_cast<std::uint32_t>(k));
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const int other_x = x + step * kernel_pairs[k].i, other_y = y + step * kernel_pairs[k].j;
-                if (other_x < 0 || other_x >= width || other_y >= height)
-                    weights[k](x, y) = std::numeric_limits<float>::quiet_NaN();
-            }
+    std::mt19937 numbers(10);
+    for (Image<PairWeight>& plane : weights) {
+        plane = Image<PairWeight>(width, height);
+        for (PairWeight& weight : plane)
+            weight = static_cast<PairWeight>(numbers() % 256);
     }
     return weights;
 }
@@ -44,7 +41,8 @@ double mean_around(const Plane& plane, const PairWeights& weights, int step, int
             const int i = x + sign * step * kernel_pairs[k].i, j = y + sign * step * kernel_pairs[k].j;
             if (i < 0 || i >= plane.width() || j < 0 || j >= plane.height())
                 continue;
-            const auto weight = static_cast<double>(sign > 0 ? weights[k](x, y) : weights[k](i, j));
+            const double weight = static_cast<double>(kernel_pairs[k].share()) / 255 *
+                                  (sign > 0 ? weights[k](x, y) : weights[k](i, j));
             all += weight;
             sum += weight * static_cast<double>(plane(i, j));
         }
@@ -52,10 +50,17 @@ double mean_around(const Plane& plane, const PairWeights& weights, int step, int
 }
 
 TEST(KernelSums, AreOfThePixelsAround) {
-    for (const auto& [width, height, step] :
-         {std::tuple{1, 1, 1}, {5, 3, 1}, {16, 9, 3}, {300, 7, 2}, {527, 40, 9}, {256, 11, 81}, {140, 130, 27}}) {
+    for (const auto& [width, height, step] : {std::tuple{1, 1, 1},
+                                              {5, 3, 1},
+                                              {16, 9, 3},
+                                              {300, 7, 2},
+                                              {527, 40, 9},
+                                              {256, 11, 81},
+                                              {140, 130, 27},
+                                              {1100, 5, 81},
+                                              {1031, 60, 27}}) {
         const std::array from{plane_of(width, height, 1), plane_of(width, height, 2)};
-        const PairWeights weights = random_weights(width, height, step);
+        const PairWeights weights = random_weights(width, height);
         std::array<Plane, 2> means;
         make_planes(means, width, height);
         write_kernel_means(from, weights, step, serial_for, means);

@@ -75,7 +75,7 @@ Samples with_spike() {
 
 TEST(Spikes, WeighNoMoreThanAQuarterOfAllOthers) {
     RgbImage held;
-    const GradientImages images = limited(with_spike().images(), held, serial_for);
+    const GradientImages images = limited(with_spike().images(), true, held, serial_for);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const bool is_lit = x >= 12 && x < 18 && y >= 10 && y < 16;
@@ -88,7 +88,7 @@ TEST(Spikes, WeighNoMoreThanAQuarterOfAllOthers) {
 TEST(Spikes, GradientsStayDifferences) {
     constexpr double ordinary = 1.01 / 16; // what of a limited sample was no spike, and is limited with it
     RgbImage held;
-    const GradientImages images = limited(with_spike().images(), held, serial_for);
+    const GradientImages images = limited(with_spike().images(), true, held, serial_for);
     for (int y = 0; y + 1 < height; ++y)
         for (int x = 0; x + 1 < width; ++x) {
             EXPECT_NEAR(images.dx(x, y).r, images.primal(x + 1, y).r - images.primal(x, y).r, ordinary);
@@ -100,7 +100,7 @@ TEST(Spikes, GradientsStayDifferences) {
 TEST(Spikes, VariancesStay) {
     const GradientImages images = with_spike().images();
     RgbImage held;
-    const GradientImages result = limited(images, held, serial_for);
+    const GradientImages result = limited(images, true, held, serial_for);
     EXPECT_EQ(result.primal_variance(15, 13), images.primal_variance(15, 13));
     EXPECT_GT(result.primal_variance(15, 13), 1000);
 }
@@ -113,7 +113,7 @@ TEST(Spikes, UnexplainedVariancesAreOfLimitedSamples) {
     images.demodulation = {images.primal, white, white, none, none, black, black, images.primal_variance};
     images.brightest.albedo = white;
     RgbImage held;
-    const GradientImages result = limited(images, held, serial_for);
+    const GradientImages result = limited(images, true, held, serial_for);
     const double mean = 19.0 / 16, squares = 15 * (1 - mean) * (1 - mean) + (4 - mean) * (4 - mean);
     EXPECT_NEAR(result.demodulation.unexplained_variance(15, 13), 3 * squares / (16 * 15), 1e-3);
     EXPECT_EQ(result.demodulation.unexplained_variance(3, 3), images.primal_variance(3, 3));
@@ -122,7 +122,7 @@ TEST(Spikes, UnexplainedVariancesAreOfLimitedSamples) {
 TEST(Spikes, NoLightIsLost) {
     const GradientImages images = with_spike().images();
     RgbImage held;
-    RgbImage picture = limited(images, held, serial_for).primal;
+    RgbImage picture = limited(images, true, held, serial_for).primal;
     EXPECT_NEAR(sum_of(picture) + sum_of(held), sum_of(images.primal), 1e-5 * sum_of(images.primal));
     EXPECT_GT(sum_of(held), 0.5 * sum_of(images.primal));
     spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
@@ -149,7 +149,7 @@ TEST(Spikes, OfRareLightAreNotMadeAnew) {
         return sum / static_cast<double>(image.size());
     };
     RgbImage held;
-    RgbImage picture = limited(images, held, serial_for).primal;
+    RgbImage picture = limited(images, true, held, serial_for).primal;
     spread_around(held, lit_surroundings(picture, anywhere(picture), {}, serial_for), picture, serial_for);
     EXPECT_LT(error_of(picture), 0.1 * error_of(images.primal));
 }
@@ -162,7 +162,7 @@ TEST(Spikes, FeaturesOfOnePixelAreNone) {
             sample(9, 9) = Rgb(300);
         const GradientImages images = samples.images();
         RgbImage held;
-        const RgbImage primal = limited(images, held, serial_for).primal;
+        const RgbImage primal = limited(images, true, held, serial_for).primal;
         EXPECT_EQ(sum_of(held), 0) << n;
         EXPECT_EQ(primal(9, 9).r, 300);
     }
@@ -178,7 +178,7 @@ TEST(Spikes, CountInFullInTheEnd) {
         images.brightest.primal(9, 9) = Rgb(101);
         images.brightest.samples = n;
         RgbImage held;
-        const GradientImages result = limited(images, held, serial_for);
+        const GradientImages result = limited(images, true, held, serial_for);
         if (n == 40)
             EXPECT_NEAR(held(9, 9).r, 91 / 40.0, 1e-3);
         else
