@@ -23,9 +23,11 @@ void write_bench(Experiment& experiment) {
     write_text(options.output / "bench.csv", to_csv(options, results));
     write_text(options.output / "bench.json", to_json(options, results));
     write_text(options.output / "bench-speedup.csv", speed_up_csv(options, scenes));
-    for (const SceneCurves& scene : scenes)
-        write_text(options.output / fmt::format("bench-{}.svg", file_name(scene.name)),
-                   to_svg(bench_chart(options, scene)));
+    for (const SceneCurves& scene : scenes) {
+        const std::string name = file_name(scene.name);
+        write_text(options.output / fmt::format("bench-{}.svg", name), to_svg(bench_chart(options, scene)));
+        write_text(options.output / fmt::format("bench-{}-seen.svg", name), to_svg(seen_chart(options, scene)));
+    }
     write_text(options.output / "bench.html", bench_page(experiment, scenes));
 }
 

@@ -83,10 +83,10 @@ std::string reference_text(const Experiment& experiment, const std::string& scen
 
 std::string scene_section(const Experiment& experiment, const SceneCurves& scene) {
     const ExperimentOptions& options = experiment.options();
-    return fmt::format("<h2>{}</h2>\n{}{}{}{}", escaped(scene.name),
+    return fmt::format("<h2>{}</h2>\n{}{}{}{}{}", escaped(scene.name),
                        reference_text(experiment, last_of(scene.curves.front()).scene),
-                       to_svg(bench_chart(options, scene)), figures_table(options, scene),
-                       crops_section(experiment, scene));
+                       to_svg(bench_chart(options, scene)), to_svg(seen_chart(options, scene)),
+                       figures_table(options, scene), crops_section(experiment, scene));
 }
 
 std::string row(std::string_view name, const std::string& value) {

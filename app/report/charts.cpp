@@ -26,27 +26,48 @@ LineLook look_of(const ExperimentOptions& options, const Result& result, std::si
     return {s.render.method, s.reconstruction.norm, static_cast<int>(marker)};
 }
 
-ChartPlot plot_of(const ExperimentOptions& options, const SceneCurves& scene, const char* x_label,
-                  double (*x)(const Result&)) {
-    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
-    ChartPlot plot{x_label,
-                   fmt::format("relMSE, floor-free (bars: {})", bars),
-                   ChartAxis::Scale::log,
-                   ChartAxis::Scale::log,
-                   {},
-                   {}};
+/// A line for each curve. What is no number is in no plot.
+/// @param axes      without lines
+/// @param point_of  of a result
+template <typename PointOf>
+ChartPlot with_curves(ChartPlot axes, const ExperimentOptions& options, const SceneCurves& scene,
+                      PointOf point_of) {
     for (const Curve& curve : scene.curves) {
-        const double slope = slope_of(curve);
         ChartSeries series{curve_label(options, curve), {}, false, false, look_of(options, last_of(curve), 0)};
-        if (std::isfinite(slope))
-            series.label += fmt::format(" (slope {:.2f})", slope);
         for (const Result& r : curve)
-            if (is_certain(r))
-                series.points.push_back(
-                    {x(r), error_of(r), r.runs.size() > 1 ? error_deviation(r) : error_uncertainty(r)});
-        plot.series.push_back(series);
+            if (const ChartPoint point = point_of(r); std::isfinite(point.y))
+                series.points.push_back(point);
+        axes.series.push_back(series);
     }
+    return axes;
+}
+
+ChartPlot error_plot(const ExperimentOptions& options, const SceneCurves& scene, const char* x_label,
+                     double (*x)(const Result&)) {
+    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    const ChartPlot axes{x_label,
+                         fmt::format("relMSE, floor-free (bars: {})", bars),
+                         ChartAxis::Scale::log,
+                         ChartAxis::Scale::log,
+                         {},
+                         {}};
+    ChartPlot plot = with_curves(axes, options, scene, [x](const Result& r) {
+        return ChartPoint{x(r), is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN(),
+                          r.runs.size() > 1 ? error_deviation(r) : error_uncertainty(r)};
+    });
+    for (std::size_t i = 0; i < scene.curves.size(); ++i)
+        if (const double slope = slope_of(scene.curves[i]); std::isfinite(slope))
+            plot.series[i].label += fmt::format(" (slope {:.2f})", slope);
     return plot;
+}
+
+/// Against CPU seconds: a column of results that errors are told by.
+ChartPlot seen_plot(const ExperimentOptions& options, const SceneCurves& scene, const char* column,
+                    const char* label, ChartAxis::Scale scale) {
+    return with_curves({"CPU seconds", label, ChartAxis::Scale::log, scale, {}, {}}, options, scene,
+                       [column](const Result& r) {
+                           return ChartPoint{cpu_seconds_of(r), column_value(column, r), 0};
+                       });
 }
 
 } // namespace
@@ -59,14 +80,27 @@ std::string curve_label(const ExperimentOptions& options, const Curve& curve) {
     return label;
 }
 
-Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene) {
+namespace {
+
+std::string bench_title(const ExperimentOptions& options, const SceneCurves& scene) {
     const glm::ivec2 size = options.settings.size;
-    const std::string title = fmt::format("{}: {}x{}, depth {}, {} each, {} seed{}", scene.name, size.x, size.y,
-                                          options.settings.render.max_depth, to_string(options.effort),
-                                          options.seeds, options.seeds > 1 ? "s" : "");
-    return {title,
-            {plot_of(options, scene, "CPU seconds", cpu_seconds_of),
-             plot_of(options, scene, "samples a pixel", spp_of)}};
+    return fmt::format("{}: {}x{}, depth {}, {} each, {} seed{}", scene.name, size.x, size.y,
+                       options.settings.render.max_depth, to_string(options.effort), options.seeds,
+                       options.seeds > 1 ? "s" : "");
+}
+
+} // namespace
+
+Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene) {
+    return {bench_title(options, scene),
+            {error_plot(options, scene, "CPU seconds", cpu_seconds_of),
+             error_plot(options, scene, "samples a pixel", spp_of)}};
+}
+
+Chart seen_chart(const ExperimentOptions& options, const SceneCurves& scene) {
+    return {bench_title(options, scene),
+            {seen_plot(options, scene, "psnr", "PSNR, dB", ChartAxis::Scale::linear),
+             seen_plot(options, scene, "flip", "FLIP", ChartAxis::Scale::log)}};
 }
 
 Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes) {

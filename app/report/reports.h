@@ -76,6 +76,9 @@ Effort effort_of(const ExperimentOptions& options, const Result& result);
 /// (the uncertainty for one seed) and the slope in the key. Errors that are not certain are left out.
 Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene);
 
+/// What people see of errors, PSNR and FLIP, against CPU seconds, a line for each curve: means over the seeds.
+Chart seen_chart(const ExperimentOptions& options, const SceneCurves& scene);
+
 /// Samples a CPU second against the triangles of the scenes, a line for each method, of its best curve. Worth
 /// drawing for two scenes and more.
 Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes);
@@ -100,7 +103,7 @@ std::string to_json(const ExperimentOptions& options, const std::vector<Result>&
 /// CSV with a line for each pair of curves of a scene of which the first is not of G-PR and the second is.
 std::string speed_up_csv(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes);
 
-/// One HTML page that needs no other file: speed-up at equal error, then for every scene its chart, its figures
+/// One HTML page that needs no other file: speed-up at equal error, then for every scene its charts, its figures
 /// and crops of the pictures at equal time, and at the end settings and machine. Pictures and references that
 /// cannot be read are left out.
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes);

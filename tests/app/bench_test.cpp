@@ -72,10 +72,16 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
     EXPECT_EQ(all["results"][0]["runs"].size(), 2u);
     pugi::xml_document chart;
     EXPECT_TRUE(chart.load_file((folder() / "out/bench-box.svg").c_str()));
+    ASSERT_TRUE(chart.load_file((folder() / "out/bench-box-seen.svg").c_str()));
+    const std::string seen = text("out/bench-box-seen.svg");
+    for (const char* part : {">PSNR, dB<", ">FLIP<", ">pt<", ">gpr l2<", ">gpr l1<"})
+        EXPECT_THAT(seen, HasSubstr(part));
+    const std::size_t points = chart.select_nodes("//circle").size();
+    EXPECT_GE(points, 2u * 3 * 3) << "two plots of three curves of three measurements";
 
     const std::string page = text("out/bench.html");
     for (const char* part : {"<svg xmlns", "data:image/png;base64,", "PT over G-PR", "gpr l1", "max_depth",
-                             "<th>FLIP</th>", "seed 0", "itself at relMSE", "</html>"})
+                             "<th>FLIP</th>", "PSNR, dB", "seed 0", "itself at relMSE", "</html>"})
         EXPECT_THAT(page, HasSubstr(part));
     for (const char* part : {"<option value=\"0\" selected>reference</option>", "alt=\"gpr l1\"", "<canvas>",
                              "value=\"flicker\"", "querySelectorAll('.compare')"})
