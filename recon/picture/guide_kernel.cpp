@@ -125,6 +125,11 @@ AlikePixels::AlikePixels(glm::ivec2 size, const GuideImages& guides, const Paral
     }
 }
 
+std::size_t AlikePixels::bytes() const {
+    return steps.size() * kernel_pairs.size() * sizeof(PairWeight) * weights_[0][0].size() +
+           guide_count * sizeof(float) * guides_[0].size();
+}
+
 void AlikePixels::take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const {
     std::array<Plane, 1> from{std::move(values)}, to{Plane(from[0].width(), from[0].height(), Unfilled())};
     for (std::size_t level = 0; level < levels; ++level) {

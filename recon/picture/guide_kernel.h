@@ -57,6 +57,8 @@ public:
     /// Puts the mean over those of the first levels around each pixel in its place.
     void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
 
+    std::size_t bytes() const;
+    /// At the most.
     static constexpr std::size_t bytes_a_pixel =
         steps.size() * kernel_pairs.size() * sizeof(PairWeight) + guide_count * sizeof(float);
 

@@ -134,19 +134,17 @@ struct Reconstructor::Fit {
     bool holds_for(const Circumstances& now, int samples_now) const {
         return circumstances == now && samples_now >= samples && 4 * samples_now < 5 * samples;
     }
-    /// Whether it would for one sample more, and has all that it takes.
-    bool is_of_use() const {
-        return holds_for(circumstances, samples + 1) && circumstances.settings.norm != Norm::oidn &&
-               smoothing.empty() == !circumstances.is_smoothed;
+    /// Whether it can for one sample more: of fewer than five samples each that comes is a quarter.
+    bool can_hold() const {
+        return holds_for(circumstances, samples + 1) && circumstances.settings.norm != Norm::oidn;
     }
+    bool is_whole() const { return smoothing.empty() == !circumstances.is_smoothed; }
 
     std::uint64_t bytes() const {
         const auto bytes_of = [](const auto& image) { return image.size() * sizeof(*image.data()); };
-        const std::uint64_t pixels = smoothing.trust[0].size();
-        return (alike ? AlikePixels::bytes_a_pixel * alike->guides()[0].size() : 0) + bytes_of(weights.x) +
-               bytes_of(weights.y) + bytes_of(bounds.light) + bytes_of(bounds.error) + bytes_of(bounds.black) +
-               bytes_of(surroundings.brightness) + bytes_of(surroundings.around) +
-               SmoothingFit::bytes_a_pixel * pixels;
+        return (alike ? alike->bytes() : 0) + bytes_of(weights.x) + bytes_of(weights.y) + bytes_of(bounds.light) +
+               bytes_of(bounds.error) + bytes_of(bounds.black) + bytes_of(surroundings.brightness) +
+               bytes_of(surroundings.around) + SmoothingFit::bytes_a_pixel * smoothing.trust[0].size();
     }
 };
 
@@ -317,11 +315,11 @@ RgbImage Reconstructor::smooth(const Task& task, RgbImage& picture) {
 void Reconstructor::finish(const Task& task, RgbImage& picture) {
     const GradientImages& given = task.given;
     const bool has_gradients = given.has_gradients();
-    const double light = sum_of(picture, task.parallel_for);
     RgbImage noise;
     if (smooths(given, task.settings.norm))
         noise = smooth(task, picture);
     if (task.settings.norm == Norm::oidn && !task.watch.is_stopped()) {
+        const double light = sum_of(picture, task.parallel_for);
         const bool has_own = has_gradients && !given.own.empty();
         const RgbImage target = denoised_by_oidn(has_own ? given.own : picture, given.guides);
         picture = shrink_toward(target, {std::move(picture), std::move(noise)}, given.guides, task.parallel_for);
@@ -363,7 +361,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
                     .settings = settings,
                     .fit = *fit,
                     .has_fit = has_fit,
-                    .keeps_fit = keeps_ && has_solved_ && fit->samples > 0,
+                    .keeps_fit = keeps_ && has_solved_ && fit->can_hold(),
                     .parallel_for = parallel_for,
                     .watch = watch};
     Reconstruction result = picture_of(task);
@@ -378,7 +376,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
     if (!result.image.empty()) {
         add(result.image, images.very_direct, parallel_for);
         has_solved_ = true;
-        if (task.keeps_fit && fit->is_of_use())
+        if (task.keeps_fit && fit->is_whole())
             fit_ = std::move(fit);
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -113,6 +113,10 @@ TEST(GoingOn, IsOverWhereThePictureIsAnother) {
         once.reconstruct(before, settings);
         EXPECT_EQ(once.bytes_kept(), 0u);
         EXPECT_FALSE(once.reconstruct(more, settings).goes_on);
+        EXPECT_GT(once.bytes_kept(), 0u);
+        Reconstructor early; // with four samples each more is a quarter
+        make_two(images_of(4), settings, early);
+        EXPECT_EQ(early.bytes_kept(), 0u);
     }
 }
 

@@ -221,6 +221,15 @@ TEST(Guided, IsNearerToTheTruth) {
     }
 }
 
+/// Left and right exchanged.
+RgbImage mirrored(const RgbImage& image) {
+    RgbImage result(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            result(x, y) = image(image.width() - 1 - x, y);
+    return result;
+}
+
 /// What lies to the right of much noise is smoothed, and kept, as what lies to the left, above or below.
 TEST(Guided, MirrorsAreAlike) {
     RgbImage picture(width, height), half(width, height);
@@ -232,13 +241,6 @@ TEST(Guided, MirrorsAreAlike) {
             half(x, y) = deviation * other(x, y);
         }
     using Map = std::function<RgbImage(const RgbImage&)>;
-    const Map left_right = [](const RgbImage& image) {
-        RgbImage result(image.width(), image.height());
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x)
-                result(x, y) = image(image.width() - 1 - x, y);
-        return result;
-    };
     const Map transposed = [](const RgbImage& image) {
         RgbImage result(image.height(), image.width());
         for (int y = 0; y < image.height(); ++y)
@@ -248,20 +250,13 @@ TEST(Guided, MirrorsAreAlike) {
     };
     constexpr double rounding = 1e-4; // some weights are a byte more or less, as sums go the other way round
     const RgbImage smooth = smoothed({picture, half}, {});
-    for (const Map& map : {left_right, transposed})
+    for (const Map& map : {Map(mirrored), transposed})
         EXPECT_LT(relative_difference(smoothed({map(picture), map(half)}, {}), map(smooth)), rounding);
 }
 
 /// Rows are worked on a part at a time, from the left: where parts end does not show.
 TEST(Guided, WidePicturesAreAsNarrowOnes) {
     constexpr int wide = 1300, high = 24;
-    const auto mirrored = [](const RgbImage& image) {
-        RgbImage result(image.width(), image.height());
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x)
-                result(x, y) = image(image.width() - 1 - x, y);
-        return result;
-    };
     const RgbImage picture = random_image(wide, high, 1, 1, 0.3f), half = random_image(wide, high, 2, 0, 0.3f);
     const RgbImage smooth = smoothed({picture, half}, {});
     EXPECT_LT(relative_difference(smoothed({mirrored(picture), mirrored(half)}, {}), mirrored(smooth)), 1e-4);
