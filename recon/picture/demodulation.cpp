@@ -81,7 +81,7 @@ void write_covariance(const GradientImages& images, const RgbImage& light, int y
 
 /// k of the pixels of row y. The noise is told by means of roots: in means of squares one noisy pixel would hide
 /// what stands out in all that are around. Where albedos vary in few of the nine pixels, as at edges, that is less
-/// than all of the noise, and better than all by what was measured (RESULTS.md, "Light over albedo").
+/// than all of the noise, and better than all by what was measured (TRIALS.md, "Light over albedo").
 std::vector<float> trust(const GradientImages& images, const RgbImage& rho, int y) {
     const Demodulation& d = images.demodulation;
     const auto sums = sums_around<glm::dvec3>(y, rho.width(), rho.height(), [&](int x, int j) {
