@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -13,12 +14,10 @@ namespace tessera {
 // The plugins that change how light meets the one BSDF nested in them.
 
 Material nested_bsdf(LoadContext& context, Properties& p) {
-    const std::vector<XmlElement> nested = context.take_nested(p, "bsdf");
-    if (nested.empty())
+    const std::optional<XmlElement> nested = context.take_one_nested(p, "bsdf");
+    if (!nested)
         p.element().fail("'" + p.type() + "' needs a nested <bsdf>");
-    if (nested.size() > 1)
-        p.note(nested[1], "only the first <bsdf> in '" + p.type() + "' is used");
-    return read_bsdf(context, nested[0]);
+    return read_bsdf(context, *nested);
 }
 
 Material read_twosided(LoadContext& context, Properties& p) {
@@ -59,12 +58,10 @@ Texture product(const Properties& p, const Texture& outer, const Texture& inner)
 
 /// The texture of an adapter, whatever its name.
 Texture nested_texture(LoadContext& context, Properties& p) {
-    const std::vector<XmlElement> nested = context.take_nested(p, "texture");
-    if (nested.empty())
+    const std::optional<XmlElement> nested = context.take_one_nested(p, "texture");
+    if (!nested)
         p.element().fail("'" + p.type() + "' needs a nested <texture>");
-    if (nested.size() > 1)
-        p.note(nested[1], "only the first <texture> in '" + p.type() + "' is used");
-    return read_texture(context, nested[0]);
+    return read_texture(context, *nested);
 }
 
 void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -59,15 +60,15 @@ Texture coefficient(LoadContext& context, Properties& p, std::string_view name, 
 
 /// The mean cosine of the nested phase function.
 float mean_cosine(LoadContext& context, Properties& p) {
-    const auto nested = context.take_nested(p, "phase");
-    if (nested.empty())
+    const std::optional<XmlElement> nested = context.take_one_nested(p, "phase");
+    if (!nested)
         return 0;
-    Properties phase(nested[0], p.notes());
+    Properties phase(*nested, p.notes());
     float g = 0;
     if (phase.type() == "hg")
         g = phase.number("g", 0.8f);
     else if (phase.type() != "isotropic")
-        p.note(nested[0], "the phase function '" + phase.type() + "' is replaced by an isotropic one");
+        p.note(*nested, "the phase function '" + phase.type() + "' is replaced by an isotropic one");
     else
         phase.report_unused();
     if (!(g > -1 && g < 1))

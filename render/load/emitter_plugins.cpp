@@ -97,9 +97,7 @@ void read_projector(LoadContext& context, Properties& p) {
     slide.camera.to_world = glm::mat4(p.rotation("to_world"));
     read_field_of_view(p, slide.camera);
     PointLight light;
-    light.intensity = Rgb(p.number("scale", 1));
-    if (light.intensity.r < 0)
-        p.take("scale")->fail("'scale' must not be negative", "value");
+    light.intensity = Rgb(light_scale(p, "scale"));
     light.position = glm::vec3(p.transform("to_world")[3]);
     light.slide = slide;
     context.scene.point_lights.push_back(light);
@@ -130,9 +128,7 @@ void read_constant(LoadContext& context, Properties& p) {
 
 void read_environment_map(LoadContext& context, Properties& p) {
     EnvironmentMap map;
-    map.scale = p.number("scale", 1);
-    if (map.scale < 0)
-        p.take("scale")->fail("'scale' must not be negative", "value");
+    map.scale = light_scale(p, "scale");
     map.to_world = p.rotation("to_world");
     map.bitmap = bitmap_parameter(context, p, true);
     p.ignore({"sampling_weight", "mis_compensation", "cache"});
@@ -156,6 +152,10 @@ constexpr Plugin<void (*)(LoadContext&, Properties&)> plugins_in_scenes[] = {
 };
 
 } // namespace
+
+float light_scale(Properties& p, std::string_view name, float fallback) {
+    return checked_light(p, name, Rgb(p.number(name, fallback))).r;
+}
 
 int add_shape_emitter(LoadContext& context, const XmlElement& element) {
     Properties properties(element, context.notes);

@@ -143,6 +143,14 @@ std::vector<XmlElement> LoadContext::take_nested(Properties& properties, std::st
     return result;
 }
 
+std::optional<XmlElement> LoadContext::take_one_nested(Properties& properties, std::string_view tag) const {
+    const std::vector<XmlElement> nested = take_nested(properties, tag);
+    if (nested.size() > 1)
+        properties.note(nested[1],
+                        "only the first <" + std::string(tag) + "> in '" + properties.type() + "' is used");
+    return nested.empty() ? std::nullopt : std::optional(nested[0]);
+}
+
 std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, std::string_view instead) {
     const auto parameter = properties.take("filename");
     if (!parameter)

@@ -103,6 +103,8 @@ struct LoadContext {
 
     /// The nested plugins with that tag, references to such included.
     std::vector<XmlElement> take_nested(Properties& properties, std::string_view tag) const;
+    /// Where one has a meaning: the first of them, and a note for the second. Empty if there is none.
+    std::optional<XmlElement> take_one_nested(Properties& properties, std::string_view tag) const;
 
     /// The file that the parameter "filename" names, and the parameter. Empty: there is none of that name, and a
     /// note says that `instead`, "grey stands for it". Throws LoadError where nothing is named, and where it is

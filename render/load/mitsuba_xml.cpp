@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <set>
+#include <string>
 #include <tuple>
 
 namespace tessera {
@@ -48,32 +50,37 @@ void read_material(LoadContext& context, const XmlElement& element) {
 
 void read_nothing(LoadContext&, const XmlElement&) {}
 
-// The elements right below <scene>.
+// The elements right below <scene> that there may be many of.
 constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> scene_elements[] = {
-    {"integrator", read_integrator}, {"bsdf", read_material},   {"shape", add_shape},
-    {"emitter", add_scene_emitter},  {"default", read_nothing}, // replaced in the text by now
-    {"alias", read_nothing},                                    // among the ids by now
-    {"texture", read_nothing},                                  // read where it is referred to
-    {"path", read_nothing},                                     // among the folders by now
+    {"bsdf", read_material},        {"shape", add_shape},
+    {"emitter", add_scene_emitter}, {"default", read_nothing}, // replaced in the text by now
+    {"alias", read_nothing},                                   // among the ids by now
+    {"texture", read_nothing},                                 // read where it is referred to
+    {"path", read_nothing},                                    // among the folders by now
+};
+
+// And those of which there is one.
+constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> single_elements[] = {
+    {"integrator", read_integrator},
+    {"sensor", read_sensor},
 };
 
 void read_scene(LoadContext& context, const XmlElement& root) {
-    bool has_sensor = false;
+    std::set<std::string> read;
     for (const XmlElement& element : root.children()) {
         const std::string tag(element.tag());
-        if (tag == "sensor") {
-            if (has_sensor)
-                context.notes.push_back({element.position(), "only the first sensor is used"});
+        if (const auto* single = find_plugin(single_elements, tag)) {
+            if (read.insert(tag).second)
+                single->read(context, element);
             else
-                read_sensor(context, element);
-            has_sensor = true;
+                context.notes.push_back({element.position(), "only the first " + tag + " is used"});
         } else if (const auto* known = find_plugin(scene_elements, tag)) {
             known->read(context, element);
         } else {
             context.notes.push_back({element.position(), "<" + tag + "> is not known and not used"});
         }
     }
-    if (!has_sensor)
+    if (!read.contains("sensor"))
         context.notes.push_back(
             {root.position(), "the scene has no sensor: a camera at the origin looks along +z"});
 }

@@ -73,6 +73,9 @@ Texture reflectance_parameter(LoadContext& context, Properties& properties, std:
 /// these, are floats still, as solvers and errors take them.
 inline constexpr float brightest = 1e15f;
 
+/// What light is multiplied by: at most so much as well, with a note. Throws LoadError below 0.
+float light_scale(Properties& properties, std::string_view name, float fallback = 1);
+
 /// Stands for what this program does not know, so that it meets the eye.
 inline constexpr Rgb marking_color{1.0f, 0.0f, 1.0f};
 

@@ -166,17 +166,13 @@ constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::s
 };
 
 int material_parameter(LoadContext& context, Properties& p, bool gives_light) {
-    const std::vector<XmlElement> bsdfs = context.take_nested(p, "bsdf");
-    if (bsdfs.size() > 1)
-        p.note(bsdfs[1], "only the first <bsdf> of a shape is used");
-    return bsdfs.empty() ? default_material(context, gives_light) : material_of(context, bsdfs[0]);
+    const std::optional<XmlElement> bsdf = context.take_one_nested(p, "bsdf");
+    return bsdf ? material_of(context, *bsdf) : default_material(context, gives_light);
 }
 
 int area_light_parameter(LoadContext& context, Properties& p) {
-    const std::vector<XmlElement> emitters = context.take_nested(p, "emitter");
-    if (emitters.size() > 1)
-        p.note(emitters[1], "only the first <emitter> of a shape is used");
-    return emitters.empty() ? -1 : add_shape_emitter(context, emitters[0]);
+    const std::optional<XmlElement> emitter = context.take_one_nested(p, "emitter");
+    return emitter ? add_shape_emitter(context, *emitter) : -1;
 }
 
 /// Adds a shape of triangles to `shapes`, which stay where they are until all files are read; one of an unknown

@@ -24,13 +24,6 @@ constexpr int usual_resolution = 512;
 constexpr int highest_resolution = 8192;
 constexpr float smallest_disk = 1e-4f; // radians; for smaller ones floats are too coarse
 
-float factor(Properties& p, std::string_view name, float fallback = 1) {
-    const float value = p.number(name, fallback);
-    if (value < 0)
-        p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
-    return value;
-}
-
 PlaceAndTime place_and_time(Properties& p) {
     PlaceAndTime when;
     when.latitude = p.number("latitude", static_cast<float>(when.latitude));
@@ -122,7 +115,10 @@ glm::vec3 disk_direction(const Daylight& day) {
 }
 
 void add_sun(LoadContext& context, Properties& p, const Daylight& day, float scale) {
-    float radius = sun_angular_radius * factor(p, "sun_radius_scale");
+    const float radius_scale = p.number("sun_radius_scale", 1);
+    if (radius_scale < 0)
+        p.take("sun_radius_scale")->fail("'sun_radius_scale' must not be negative", "value");
+    float radius = sun_angular_radius * radius_scale;
     if (p.has("sun_aperture")) { // degrees across
         const float across = p.number("sun_aperture", 1);
         if (across < 0 || across > 180)
@@ -143,19 +139,19 @@ void add_sun(LoadContext& context, Properties& p, const Daylight& day, float sca
 
 void read_sunsky(LoadContext& context, Properties& p) {
     const Daylight day = read_daylight(context, p);
-    const float both = factor(p, "scale");
-    add_sky(context, p, day, factor(p, "sky_scale", both));
-    add_sun(context, p, day, factor(p, "sun_scale", both));
+    const float both = light_scale(p, "scale");
+    add_sky(context, p, day, light_scale(p, "sky_scale", both));
+    add_sun(context, p, day, light_scale(p, "sun_scale", both));
 }
 
 void read_sky(LoadContext& context, Properties& p) {
     const Daylight day = read_daylight(context, p);
-    add_sky(context, p, day, factor(p, "scale"));
+    add_sky(context, p, day, light_scale(p, "scale"));
 }
 
 void read_sun(LoadContext& context, Properties& p) {
     const Daylight day = read_daylight(context, p);
-    add_sun(context, p, day, factor(p, "scale"));
+    add_sun(context, p, day, light_scale(p, "scale"));
 }
 
 } // namespace tessera

@@ -2,6 +2,7 @@
 #include "render/load/properties.h"
 
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <variant>
 
@@ -106,8 +107,8 @@ Texture read_scale(LoadContext& context, Properties& p) {
     if (factors.r != factors.g || factors.g != factors.b)
         p.note(*p.take("scale"), "the coloured scale is replaced by its mean");
     const float factor = (factors.r + factors.g + factors.b) / 3;
-    for (const XmlElement& nested : context.take_nested(p, "texture"))
-        return scaled(read_texture(context, nested), factor);
+    if (const std::optional<XmlElement> nested = context.take_one_nested(p, "texture"))
+        return scaled(read_texture(context, *nested), factor);
     return scaled(texture_parameter(context, p, "value", Rgb(1)), factor);
 }
 

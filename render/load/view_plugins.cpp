@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -79,8 +80,8 @@ void note_filter(LoadContext& context, const XmlElement& element) {
 void read_film(LoadContext& context, const XmlElement& element) {
     Properties p(element, context.notes);
     context.scene.size = {film_side(p, "width", 768), film_side(p, "height", 576)};
-    for (const XmlElement& filter : context.take_nested(p, "rfilter"))
-        note_filter(context, filter);
+    if (const std::optional<XmlElement> filter = context.take_one_nested(p, "rfilter"))
+        note_filter(context, *filter);
     // How Mitsuba would write its file.
     p.ignore({"file_format", "pixel_format", "component_format", "banner", "gamma", "exposure", "tonemap_method",
               "attach_log", "high_quality_edges", "compensate"});
@@ -132,10 +133,10 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
         return;
     }
     // Integrators that add something (aov, moment, adaptive) hold the one that says how light travels.
-    const std::vector<XmlElement> nested = context.take_nested(p, "integrator");
+    const std::optional<XmlElement> nested = context.take_one_nested(p, "integrator");
     p.note("the integrator '" + p.type() + "' is not used: the method is chosen in Tessera");
-    if (!nested.empty())
-        read_integrator(context, nested[0]);
+    if (nested)
+        read_integrator(context, *nested);
 }
 
 void read_sensor(LoadContext& context, const XmlElement& element) {
@@ -156,8 +157,8 @@ void read_sensor(LoadContext& context, const XmlElement& element) {
     if (kind.has_offset)
         camera.principal_offset = {p.number("principal_point_offset_x", 0),
                                    p.number("principal_point_offset_y", 0)};
-    for (const XmlElement& film : context.take_nested(p, "film"))
-        read_film(context, film);
+    if (const std::optional<XmlElement> film = context.take_one_nested(p, "film"))
+        read_film(context, *film);
     context.take_nested(p, "sampler"); // how many samples there are is the viewer's choice
     if (p.number("near_clip", 0.01f) > 0.1f || p.number("far_clip", 1e4f) < 1000)
         p.note("'near_clip' and 'far_clip' are not used: all that lies before the camera is seen");

@@ -178,6 +178,13 @@ TEST(EmitterPlugins, BadValuesAreNamed) {
                 has("'turbidity' must be from 1 to 10"));
 }
 
+TEST(EmitterPlugins, ScalesOfPicturesAreCutAsLightIs) {
+    const LoadedScene loaded = load("<emitter type='projector'><float name='scale' value='1e20'/></emitter>");
+    EXPECT_EQ(loaded.description.point_lights.at(0).intensity, Rgb(1e15f));
+    ASSERT_EQ(loaded.notes.size(), 1u);
+    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'scale' is cut at 1e15"));
+}
+
 TEST(EmitterPlugins, UnknownOnesAreMissingLight) {
     const LoadedScene loaded = load("<emitter type='laser'/>");
     ASSERT_EQ(loaded.notes.size(), 1u);

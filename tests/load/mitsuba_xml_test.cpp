@@ -313,6 +313,30 @@ TEST(MitsubaXml, EverythingNotUsedHasANote) {
 }
 
 /// The numbers are Mitsuba 3.9's.
+TEST(MitsubaXml, OfTwosWhereOneHasAMeaningTheFirstCounts) {
+    const auto loaded =
+        parse("<integrator type='path'><integer name='max_depth' value='3'/></integrator>\n"
+              "<integrator type='path'><integer name='max_depth' value='5'/></integrator>\n"
+              "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='10'/></film>\n"
+              "<film type='hdrfilm'><integer name='width' value='20'/></film></sensor>\n"
+              "<sensor type='orthographic'/>\n"
+              "<shape type='rectangle'><bsdf type='diffuse'><texture type='scale' name='reflectance'>"
+              "<float name='scale' value='0.5'/><texture type='checkerboard'/>\n<texture "
+              "type='bitmap'/></texture></bsdf>\n"
+              "<bsdf type='conductor'/></shape>",
+              "0.6.0");
+    EXPECT_EQ(loaded.description.max_depth, 3);
+    EXPECT_EQ(loaded.description.size.x, 10);
+    EXPECT_FALSE(loaded.description.camera.is_orthographic);
+    const auto& diffuse = std::get<DiffuseMaterial>(loaded.description.materials.at(0).kind);
+    EXPECT_TRUE(std::holds_alternative<CheckerboardTexture>(diffuse.reflectance.kind));
+    EXPECT_EQ(all(loaded), "test.xml:2:1: only the first integrator is used\n"
+                           "test.xml:4:1: only the first <film> in 'perspective' is used\n"
+                           "test.xml:5:1: only the first sensor is used\n"
+                           "test.xml:7:1: only the first <texture> in 'scale' is used\n"
+                           "test.xml:8:1: only the first <bsdf> in 'rectangle' is used\n");
+}
+
 TEST(MitsubaXml, AnAxisThatIsNotOfUnitLengthStretchesInVersion3) {
     const std::string steps = "<translate x='3' y='4' z='5'/><rotate y='2' angle='30'/>"; // of (-1, -1, 0)
     const glm::vec3 stretched = corner_under(steps);
