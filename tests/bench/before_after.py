@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """What a change does to noise and cost, where it does nothing to means: two programs take turns, seed by seed.
 
-    venv/bin/python tests/bench/before_after.py [--seeds N] [--size WxH] BEFORE AFTER SCENE... [-- OPTIONS OF render]
+    venv/bin/python tests/bench/before_after.py [--seeds N] [--size WxH] [--reference FOLDER] BEFORE AFTER SCENE...
+        [-- OPTIONS OF render]
 
 For each scene: the variance from seed to seed over the squared mean, before and after; the ratio of these, also without
 the worst hundredth of the pixels; CPU seconds of render and reconstruction; the ratio of variance times CPU seconds,
 below 1 where the change pays; and the ratio of the pictures' means, which says whether it is biased. There is no
-reference, and so nothing to wait for. Wants `pip install mitsuba numpy`, to read EXR files.
+reference, and so nothing to wait for. For changes that may be biased, --reference names a folder of files of `tessera
+reference`, NAME.exr: relMSE to these, and without the worst thousandth of the pixels, take the place of the variance.
+Wants `pip install mitsuba numpy`, to read EXR files.
 """
 
 import json
@@ -24,13 +27,17 @@ except ImportError as error:
     sys.exit(f"{error} (pip install mitsuba numpy)")
 
 
-def render(program, scene, seed, options, folder):
-    """The picture of one seed, and its CPU seconds."""
-    picture, stats = folder / "picture.exr", folder / "stats.json"
-    command = [program, "render", scene, "--threads", "1", "--seed", str(seed), "-o", picture, "--stats", stats]
-    done = subprocess.run([*map(str, command), *options], capture_output=True, text=True)
+def call(*command):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(done.stderr)
+    return done.stdout
+
+
+def render(program, scene, seed, options, picture):
+    """Writes the picture of one seed; its pixels, and its CPU seconds."""
+    stats = picture.with_suffix(".json")
+    call(program, "render", scene, "--threads", "1", "--seed", seed, "-o", picture, "--stats", stats, *options)
     seconds = json.loads(stats.read_text())["seconds"]
     bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
     cpu = seconds["render"]["cpu"] + sum(r["cpu"] for r in seconds["reconstruct"])
@@ -38,37 +45,47 @@ def render(program, scene, seed, options, folder):
 
 
 def noise(pictures):
-    """Each pixel's variance from picture to picture over its squared mean (of dark ones, over a hundredth)."""
+    """The variance from picture to picture over the squared mean (of dark pixels, over a hundredth), the mean over
+    pixels; and without the worst hundredth of them."""
     stack = np.array(pictures)
-    return stack.var(axis=0, ddof=1).sum(-1) / ((stack.mean(axis=0) ** 2).sum(-1) + 0.01)
+    values = stack.var(axis=0, ddof=1).sum(-1) / ((stack.mean(axis=0) ** 2).sum(-1) + 0.01)
+    return values.mean(), np.sort(values.ravel())[: int(values.size * 0.99)].mean()
 
 
-def without_worst(values):
-    return np.sort(values.ravel())[: int(values.size * 0.99)].mean()
+def error(program, picture, reference):
+    """relMSE, and without the worst thousandth of the pixels."""
+    errors = json.loads(call(program, "compare", picture, reference, "--json"))
+    return errors["relmse"], errors["relmse_trimmed"]
 
 
 def main():
     parser = parser_of(__doc__)
     parser.add_argument("--seeds", type=int, default=4)
     parser.add_argument("--size")
+    parser.add_argument("--reference", type=Path, metavar="FOLDER")
     given, options = parse(parser)
     if given.size:
         options += ["--size", given.size]
     mi.set_variant("scalar_rgb")
-    print(f"{'scene':22s}{'before':>9s}{'after':>9s}{'ratio':>7s}{'99 %':>7s}{'CPU s':>8s}{'':>8s}{'pays':>7s}{'mean':>8s}")
+    print(f"{'scene':22s}{'before':>9s}{'after':>9s}{'ratio':>7s}{'trim':>7s}{'CPU s':>8s}{'':>8s}{'pays':>7s}{'mean':>8s}")
     for scene in given.scenes:
-        runs = ([], [])
+        pictures, seconds, errors = ([], []), ([], []), ([], [])
         for seed in range(1, given.seeds + 1):
-            for run, program in zip(runs, given.programs):
+            for i, program in enumerate(given.programs):
                 with tempfile.TemporaryDirectory() as folder:
-                    run.append(render(program, scene, seed, options, Path(folder)))
-        (a, b), (s, t) = ([[r[i] for r in run] for run in runs] for i in (0, 1))
-        before, after = noise(a), noise(b)
-        ratio, cpu = after.mean() / before.mean(), np.sum(t) / np.sum(s)
+                    picture = Path(folder) / "picture.exr"
+                    pixels, cpu = render(program, scene, seed, options, picture)
+                    pictures[i].append(pixels)
+                    seconds[i].append(cpu)
+                    if given.reference: # by one program, so that both are judged alike
+                        reference = given.reference / f"{name_of(scene)}.exr"
+                        errors[i].append(error(given.programs[1], picture, reference))
+        before, after = [np.mean(e, axis=0) for e in errors] if given.reference else map(noise, pictures)
+        (ratio, trimmed), cpu = np.divide(after, before), np.sum(seconds[1]) / np.sum(seconds[0])
         print(
-            f"{name_of(scene):22s}{before.mean():9.5f}{after.mean():9.5f}{ratio:7.2f}"
-            f"{without_worst(after) / without_worst(before):7.2f}{np.mean(s):8.3f}{np.mean(t):8.3f}{ratio * cpu:7.2f}"
-            f"{np.mean(b) / np.mean(a):8.4f}",
+            f"{name_of(scene):22s}{before[0]:9.5f}{after[0]:9.5f}{ratio:7.2f}{trimmed:7.2f}"
+            f"{np.mean(seconds[0]):8.3f}{np.mean(seconds[1]):8.3f}{ratio * cpu:7.2f}"
+            f"{np.mean(pictures[1]) / np.mean(pictures[0]):8.4f}",
             flush=True,
         )
 
