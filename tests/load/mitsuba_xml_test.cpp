@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
