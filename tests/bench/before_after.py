@@ -8,8 +8,8 @@ For each scene: the variance from seed to seed over the squared mean, before and
 the worst hundredth of the pixels; CPU seconds of render and reconstruction; the ratio of variance times CPU seconds,
 below 1 where the change pays; and the ratio of the pictures' means, which says whether it is biased. There is no
 reference, and so nothing to wait for. For changes that may be biased, --reference names a folder of files of `tessera
-reference`, NAME.exr: relMSE to these, and without the worst thousandth of the pixels, take the place of the variance.
-Wants `pip install mitsuba numpy`, to read EXR files.
+reference`, NAME.exr: relMSE to these, without their noise, takes the place of the variance (trimmed: with it, without
+the worst ten-thousandth of the pixels). Wants `pip install mitsuba numpy`, to read EXR files.
 """
 
 import json
@@ -53,9 +53,9 @@ def noise(pictures):
 
 
 def error(program, picture, reference):
-    """relMSE, and without the worst thousandth of the pixels."""
+    """relMSE without the reference's noise, and with it, but without the worst pixels."""
     errors = json.loads(call(program, "compare", picture, reference, "--json"))
-    return errors["relmse"], errors["relmse_trimmed"]
+    return errors["relmse_floor_free"], errors["relmse_trimmed"]
 
 
 def main():

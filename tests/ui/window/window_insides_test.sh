@@ -6,7 +6,7 @@
 set -u
 
 source "$(dirname "$0")/virtual_display.sh"
-scene=$(realpath "$(dirname "$0")/../../assets/cornell-box.xml")
+scene=$(realpath "$(dirname "$0")/../../../assets/cornell-box.xml")
 source "$(dirname "$0")/real_window.sh"
 need xdotool import convert
 

@@ -1,6 +1,6 @@
 // How numbers become colours on a canvas.
 
-#include "tests/ui/canvas_fixture.h"
+#include "tests/ui/drawing/canvas_fixture.h"
 #include "ui/gl/tone.h"
 
 #include <cmath>

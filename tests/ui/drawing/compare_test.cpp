@@ -1,6 +1,6 @@
 // One pane's picture against another's: where the line is, what the colours stand for, what is missing.
 
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/showing.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Pictures that the viewer saves: of a pane as EXR and PNG.
 
 #include "render/io/plain_images.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/panes/showing.h"
 #include "ui/state/file_names.h"

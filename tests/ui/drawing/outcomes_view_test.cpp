@@ -1,6 +1,6 @@
 // How shifts end, pixel by pixel: the buffer's colours, its legend, and its numbers.
 
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/pane_parts.h"
 #include "ui/panes/showing.h"
 #include "ui/state/inspected.h"

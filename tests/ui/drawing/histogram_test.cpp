@@ -1,6 +1,6 @@
 // Charts: histograms of the pictures on show.
 
-#include "tests/ui/charts_fixture.h"
+#include "tests/ui/drawing/charts_fixture.h"
 #include "ui/state/companions.h"
 
 #include <cmath>

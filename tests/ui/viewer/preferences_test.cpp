@@ -1,6 +1,6 @@
 // What the viewer remembers.
 
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/settings/preferences.h"
 
@@ -233,8 +233,8 @@ TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 2u);
 }
 
-/// Something that cannot be read is in the preferences' place: it is told once, and nothing comes beside it but the
-/// gallery's pictures, should a scene have been rendered for long enough.
+/// Something that cannot be read is in the preferences' place: it is told once, and nothing comes beside it but
+/// the gallery's pictures, should a scene have been rendered for long enough.
 void expect_nothing_remembered(const CurrentFolder& folder) {
     {
         ViewerHarness h({900, 600}, 1, remembering_in(folder));
@@ -247,7 +247,8 @@ void expect_nothing_remembered(const CurrentFolder& folder) {
         EXPECT_EQ(h.state().recent_scenes, std::vector<std::string>{"/scenes/room.xml"});
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path))
-        EXPECT_TRUE(entry.path().filename() == "viewer.json" || entry.path().filename() == "recent") << entry.path();
+        EXPECT_TRUE(entry.path().filename() == "viewer.json" || entry.path().filename() == "recent")
+            << entry.path();
 }
 
 TEST(Remembered, AFolderInTheFilesPlaceStays) {

@@ -1,7 +1,7 @@
 // What a render has counted, as it is seen in the viewer: maps and panel.
 
 #include "tests/support/scene_builder.h"
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
 #include "ui/gl/theme.h"
 #include "ui/gl/tone.h"
 #include "ui/panels/panels.h"

@@ -1,4 +1,4 @@
-#include "tests/ui/canvas_fixture.h"
+#include "tests/ui/drawing/canvas_fixture.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Charts: how errors fall, and how shifts end.
 
-#include "tests/ui/charts_fixture.h"
+#include "tests/ui/drawing/charts_fixture.h"
 #include "ui/charts/charts.h"
 #include "ui/panes/pane_parts.h"
 #include "ui/state/companions.h"

@@ -1,7 +1,7 @@
 // Every action of the table, by its menu and by its keys: what it changes, and that it is seen.
 
 #include "render/io/exr.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/gl/gui.h"
 #include "ui/settings/settings_file.h"

@@ -1,6 +1,6 @@
 // Looking at single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
 
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/pane_parts.h"
 
 #include <algorithm>

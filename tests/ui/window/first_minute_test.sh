@@ -7,7 +7,7 @@ set -u
 if [ -z "${TESSERA_WINDOW_TEST_INSIDE:-}" ]; then
     TESSERA_WINDOW_TEST_INSIDE=1 exec xvfb-run -a -s "-screen 0 1600x900x24 -noreset" "$0" "$@"
 fi
-water=$(realpath "$(dirname "$0")/../../assets/stability/water.xml")
+water=$(realpath "$(dirname "$0")/../../../assets/stability/water.xml")
 source "$(dirname "$0")/real_window.sh"
 need xdotool import convert
 

@@ -1,7 +1,7 @@
 // Charts: efficiency, what they lack, what is saved of them, and how they are drawn large.
 
-#include "tests/ui/charts_fixture.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/drawing/charts_fixture.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "ui/charts/charts.h"
 
 #include <cmath>

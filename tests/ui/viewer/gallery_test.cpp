@@ -1,5 +1,5 @@
 // The gallery of scenes: pictures to be clicked, made in the background.
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/settings/preferences.h"
 #include "ui/settings/thumbnails.h"

@@ -4,7 +4,7 @@
 #include "render/io/text.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/settings/settings_file.h"
 
@@ -160,8 +160,8 @@ TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
         {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile is of the wrong kind: number"},
         {"{\"panes\": [{}, {\n\"settings\": {\"tile\": \"99\"}}]}", "bad.json:2:22: "},
         {"{\"panes\": [{\n \"alpha\": 0}]}", "bad.json:2:11: alpha is out of range"},
-        {"{\"panes\": [{\n \"norm\": \"l3\"}]}",
-         "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, mixed, uniform, weighted, guided, smoothed, oidn"},
+        {"{\"panes\": [{\n \"norm\": \"l3\"}]}", "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, "
+                                                 "mixed, uniform, weighted, guided, smoothed, oidn"},
         {"{\"panes\": [{}],\n \"pace\": {\"spp_limit\": -1}}", "bad.json:2:24: spp_limit is out of range"},
         {"{\"panes\": [{},\n 3]}", "bad.json:2:2: this must be an object"},
         {"{\"panes\": [{}],\n \"camera\": {\"fov\": 1}}", "bad.json:2:12: the camera has no 'to_world'"},

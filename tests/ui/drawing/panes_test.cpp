@@ -1,6 +1,6 @@
 // Several panes: how many, compared with each other, and when they render.
 
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
 #include "ui/gl/gui.h"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 // presets.
 
 #include "render/scene/scene.h"
-#include "tests/ui/current_folder.h"
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "ui/state/presets.h"
 
 #include <cstddef>

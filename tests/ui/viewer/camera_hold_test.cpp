@@ -6,11 +6,12 @@
 #include "ui/settings/settings_file.h"
 #include "ui/state/actions.h"
 
-#include <glm/vec3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
 #include <exception>
+
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -5,7 +5,7 @@
 set -u
 
 source "$(dirname "$0")/virtual_display.sh"
-assets=$(realpath "$(dirname "$0")/../../assets")
+assets=$(realpath "$(dirname "$0")/../../../assets")
 source "$(dirname "$0")/real_window.sh"
 need xdotool import convert
 
@@ -36,7 +36,7 @@ wait_for '^messages 0$' "$from"
 
 # --- files dropped on the window: a reference, another scene with a blank in its name, and what is neither ---
 
-drop() { "$(dirname "$assets")/tests/ui/drop_files.py" "$window" "$@" || fail "cannot be dropped: $*"; }
+drop() { "$(dirname "$assets")/tests/ui/window/drop_files.py" "$window" "$@" || fail "cannot be dropped: $*"; }
 window=$(xdotool search --name "^Tessera - $scene\$")
 "$tessera" render "$scene" --size 64x48 --spp 4 -o "$work/reference.exr" >"$work/made" 2>&1 || fail "$(cat "$work/made")"
 from=$(next_line)

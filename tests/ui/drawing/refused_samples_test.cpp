@@ -3,8 +3,8 @@
 #include "render/inspect/inspection.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
-#include "tests/ui/current_folder.h"
-#include "tests/ui/panes_fixture.h"
+#include "tests/ui/drawing/panes_fixture.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "ui/inside/inside.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // "Make reference": in the background, to the bits of `tessera reference`, and resumed.
 
 #include "render/run/reference_render.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 # build/tsan or build/asan. Fails where there is a race, an error of memory, or a leak.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-root=$(cd "$here/../.." && pwd)
+root=$(cd "$here/../../.." && pwd)
 folder=$root/build/$1
 
 cd "$root"
@@ -15,6 +15,6 @@ cmake --build "$folder" --target random_input_test
 export LP_NUM_THREADS=0
 export TSAN_OPTIONS="suppressions=$root/tests/tsan.supp halt_on_error=1"
 export UBSAN_OPTIONS="halt_on_error=1 print_stacktrace=1"
-export LSAN_OPTIONS="suppressions=$here/lsan.supp"
+export LSAN_OPTIONS="suppressions=$root/tests/ui/lsan.supp"
 export TESSERA_RANDOM_SECONDS="$2"
 exec "$folder/tests/ui/random_input_test"

@@ -1,7 +1,7 @@
 // The dialog that chooses a file, and what it lists.
 
 #include "render/io/exr.h"
-#include "tests/ui/current_folder.h"
+#include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/settings/settings_file.h"
 #include "ui/state/file_names.h"
