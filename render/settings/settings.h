@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <string_view>
 
 namespace tessera {
@@ -69,8 +68,6 @@ static_assert(std::size(all_methods) == enumerator_count<Method>);
 std::string_view short_name(Method method);
 /// The method's name in the panel, such as "Path tracing".
 std::string_view long_name(Method method);
-/// The method of that short name. Empty: there is none.
-std::optional<Method> method_from_name(std::string_view short_name);
 
 /// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
 enum class Pattern : std::uint8_t {

@@ -95,13 +95,6 @@ std::string_view long_name(Method method) {
     return methods[static_cast<int>(method)].label;
 }
 
-std::optional<Method> method_from_name(std::string_view short_name) {
-    for (Method method : all_methods)
-        if (tessera::short_name(method) == short_name)
-            return method;
-    return {};
-}
-
 std::span<const SettingChoice> method_choices() {
     return methods;
 }

@@ -10,6 +10,7 @@
 #include "render/run/render.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/scene.h"
+#include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <array>
@@ -120,7 +121,7 @@ int main(int count, char** arguments) {
         return 2;
     }
     tessera::RenderSettings settings;
-    settings.method = tessera::method_from_name(count > 2 ? arguments[2] : "pt").value();
+    tessera::method_setting(settings.method).set_text(count > 2 ? arguments[2] : "pt");
     settings.path_guiding =
         count > 5 && std::string(arguments[5]) == "auto" ? tessera::Guiding::where_it_pays : tessera::Guiding::on;
     const auto scene = std::make_shared<const tessera::Scene>(tessera::load_mitsuba_xml(arguments[1]).description);
