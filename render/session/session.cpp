@@ -149,6 +149,7 @@ void Session::set_paused(bool paused) {
                 pane->steps = 0;
     }
     render_wake_.notify_one();
+    reconstruct_wake_.notify_one();
 }
 
 void Session::set_pace(const Pace& pace) {
@@ -157,6 +158,7 @@ void Session::set_pace(const Pace& pace) {
         pace_ = pace;
     }
     render_wake_.notify_one();
+    reconstruct_wake_.notify_one();
 }
 
 void Session::step() {

@@ -119,7 +119,7 @@ private:
     void publish_passes(Pane& pane);
     ReconstructionSettings possible_reconstruction(Pane& pane);
     void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
-                              std::stop_token stop);
+                              bool anew, std::stop_token stop);
 
     mutable std::mutex mutex_;
     std::condition_variable_any render_wake_;

@@ -168,7 +168,7 @@ void Session::reconstruct_loop(std::stop_token stop) {
             const auto find = [&] {
                 for (std::size_t i = 0; i < panes_.size() && !pane; ++i) {
                     Pane* candidate = panes_[(turn + i) % panes_.size()].get();
-                    if (candidate->needs_reconstruction())
+                    if (candidate->needs_reconstruction(pace_, paused_))
                         pane = candidate;
                 }
                 return pane != nullptr;
@@ -180,29 +180,33 @@ void Session::reconstruct_loop(std::stop_token stop) {
         const ReconstructionSettings settings = possible_reconstruction(*pane);
         std::shared_ptr<const Snapshot> snapshot;
         std::stop_token solve_stop;
+        bool anew = false;
         {
             const std::lock_guard lock(mutex_);
-            if (!pane->needs_reconstruction() || !(pane->reconstruction == settings))
+            if (!pane->needs_reconstruction(pace_, paused_) || !(pane->reconstruction == settings))
                 continue; // it has changed meanwhile
             snapshot = pane->latest;
             solve_stop = pane->solve_stop.get_token();
             pane->solving_spp = snapshot->spp;
             pane->solving_since = std::chrono::steady_clock::now();
             pane->solving_share = 0;
+            anew = pane->rests(pace_, paused_);
+            if (anew)
+                pane->renewed = snapshot->images;
         }
-        reconstruct_snapshot(*pane, *snapshot, settings, solve_stop);
+        reconstruct_snapshot(*pane, *snapshot, settings, anew, solve_stop);
     }
 }
 
 void Session::reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
-                                   std::stop_token stop) {
+                                   bool anew, std::stop_token stop) {
     auto result = std::make_shared<Reconstruction>();
     std::shared_ptr<const GradientImages> reconstructed =
         snapshot.images; // those before take their place, and go without the lock
     std::shared_ptr<const Snapshot> latest;
     std::string failure;
     try {
-        *result = reconstruct_if_it_fits(pane.solver_for(snapshot, settings), *snapshot.images, settings,
+        *result = reconstruct_if_it_fits(pane.solver_for(snapshot, settings, anew), *snapshot.images, settings,
                                          serial_for, 1, {stop, &pane.solving_share});
     } catch (const std::exception& error) {
         failure = fmt::format("reconstruction of pass {}: {}", snapshot.spp, message_of(error));

@@ -83,6 +83,7 @@ struct Session::Pane {
     std::chrono::steady_clock::time_point solving_since;
     std::atomic<float> solving_share = 0;         // of its steps; needs no lock
     std::weak_ptr<const GradientImages> given_up; // nothing is to be made from these
+    std::weak_ptr<const GradientImages> renewed;  // their picture was made from nothing, or could not be
 
     std::atomic<float> pass_share = 0; // of its blocks that are done; needs no lock
 
@@ -141,17 +142,27 @@ struct Session::Pane {
     int solved_divisor = 0;
     ReconstructionSettings solved_with;
 
+    /// Whether no samples are to come after the newest snapshot's: its picture is looked at, measured and saved,
+    /// and is to hang on nothing but its samples.
+    bool rests(const Pace& pace, bool paused) const {
+        return !latest->coarse() && (paused || (pace.spp_limit > 0 && latest->spp >= pace.spp_limit) ||
+                                     (pace.seconds_limit > 0 && latest->seconds >= pace.seconds_limit));
+    }
+
     /// Whether the newest snapshot is to be reconstructed. Of a request that has been replaced, only a preview is
     /// worth it.
-    bool needs_reconstruction() const {
-        return latest && (latest->coarse() || latest->generation == generation) &&
-               (latest->images != reconstructed || !(reconstructed_with == reconstruction)) &&
-               latest->images != given_up.lock();
+    bool needs_reconstruction(const Pace& pace, bool paused) const {
+        if (!latest || latest->images == given_up.lock() ||
+            !(latest->coarse() || latest->generation == generation))
+            return false;
+        const bool is_new = latest->images != reconstructed || !(reconstructed_with == reconstruction);
+        return is_new || (rests(pace, paused) && latest->reconstruction && latest->reconstruction->goes_on &&
+                          latest->images != renewed.lock());
     }
 
     /// Starts warm from the last snapshot of the same render, and else anew.
-    Reconstructor& solver_for(const Snapshot& snapshot, const ReconstructionSettings& settings) {
-        if (solved_generation != snapshot.generation || solved_divisor != snapshot.divisor ||
+    Reconstructor& solver_for(const Snapshot& snapshot, const ReconstructionSettings& settings, bool anew) {
+        if (anew || solved_generation != snapshot.generation || solved_divisor != snapshot.divisor ||
             solved_with != settings)
             reconstructor.forget();
         solved_generation = snapshot.generation;
