@@ -27,6 +27,10 @@ struct Pace {
     int spp_limit = 0;         ///< passes after which a pane rests; 0: none
     double seconds_limit = 0;  ///< wall seconds of its passes after which a pane rests; 0: none
 
+    bool is_limit(int spp, double seconds) const {
+        return (spp_limit > 0 && spp >= spp_limit) || (seconds_limit > 0 && seconds >= seconds_limit);
+    }
+
     bool operator==(const Pace&) const = default;
 };
 

@@ -109,8 +109,7 @@ struct Session::Pane {
     bool lacks_preview() const { return is_fresh() && previews.is_first(generation); }
 
     bool is_at_limit(const Pace& pace) const {
-        return !is_fresh() && ((pace.spp_limit > 0 && render->spp() >= pace.spp_limit) ||
-                               (pace.seconds_limit > 0 && render->seconds() >= pace.seconds_limit));
+        return !is_fresh() && pace.is_limit(render->spp(), render->seconds());
     }
 
     /// Whether there is a pass to do.
@@ -145,8 +144,7 @@ struct Session::Pane {
     /// Whether no samples are to come after the newest snapshot's: its picture is looked at, measured and saved,
     /// and is to hang on nothing but its samples.
     bool rests(const Pace& pace, bool paused) const {
-        return !latest->coarse() && (paused || (pace.spp_limit > 0 && latest->spp >= pace.spp_limit) ||
-                                     (pace.seconds_limit > 0 && latest->seconds >= pace.seconds_limit));
+        return !latest->coarse() && (paused || pace.is_limit(latest->spp, latest->seconds));
     }
 
     /// Whether the newest snapshot is to be reconstructed. Of a request that has been replaced, only a preview is

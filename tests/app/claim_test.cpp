@@ -2,9 +2,9 @@
 // one's own tells who was.
 #include "app/experiment/claim.h"
 #include "app/experiment/job_worker.h"
-#include "app/experiment/job_worker.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <atomic>

@@ -3,6 +3,7 @@
 #include "render/load/mitsuba_xml.h"
 #include "render/scene/camera.h"
 #include "tests/app/program.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <cmath>

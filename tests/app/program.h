@@ -1,13 +1,10 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <thread>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -36,8 +33,8 @@ inline Outcome run(const std::filesystem::path& folder, const std::string& argum
 
 /// Runs the program likewise, silently: the most memory that it had at a time, bytes; 0: it failed.
 inline std::size_t peak_memory(const std::filesystem::path& folder, const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder.string() + "' && exec '" + std::string(TESSERA_BINARY) + "' " + arguments + " >/dev/null 2>&1";
+    const std::string command = "cd '" + folder.string() + "' && exec '" + std::string(TESSERA_BINARY) + "' " +
+                                arguments + " >/dev/null 2>&1";
     const pid_t child = ::fork();
     if (child == 0) {
         ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -48,17 +45,6 @@ inline std::size_t peak_memory(const std::filesystem::path& folder, const std::s
     const bool has_ended = ::wait4(child, &status, 0, &usage) == child && WIFEXITED(status);
     constexpr std::size_t kibibyte = 1024;
     return has_ended && WEXITSTATUS(status) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) * kibibyte : 0;
-}
-
-/// Waits until it holds, however slow the machine is: for up to two minutes.
-inline bool eventually(const std::function<bool()>& holds) {
-    using namespace std::chrono;
-    for (const auto end = steady_clock::now() + minutes(2); steady_clock::now() < end;) {
-        if (holds())
-            return true;
-        std::this_thread::sleep_for(milliseconds(5));
-    }
-    return false;
 }
 
 } // namespace tessera::test

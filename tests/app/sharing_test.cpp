@@ -3,6 +3,7 @@
 #include "render/io/exr.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <csignal>

@@ -4,6 +4,7 @@
 #include "render/run/reference_image.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <csignal>

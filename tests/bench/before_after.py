@@ -77,7 +77,7 @@ def main():
                     pixels, cpu = render(program, scene, seed, options, picture)
                     pictures[i].append(pixels)
                     seconds[i].append(cpu)
-                    if given.reference: # by one program, so that both are judged alike
+                    if given.reference:  # by one program, so that both are judged alike
                         reference = given.reference / f"{name_of(scene)}.exr"
                         errors[i].append(error(given.programs[1], picture, reference))
         before, after = [np.mean(e, axis=0) for e in errors] if given.reference else map(noise, pictures)

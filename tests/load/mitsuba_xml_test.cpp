@@ -313,7 +313,6 @@ TEST(MitsubaXml, EverythingNotUsedHasANote) {
     EXPECT_EQ(magenta.reflectance.evaluate({}), Rgb(1, 0, 1));
 }
 
-/// The numbers are Mitsuba 3.9's.
 TEST(MitsubaXml, OfTwosWhereOneHasAMeaningTheFirstCounts) {
     const auto loaded =
         parse("<integrator type='path'><integer name='max_depth' value='3'/></integrator>\n"
@@ -338,6 +337,7 @@ TEST(MitsubaXml, OfTwosWhereOneHasAMeaningTheFirstCounts) {
                            "test.xml:8:1: only the first <bsdf> in 'rectangle' is used\n");
 }
 
+/// The numbers are Mitsuba 3.9's.
 TEST(MitsubaXml, AnAxisThatIsNotOfUnitLengthStretchesInVersion3) {
     const std::string steps = "<translate x='3' y='4' z='5'/><rotate y='2' angle='30'/>"; // of (-1, -1, 0)
     const glm::vec3 stretched = corner_under(steps);

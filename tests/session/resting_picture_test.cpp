@@ -2,6 +2,7 @@
 // last.
 #include "render/scene/scene.h"
 #include "render/session/session.h"
+#include "tests/support/eventually.h"
 #include "tests/support/scene_builder.h"
 
 #include <chrono>
@@ -26,15 +27,12 @@ RenderRequest request() {
     return {scene, scene->camera(), glm::ivec2(48, 32), settings};
 }
 
-/// Whether something comes true of the first pane's snapshot within two minutes, on a machine that others use as
-/// well.
-bool eventually(const Session& session, const std::function<bool(const Snapshot&)>& holds) {
-    for (const auto end = std::chrono::steady_clock::now() + 2min; std::chrono::steady_clock::now() < end;) {
-        if (const auto s = session.latest(0); s && !s->coarse() && s->reconstruction && holds(*s))
-            return true;
-        std::this_thread::sleep_for(1ms);
-    }
-    return false;
+/// Waits for a picture of the first pane of which something holds.
+bool comes(const Session& session, const std::function<bool(const Snapshot&)>& holds) {
+    return eventually([&] {
+        const auto s = session.latest(0);
+        return s && !s->coarse() && s->reconstruction && holds(*s);
+    });
 }
 
 bool goes_on(const Snapshot& s) {
@@ -57,11 +55,11 @@ void expect_picture_of_its_samples(const Snapshot& s) {
 TEST(RestingPicture, IsMadeAnewAtALimit) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    ASSERT_TRUE(eventually(session, goes_on));
+    ASSERT_TRUE(comes(session, goes_on));
     const int limit = session.latest(0)->spp + 50;
     session.set_pace({Pace::Equal::time, limit, 0});
     ASSERT_TRUE(
-        eventually(session, [&](const Snapshot& s) { return s.spp == limit && s.reconstruction_spp == limit; }));
+        comes(session, [&](const Snapshot& s) { return s.spp == limit && s.reconstruction_spp == limit; }));
     const auto last = session.latest(0);
     EXPECT_FALSE(last->reconstruction->goes_on);
     expect_picture_of_its_samples(*last);
@@ -70,14 +68,14 @@ TEST(RestingPicture, IsMadeAnewAtALimit) {
 TEST(RestingPicture, IsMadeAnewWherePaused) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    ASSERT_TRUE(eventually(session, goes_on));
+    ASSERT_TRUE(comes(session, goes_on));
     session.set_paused(true);
-    ASSERT_TRUE(eventually(session, is_made_anew));
+    ASSERT_TRUE(comes(session, is_made_anew));
     std::this_thread::sleep_for(300ms); // a pass may have been under way
-    ASSERT_TRUE(eventually(session, is_made_anew));
+    ASSERT_TRUE(comes(session, is_made_anew));
     expect_picture_of_its_samples(*session.latest(0));
     session.set_paused(false);
-    EXPECT_TRUE(eventually(session, goes_on));
+    EXPECT_TRUE(comes(session, goes_on));
 }
 
 } // namespace

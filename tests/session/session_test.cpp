@@ -1,6 +1,7 @@
 // What the viewer relies on: the newest request wins, nothing of an old one comes back, pausing publishes.
 #include "render/scene/scene.h"
 #include "render/session/session.h"
+#include "tests/support/eventually.h"
 #include "tests/support/scene_builder.h"
 
 #include <algorithm>
@@ -35,16 +36,6 @@ RenderRequest request(Method method, glm::ivec2 size = {48, 32}) {
 
 Pace until(int spp) {
     return {Pace::Equal::time, spp, 0};
-}
-
-/// Whether something comes true within two minutes: other tests run beside, on machines that others use as well.
-bool eventually(const std::function<bool()>& holds) {
-    for (const auto end = std::chrono::steady_clock::now() + 2min; std::chrono::steady_clock::now() < end;) {
-        if (holds())
-            return true;
-        std::this_thread::sleep_for(5ms);
-    }
-    return false;
 }
 
 /// What is under way ends, and nothing follows: the samples of the pane stay the same for a while.
