@@ -27,12 +27,15 @@ RenderRequest request() {
     return {scene, scene->camera(), glm::ivec2(48, 32), settings};
 }
 
-/// Waits for a picture of the first pane of which something holds.
-bool comes(const Session& session, const std::function<bool(const Snapshot&)>& holds) {
-    return eventually([&] {
-        const auto s = session.latest(0);
+/// Waits for a picture of the first pane of which something holds. Empty: none came.
+std::shared_ptr<const Snapshot> snapshot_of(const Session& session,
+                                            const std::function<bool(const Snapshot&)>& holds) {
+    std::shared_ptr<const Snapshot> s;
+    const auto comes = [&] {
+        s = session.latest(0);
         return s && !s->coarse() && s->reconstruction && holds(*s);
-    });
+    };
+    return eventually(comes) ? s : nullptr;
 }
 
 bool goes_on(const Snapshot& s) {
@@ -55,27 +58,25 @@ void expect_picture_of_its_samples(const Snapshot& s) {
 TEST(RestingPicture, IsMadeAnewAtALimit) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    ASSERT_TRUE(comes(session, goes_on));
-    const int limit = session.latest(0)->spp + 50;
+    const auto going_on = snapshot_of(session, goes_on);
+    ASSERT_TRUE(going_on);
+    const int limit = going_on->spp + 50; // the render may be beyond it
     session.set_pace({Pace::Equal::time, limit, 0});
-    ASSERT_TRUE(
-        comes(session, [&](const Snapshot& s) { return s.spp == limit && s.reconstruction_spp == limit; }));
-    const auto last = session.latest(0);
-    EXPECT_FALSE(last->reconstruction->goes_on);
+    const auto last = snapshot_of(session, [&](const Snapshot& s) { return s.spp >= limit && is_made_anew(s); });
+    ASSERT_TRUE(last);
     expect_picture_of_its_samples(*last);
 }
 
 TEST(RestingPicture, IsMadeAnewWherePaused) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    ASSERT_TRUE(comes(session, goes_on));
+    ASSERT_TRUE(snapshot_of(session, goes_on));
     session.set_paused(true);
-    ASSERT_TRUE(comes(session, is_made_anew));
-    std::this_thread::sleep_for(300ms); // a pass may have been under way
-    ASSERT_TRUE(comes(session, is_made_anew));
-    expect_picture_of_its_samples(*session.latest(0));
+    const auto last = snapshot_of(session, is_made_anew);
+    ASSERT_TRUE(last);
+    expect_picture_of_its_samples(*last);
     session.set_paused(false);
-    EXPECT_TRUE(comes(session, goes_on));
+    EXPECT_TRUE(snapshot_of(session, goes_on));
 }
 
 } // namespace
