@@ -1,14 +1,11 @@
-// Pictures of a pane that rests hang on nothing but its samples: they are made anew, not by going on from the
-// last.
+// Pictures of a pane that rests hang on nothing but its samples: they are made anew, and do not go on from others.
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "tests/support/eventually.h"
 #include "tests/support/scene_builder.h"
 
-#include <chrono>
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
