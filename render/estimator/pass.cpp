@@ -54,7 +54,7 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
 std::uint32_t Pass::place_of(glm::ivec2 pixel) const {
     constexpr int blocks = 8;
     const glm::ivec2 at = settings.method == Method::pt ? pixel : grid.block_of(pixel) / blocks;
-    return static_cast<std::uint32_t>(at.y * size.x + at.x);
+    return pixel_number(at);
 }
 
 CameraSample Pass::sample_at(int position, glm::ivec2 inside, int path) const {
@@ -80,7 +80,7 @@ CameraSample Pass::look_from(std::uint64_t subpixel, std::uint64_t lens, std::ui
 
 /// Shifts of digits for all looks at a pixel, which are no pass's.
 Random Pass::shift_of_looks(int x, int y) const {
-    return {settings.seed, static_cast<std::uint32_t>(y * size.x + x), 0xffffffffu};
+    return {settings.seed, pixel_number({x, y}), 0xffffffffu};
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -98,7 +98,7 @@ Look Pass::look_at(const Tracer& tracer, int x, int y, int point) const {
     const Random shift = shift_of_looks(x, y);
     const CameraSample sample = look_from(shift.digits(0, Draw::direction), shift.digits(1, Draw::direction),
                                           static_cast<std::uint32_t>(point));
-    const Random numbers(settings.seed, static_cast<std::uint32_t>(y * size.x + x),
+    const Random numbers(settings.seed, pixel_number({x, y}),
                          0xfffffffcu - static_cast<std::uint32_t>(point)); // no pass's either
     return look_along(tracer, camera_ray(x, y, sample), numbers);
 }

@@ -97,7 +97,7 @@ public:
     /// The numbers of a pixel's path; `path` as in camera_sample(). What is drawn at x_1 is a net over the passes
     /// that go by one plan, and over blocks of pixels, and independent of the passes before, by which that was
     /// made.
-    Random random(int x, int y, int path = 0) const { return numbers_.of_path({x, y}, size.x, path); }
+    Random random(int x, int y, int path = 0) const { return numbers_.of_path({x, y}, path); }
 
 private:
     std::uint32_t place_of(glm::ivec2 pixel) const; // for PassNumbers

@@ -134,10 +134,8 @@ inline int TileGrid::paths_alone_at(glm::ivec2 pixel) const {
 inline void TileGrid::shuffle_columns(PixelRect tile, std::vector<int>& columns) const {
     columns.resize(static_cast<std::size_t>(tile.width()));
     std::iota(columns.begin(), columns.end(), 0);
-    // Numbers for decisions about a tile, not cut off, other ones than those of any path. Tiles may begin left of
-    // and above the image.
-    const int number = (tile.y0 + settings_.tile) * (size.x + settings_.tile) + tile.x0 + settings_.tile;
-    const Random random(settings_.seed ^ 0x7469'6c65'7300'0000u, static_cast<std::uint32_t>(number),
+    // The seed differs from that of any path. A tile may begin left of and above the image.
+    const Random random(settings_.seed ^ 0x7469'6c65'7300'0000u, pixel_number({tile.x0, tile.y0}),
                         static_cast<std::uint32_t>(pass_));
     for (int i = tile.width() - 1; i > 0; --i) {
         const float u = random.draw(i, Draw::direction);

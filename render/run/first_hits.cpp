@@ -33,7 +33,7 @@ Rgb albedo_of(const Vertex& vertex) {
 void write_footprints(const Tracer& tracer, const Projection& projection, int x, int y, FirstHits& hits) {
     constexpr std::uint32_t paths = 5;
     const glm::vec2 pixel = glm::vec2(x, y) + 0.5f;
-    const auto index = static_cast<std::uint32_t>(y * hits.depth.width() + x);
+    const std::uint32_t index = pixel_number({x, y});
     std::array<std::array<float, paths>, 2> widths{};
     BasePath path;
     std::vector<Hit> met;

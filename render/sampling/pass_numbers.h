@@ -71,8 +71,7 @@ public:
     /// effects are measured worse than by chance, and others exactly; so nets of two purposes have one of several
     /// variants in each block, which have nothing to do with each other, and another order there; and where a
     /// choice is made, and something drawn of what is chosen, rows and columns are exchanged.
-    /// @param width  of the picture
-    Random of_path(glm::ivec2 pixel, int width, int path) const {
+    Random of_path(glm::ivec2 pixel, int path) const {
         const glm::ivec2 place = pixel + first_block_, within = place % block_size;
         const auto block = static_cast<std::uint32_t>(place.y / block_size) << 16 |
                            static_cast<std::uint32_t>(place.x / block_size);
@@ -85,8 +84,7 @@ public:
             const std::size_t order = is_choice(static_cast<Draw>(i)) ? of_choices : of_others;
             points[i] = at_x1_[of_block % variants][i] ^ of_pixels_[order ^ turned][i];
         }
-        const auto index = static_cast<std::uint32_t>(pixel.y * width + pixel.x);
-        return {seed_of(path), index, static_cast<std::uint32_t>(pass_),
+        return {seed_of(path), pixel_number(pixel), static_cast<std::uint32_t>(pass_),
                 Random::Net{block, static_cast<std::uint32_t>(begins_.at_x1), points}};
     }
 

@@ -29,6 +29,12 @@ inline glm::vec2 unit_square(std::uint64_t digits) {
     return {to_unit(static_cast<std::uint32_t>(digits >> 32)), to_unit(static_cast<std::uint32_t>(digits))};
 }
 
+/// The number of a pixel that random numbers depend on. It does not depend on the size of the image, so that a
+/// wider image has the same samples in the pixels that both have. Unique for coordinates in [-2^15, 2^15).
+inline std::uint32_t pixel_number(glm::ivec2 pixel) {
+    return (static_cast<std::uint32_t>(pixel.y) & 0xffffu) << 16 | (static_cast<std::uint32_t>(pixel.x) & 0xffffu);
+}
+
 /// Random numbers as a function of (seed, pixel, sample, vertex, purpose): no state, so the picture is the same
 /// for any number of threads and any order of work. SplitMix64 [Steele 2014] with the path's key as its start.
 class Random {

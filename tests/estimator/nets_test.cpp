@@ -202,6 +202,23 @@ TEST(Nets, OfPixelsAndPathsDiffer) {
     EXPECT_EQ(directions_seen.size(), 60u);
 }
 
+/// A pixel has the same samples in a wider image, so that a crop can be compared with the whole.
+TEST(Nets, DoNotDependOnTheSizeOfTheImage) {
+    const std::shared_ptr<const Scene> scene = lit_floor();
+    const glm::ivec2 wide(size.x + 7, size.y + 3);
+    for (const Method method : {Method::pt, Method::gpr}) {
+        const RenderSettings s = settings_of(method);
+        const ReusePlan plan(size, s), wide_plan(wide, s);
+        for (int pass = 0; pass < 3; ++pass) {
+            const Pass a(*scene, scene->camera(), size, s, plan, pass),
+                b(*scene, scene->camera(), wide, s, wide_plan, pass);
+            EXPECT_EQ(a.camera_sample({5, 7}).subpixel, b.camera_sample({5, 7}).subpixel);
+            for (int vertex = 1; vertex < 4; ++vertex)
+                EXPECT_EQ(a.random(5, 7).digits(vertex, Draw::lobe), b.random(5, 7).digits(vertex, Draw::lobe));
+        }
+    }
+}
+
 /// What pixels share, and smoothing takes together.
 TEST(Nets, SpareNoiseOfMeansOverPixels) {
     const auto scene = lit_floor();
