@@ -71,37 +71,32 @@ void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit
 }
 
 /// Puts the sampling sets of a pixel's tile, in the order of render_block(), into `set`, and calls `visit(inner)`
-/// for each, where `inner` are the pixels of the tile; of PT and G-PT those that the pixel is in. Pixels that
-/// share nothing have sets of their own, one for each of their paths; and of several samples in a pass each has
-/// its sets.
+/// for each, where `inner` are the pixels of the tile. PT and G-PT only have the sets that contain the pixel. A
+/// pixel that reuses no paths has one set of its own for each of its paths.
 template <class Visit>
 void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
-    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p), block = pass.grid.block_at(p);
-    const int samples = pass.grid.samples(block);
-    const auto visit_samples = [&](PixelRect inner, int paths = 1) {
-        for (set.number = 0; set.number < samples * paths; ++set.number)
-            visit(inner);
-    };
+    const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1}, tile = pass.grid.tile_at(p);
     switch (pass.settings.method) {
     case Method::pt:
         set.assign(pixel);
-        return visit_samples(pixel);
+        return visit(pixel);
     case Method::pr:
-        return for_each_pr_set(pass, tile, set, visit_samples);
+        return for_each_pr_set(pass, tile, set, visit);
     case Method::gpt:
-        return for_each_square(block.clipped(pass.size), 1, [&](PixelRect owner) {
+        return for_each_square(pass.grid.block_at(p).clipped(pass.size), 1, [&](PixelRect owner) {
             for_each_gpt_set(pass, {owner.x0, owner.y0}, set, [&](PixelRect all) {
                 if (all.contains(p))
-                    visit_samples(pixel);
+                    visit(pixel);
             });
         });
     case Method::gpr:
         return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
             if (paths_alone == 0)
-                return visit_samples(inner);
+                return visit(inner);
             for_each_square(inner, 1, [&](PixelRect alone) {
                 set.assign(alone);
-                visit_samples(alone, paths_alone);
+                for (set.number = 0; set.number < paths_alone; ++set.number)
+                    visit(alone);
             });
         });
     }
@@ -118,8 +113,7 @@ void for_each_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&&
         });
     const PixelRect block = pass.grid.block_at(p);
     for_each_gpr_set(pass, block, set, [&](PixelRect inner, PixelRect all, int paths_alone) {
-        const int samples = paths_alone == 0 && all.contains(p) ? pass.grid.samples(block) : 0;
-        for (set.number = 0; set.number < samples; ++set.number)
+        if (paths_alone == 0 && all.contains(p))
             visit(inner);
     });
 }

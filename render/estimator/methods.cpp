@@ -28,10 +28,8 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}, worker.number), worker.path,
-                        worker.number);
-            if (worker.number == 0)
-                note_light(pass, worker.path, worker.found);
+            trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
+            note_light(pass, worker.path, worker.found);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
@@ -39,9 +37,8 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 
 /// Traces the base paths of the pixels of a block, and of others whose light they get.
 void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, Worker& worker) {
-    worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0}, worker.number);
-    if (worker.number == 0)
-        for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
+    worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0});
+    for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
 }
 
 /// Adds what a pixel got in all sets of the block that it is in, or, for its primal, by its own base path alone.
@@ -127,8 +124,7 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
         MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
         const int paths = inner.contains(p) ? count : 1;
         mean.add(pass, worker.base.at(p.x, p.y), paths);
-        for (int i = 1; i < paths; ++i) {
-            const int number = i * worker.samples + worker.number; // other ones than those of any other sample
+        for (int number = 1; number < paths; ++number) {
             trace_pixel(pass, worker.tracer, p.x, p.y, pass.base_sample(p, {inner.x0, inner.y0}, number),
                         worker.path, number);
             mean.add(pass, worker.path, paths);
@@ -180,7 +176,10 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     });
 }
 
-void take_sample(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+} // namespace
+
+void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
+    worker.found.clear();
     switch (pass.settings.method) {
     case Method::pt:
         return render_pt(pass, block, worker, film);
@@ -191,22 +190,6 @@ void take_sample(const Pass& pass, PixelRect block, Worker& worker, Film& film) 
     case Method::gpr:
         return render_gpr(pass, block, worker, film);
     }
-}
-
-} // namespace
-
-void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
-    const PixelRect area = block.clipped(pass.size);
-    worker.samples = pass.grid.samples(block);
-    worker.means.begin(area, worker.samples);
-    worker.found.clear();
-    for (worker.number = 0; worker.number < worker.samples; ++worker.number)
-        take_sample(pass, block, worker, film);
-    if (worker.samples == 1)
-        return;
-    worker.samples = 1;
-    for_each_square(area, 1,
-                    [&](PixelRect p) { add_sample(pass, p.x0, p.y0, worker.means.at(p.x0, p.y0), worker, film); });
 }
 
 Image<float> sharers_of(const Pass& pass) {

@@ -20,7 +20,6 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     const std::uint64_t a_vertex =
         sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
-                              (is_adaptive(settings) ? sizeof(PixelSample) : 0) +
                               (settings.method != Method::pt ? SetMeans::bytes(part_count(settings)) : 0);
     const std::uint64_t a_glimpse = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
     return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex + a_glimpse);
@@ -33,12 +32,10 @@ float telling_share_of(glm::ivec2 size, const RenderSettings& settings, const Pa
     return GuidingLearner::share_of_paths(size.x * size.y, index, guiding && guiding->draws());
 }
 
-/// Nets begin with the first pass that goes by its plan, and with powers of two, whether or not anything is learnt
-/// then. The position of a path asks for neither plan nor guides; but of samples whose number is learnt, each has
-/// a position of its own.
-PassNumbers::Begins begins_of_nets(const RenderSettings& settings, const ReusePlan& plan, int pass) {
-    const int begin = std::max(plan.first_pass(), static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))));
-    return {is_adaptive(settings) ? begin : 0, begin};
+/// Returns the pass with which the nets at x_1 begin: the first pass that uses this plan, or the last power of
+/// two, whichever is later. Nets begin at powers of two even if the render learns nothing.
+int begin_of_nets(const ReusePlan& plan, int pass) {
+    return std::max(plan.first_pass(), static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))));
 }
 } // namespace
 
@@ -47,7 +44,7 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       telling_share(telling_share_of(size_, settings_, plan.guiding(), index_)), projection_(camera, size_),
       has_lens_(camera.aperture_radius > 0),
-      numbers_(settings_.seed, index_, begins_of_nets(settings_, plan, index_), settings_.positions) {}
+      numbers_(settings_.seed, index_, begin_of_nets(plan, index_), settings_.positions) {}
 
 /// Blocks are moved with the grid of tiles. Those of a square begin at one place, so that few pixels change from
 /// one sequence to another, and see only parts of both.
@@ -266,8 +263,6 @@ void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, F
 }
 
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
-    if (worker.samples > 1)
-        return worker.means.add(x, y, sample);
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
     for (int more = film.looks().wanted(x, y); more > 0; --more)

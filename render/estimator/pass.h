@@ -185,10 +185,7 @@ struct Worker {
     BaseBlock base;
     BasePath path;
     SamplingSet set;
-    int number = 0;             ///< of the sample that is taken, of so many:
-    int samples = 1;            ///< that the pixels of the block at hand take in this pass
-    SampleMeans means;          ///< if these are several
-    SetMeans set_means;         ///< of the sample that is taken
+    SetMeans set_means;         ///< of the block at hand
     ArrivingLight own;          ///< of one base path
     std::vector<Rgb> own_parts; ///< of it
 };
@@ -240,10 +237,9 @@ inline constexpr int projection_points = 4;
 /// Works out the projections of the block's pixels, before the first pass.
 void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film);
 
-/// Adds a sample to the film, or to the means where it is one of several. Very direct light is cheap and its noise
-/// is shared with nobody: it is looked for with more rays at the edges of lamps. (Where these are is known before
-/// the first pass. Were it learnt from the passes, it would depend on where samples lie, and pixels with light
-/// from a mere speck would become too bright.)
+/// Adds a sample to the film. At the edges of directly visible emitters, several camera rays replace its directly
+/// visible emission (Pass::very_direct): such rays are cheap, and no other pixel reuses their result. These edges
+/// are found before the first pass, because edges that samples find would bias pixels with a small emitter upward.
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film);
 
 /// Whether base path k of worker.set is reused. Counted.

@@ -60,11 +60,10 @@ PlanEvidence& PlanEvidence::operator+=(const PlanEvidence& more) {
 
 ReusePlan::ReusePlan(glm::ivec2 size, const RenderSettings& settings)
     : tile_(settings.tile), adapts_(settings.adapt_tile),
-      learns_((settings.adapt_tile && has_tiles_to_cut(settings)) || is_adaptive(settings) ||
-              settings.path_guiding != Guiding::off),
+      learns_((settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding != Guiding::off),
       wants_pilot_(finds_gain_of_sharing(settings)), size_(size),
       cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge),
-      samples_(cells_.width(), cells_.height(), 1), gain_(cells_.width(), cells_.height()) {}
+      gain_(cells_.width(), cells_.height()) {}
 
 void ReusePlan::take(const ReusePlan& next, int pass) {
     *this = next;
@@ -132,31 +131,6 @@ void ReusePlan::learn(const std::vector<PlanEvidence>& pilot) {
     }
     if (sharing > 0)
         paths_alone_ = static_cast<int>(std::clamp(std::round(costs / sharing), 1.0, most_paths_alone));
-}
-
-void ReusePlan::learn_noise(const Image<float>& noise) {
-    double sum = 0;
-    for (int i = 0; i < cell_count(); ++i) {
-        double in_cell = 0;
-        const PixelRect r = cell(i);
-        for_each_square(r, 1, [&](PixelRect p) { in_cell += static_cast<double>(noise(p.x0, p.y0)); });
-        in_cell /= r.width() * r.height();
-        samples_.data()[i] = static_cast<float>(in_cell);
-        sum += in_cell;
-    }
-    constexpr float in_the_mean = 2;
-    const auto mean = static_cast<float>(sum / cell_count());
-    for (float& samples : samples_)
-        samples = mean > 0 ? std::clamp(in_the_mean * samples / mean, 1.0f, static_cast<float>(most_samples)) : 1;
-}
-
-/// The mean over the cells that it reaches into, by the pixels that it has of each.
-int ReusePlan::samples(PixelRect block) const {
-    const PixelRect r = block.clipped(size_);
-    double sum = 0;
-    for_each_square(
-        r, 1, [&](PixelRect p) { sum += static_cast<double>(samples_(p.x0 / cell_edge, p.y0 / cell_edge)); });
-    return r.empty() ? 1 : static_cast<int>(std::lround(sum / (r.width() * r.height())));
 }
 
 namespace {

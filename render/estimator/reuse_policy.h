@@ -91,15 +91,6 @@ public:
     /// Learns from one pixel of a pass. A plan's bits depend on the order of those of a cell: row by row.
     void learn(int x, int y, float luminance);
 
-    /// How many samples each pixel of a block takes in a pass [1, most_samples], so that errors that count
-    /// relative to brightness fall fastest: in proportion to the noise of a sample, as Neyman's allocation has it;
-    /// two in the mean, or so. As each pass counts the same, whatever its samples, and their number is chosen by
-    /// earlier passes, means over passes stay unbiased.
-    int samples(PixelRect block) const;
-    static constexpr int most_samples = 8;
-    /// Learns how noisy each pixel is for its brightness.
-    void learn_noise(const Image<float>& noise);
-
     /// Squares of the image, of which each is judged by itself; a piece belongs to the one that its middle is in.
     int cell_count() const { return static_cast<int>(cells_.size()); }
     PixelRect cell(int index) const;
@@ -126,8 +117,7 @@ public:
 
     /// All that it has learnt from passes, but for where paths are guided to.
     Memory memory() {
-        return {memory_of(first_pass_), memory_of(cells_), memory_of(gain_), memory_of(samples_),
-                memory_of(paths_alone_)};
+        return {memory_of(first_pass_), memory_of(cells_), memory_of(gain_), memory_of(paths_alone_)};
     }
 
 private:
@@ -143,8 +133,7 @@ private:
     bool adapts_, learns_, wants_pilot_;
     glm::ivec2 size_;
     Image<PlanEvidence> cells_;
-    Image<float> samples_; ///< a pass, by cells
-    Image<float> gain_;    ///< of sharing, by cells
+    Image<float> gain_; ///< of sharing, by cells
     std::shared_ptr<const PathGuiding> guiding_;
     std::shared_ptr<const Image<std::uint8_t>> mixed_;
     int paths_alone_ = 4; ///< where pixels share nothing; as many as make halos and pilot cheap, if none does

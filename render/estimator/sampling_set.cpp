@@ -58,38 +58,6 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
         ++(decision.survives() ? of_path.reused : of_path.skipped);
 }
 
-void SampleMeans::begin(PixelRect area, int samples) {
-    area_ = area;
-    samples_ = samples;
-    const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
-    means_.assign(samples > 1 ? pixels : 0,
-                  {Rgb(0), Rgb(0), Rgb(0), Rgb(0), Rgb(0), {}, -1, {}, {}, {}, Rgb(0), 0});
-}
-
-void SampleMeans::add(int x, int y, const PixelSample& sample) {
-    PixelSample& mean = means_[index(x, y)];
-    const float share = 1 / static_cast<float>(samples_);
-    const Rgb of_mean = mean.primal * mean.albedo + mean.beside,
-              of_sample = sample.primal * sample.albedo + sample.beside;
-    const Rgb radiance = of_mean + of_sample * share;
-    const Rgb squares = mean.albedo_spread + mean.albedo * mean.albedo +
-                        (sample.albedo_spread + sample.albedo * sample.albedo) * share;
-    const Rgb values =
-        mean.value_spread + mean.albedo * of_mean + (sample.value_spread + sample.albedo * of_sample) * share;
-    mean.primal += sample.primal * share;
-    mean.dx += sample.dx * share;
-    mean.dy += sample.dy * share;
-    mean.very_direct += sample.very_direct * share;
-    mean.albedo += sample.albedo * share;
-    mean.own += sample.own * share;
-    mean.beside = radiance - mean.primal * mean.albedo;
-    mean.albedo_spread = squares - mean.albedo * mean.albedo;
-    mean.value_spread = values - mean.albedo * radiance;
-    mean.reuse += sample.reuse;
-    mean.luminance = mean.paths == 0 ? sample.luminance : mean.luminance;
-    mean.paths += sample.paths;
-}
-
 void SetMeans::begin(PixelRect area, int parts) {
     area_ = area;
     part_count_ = static_cast<std::size_t>(parts);

@@ -72,23 +72,6 @@ struct SamplingSet {
     void count(const ReuseDecision& decision, int k);
 };
 
-/// Means of the samples that the pixels of a block take in one pass, where these are several.
-class SampleMeans {
-public:
-    void begin(PixelRect area, int samples);
-    void add(int x, int y, const PixelSample& sample);
-    const PixelSample& at(int x, int y) const { return means_[index(x, y)]; }
-
-private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
-    }
-
-    PixelRect area_{0, 0, 0, 0};
-    int samples_ = 1;
-    std::vector<PixelSample> means_;
-};
-
 /// What the pixels of a block get in the sampling sets of PR, G-PT and G-PR that are in it: means over all sets
 /// that a pixel is in, and of gradients over those that both pixels are in, each with the weight of its pixels, as
 /// so many base paths stand behind it. In a set that takes a pixel for its halo it shares like any other, so that

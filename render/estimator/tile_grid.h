@@ -36,8 +36,6 @@ public:
     PixelRect tile_at(glm::ivec2 pixel) const;
     /// The square of the tile, cut by the plan and at the image's border, that the pixel is in.
     PixelRect part_at(glm::ivec2 pixel) const;
-    /// How many samples each pixel of a block takes.
-    int samples(PixelRect block) const { return plan_.samples(block); }
     bool is_mixed(glm::ivec2 pixel) const { return plan_.is_mixed(pixel); }
     /// How many base paths the pixel takes for itself alone; 0: it shares one.
     int paths_alone_at(glm::ivec2 pixel) const;

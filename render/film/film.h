@@ -120,9 +120,6 @@ public:
     /// means() at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
     /// means are never all there together. The film is then good for nothing more.
     GradientImages take_means(int passes);
-    /// How noisy the primal's mean over so many passes is for its brightness, at each pixel: its standard
-    /// deviation over its luminance and a little of the picture's mean one.
-    Image<float> noise(int passes) const;
     /// How sharing went over `passes` complete passes; empty where pixels share nothing.
     ReuseMaps reuse_maps(int passes) const;
     /// PixelSample::luminance of the last pass; empty where it is not kept.

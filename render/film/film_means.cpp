@@ -210,22 +210,4 @@ ReuseMaps Film::reuse_maps(int passes) const {
     return maps;
 }
 
-Image<float> Film::noise(int passes) const {
-    constexpr double floor = 0.03; // of the mean
-    double sum = 0;
-    for (const Moments& m : primal_)
-        sum += static_cast<double>(luminance(Rgb(m.sum / double(passes))));
-    const double least = floor * sum / static_cast<double>(primal_.size());
-    Image<float> noise(width(), height());
-    std::transform(
-        primal_.begin(), primal_.end(), very_direct_.begin(), noise.begin(),
-        [&](const Moments& m, const glm::dvec3& lamps) {
-            const double bright =
-                static_cast<double>(std::max(luminance(Rgb((m.sum + lamps) / double(passes))), 0.0f)) + least;
-            return bright > 0 ? static_cast<float>(std::sqrt(static_cast<double>(variance_of(m, passes))) / bright)
-                              : 0;
-        });
-    return noise;
-}
-
 } // namespace tessera

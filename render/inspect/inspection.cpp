@@ -64,7 +64,7 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
         if (p.x >= pass.size.x || p.y >= pass.size.y)
             continue;
         const int alone = pass.grid.block_at(p) == pass.grid.block_at(pixel) ? pass.grid.paths_alone_at(p) : 0;
-        const int paths = std::max(alone, 1) * pass.grid.samples(pass.grid.block_at(pixel));
+        const int paths = std::max(alone, 1);
         for (int number = 0; number < paths; ++number) {
             trace_pixel(pass, worker.tracer, p.x, p.y, pass.base_sample(p, pixel, number), worker.path, number);
             if (!is_finite(coefficient(worker.path.radiance(), pass.albedo_of(worker.path))))
@@ -174,7 +174,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     const CameraSample from = pass.base_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
-    const int paths = std::max(paths_alone, 1) * pass.grid.samples(pass.grid.block_at(pixel));
+    const int paths = std::max(paths_alone, 1);
     std::vector<Hit> hits;
     for (int number = 0; number < paths; ++number) {
         // Not by trace_pixel(), which empties a path that is to be refused.

@@ -151,8 +151,7 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
 /// pixel. It is learnt again from the base paths of the passes before, of the few pixels that decide on these
 /// tiles; this costs as much as path tracing some 16 x 16 pixels as often, or where tiles lie between several
 /// cells of the plan, a few times that; and of G-PR as a sample of path tracing of the whole picture, on one
-/// thread; and unless path guiding is off, as the paths that guides were learnt from. Of adaptive renders it lacks
-/// how many samples the pass took, which all passes before decide on: it has one.
+/// thread; and unless path guiding is off, as the paths that guides were learnt from.
 /// @param pass  counts from 0
 /// @param stop  ends it early: it has then learnt less, and is good for nothing
 ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,

@@ -24,11 +24,11 @@ namespace {
 FilmBuffers buffers_of(const RenderSettings& s) {
     return {has_gradients(s.method),
             is_demodulated(s),
-            s.method != Method::pt || is_adaptive(s),
+            s.method != Method::pt,
             reuses_paths(s.method) && s.adapt_tile,
             s.very_direct_rays > 1,
             part_count(s),
-            finds_gain_of_sharing(s) || is_adaptive(s) || has_positions(s)};
+            finds_gain_of_sharing(s) || has_positions(s)};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -253,8 +253,6 @@ void Render::learn_from_pass() {
     if (std::has_single_bit(unsigned(spp_))) {
         next_plan_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
         film_.ask_for_looks(first_pass_ + 2 * spp_);
-        if (constexpr int first = 4; is_adaptive(settings_) && spp_ >= first)
-            next_plan_.learn_noise(film_.noise(spp_));
         plan_.take(next_plan_, first_pass_ + spp_);
     }
     cpu_seconds_ += thread_cpu_seconds() - before;

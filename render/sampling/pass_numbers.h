@@ -18,27 +18,22 @@ namespace tessera {
 /// x_1 are nets as well, over blocks of pixels.
 class PassNumbers {
 public:
-    /// Passes with whose numbers a net begins, another one than those before, so that what was learnt from passes
-    /// before knows nothing of it.
-    struct Begins {
-        int of_positions;
-        int at_x1;
-    };
-
-    /// @param positions  from which a pass sees some pixels: those have a net of their own, with as many points
-    ///                   for each pass
-    PassNumbers(std::uint64_t seed, int pass, Begins begins, int positions)
-        : seed_(seed), pass_(pass),
-          begins_(begins), only_{point({begins.of_positions, 0}, 0), point({begins.of_positions, 1}, 0)},
+    /// @param begin_at_x1  pass with which the nets at x_1 begin. It selects the net, so that the points are
+    ///                     independent of all that earlier passes have learnt. The nets of positions begin with
+    ///                     pass 0.
+    /// @param positions  camera positions from which a pass sees some pixels. They have a net of their own, with
+    ///                   as many points for each pass.
+    PassNumbers(std::uint64_t seed, int pass, int begin_at_x1, int positions)
+        : seed_(seed), pass_(pass), begin_at_x1_(begin_at_x1), only_{point({0, 0}, 0), point({0, 1}, 0)},
           first_turn_(static_cast<int>(Random::mix(Random::mix(seed + 2) + static_cast<std::uint64_t>(pass)) %
                                        static_cast<std::uint64_t>(positions))),
-          block_key_(Random::mix(Random::mix(seed + 4) + static_cast<std::uint64_t>(begins.at_x1))),
+          block_key_(Random::mix(Random::mix(seed + 4) + static_cast<std::uint64_t>(begin_at_x1))),
           first_block_(block_key_ % block_size, (block_key_ >> 32) % block_size) {
         for (int i = 0; i < positions; ++i)
             several_.push_back(position(i, positions));
         for (std::size_t v = 0; v < variants; ++v)
             for (std::size_t i = 0; i < at_x1_[v].size(); ++i)
-                at_x1_[v][i] = point({begins.at_x1, positions_of_nets + i}, v);
+                at_x1_[v][i] = point({begin_at_x1, positions_of_nets + i}, v);
         for (std::size_t pixel = 0; pixel < of_pixels_.size(); ++pixel)
             for (std::size_t i = 0; i < of_pixels_[pixel].size(); ++i)
                 of_pixels_[pixel][i] =
@@ -85,7 +80,7 @@ public:
             points[i] = at_x1_[of_block % variants][i] ^ of_pixels_[order ^ turned][i];
         }
         return {seed_of(path), pixel_number(pixel), static_cast<std::uint32_t>(pass_),
-                Random::Net{block, static_cast<std::uint32_t>(begins_.at_x1), points}};
+                Random::Net{block, static_cast<std::uint32_t>(begin_at_x1_), points}};
     }
 
 private:
@@ -122,8 +117,8 @@ private:
         return position == only ? only_ : several_[static_cast<std::size_t>(position)];
     }
     Position position(int i, int count) const {
-        const auto index = static_cast<std::uint32_t>((pass_ - begins_.of_positions) * count + i);
-        const std::uint64_t key = Random::mix(seed_ + 3) + 2 * static_cast<std::uint64_t>(begins_.of_positions);
+        const auto index = static_cast<std::uint32_t>(pass_ * count + i);
+        const std::uint64_t key = Random::mix(seed_ + 3);
         return {net_point(index, Random::mix(key)), net_point(index, Random::mix(key + 1))};
     }
 
@@ -132,13 +127,12 @@ private:
     }
 
     Random shift_of(std::uint32_t place, int path) const {
-        const auto begin = static_cast<std::uint64_t>(begins_.of_positions);
-        return {Random::mix(seed_of(path)) + begin, place, 0xfffffffdu}; // no pass
+        return {Random::mix(seed_of(path)), place, 0xfffffffdu}; // no pass
     }
 
     std::uint64_t seed_;
     int pass_;
-    Begins begins_;
+    int begin_at_x1_;
     Position only_;
     std::vector<Position> several_;
     int first_turn_;

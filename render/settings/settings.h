@@ -117,7 +117,6 @@ struct RenderSettings : PathSettings, ShiftSettings {
     PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
-    bool adaptive = false; ///< noisy blocks of pixels take more samples a pass (reuse_policy.h); not with parts
 
     bool operator==(const RenderSettings&) const = default;
 };
@@ -151,11 +150,6 @@ inline bool is_expanded(const RenderSettings& s) {
 /// base paths. (Of parts there are means of one position only.)
 inline bool has_positions(const RenderSettings& s) {
     return reuses_paths(s.method) && s.positions > 1 && !is_expanded(s);
-}
-
-/// Whether some pixels take more samples a pass than others. (Of parts there are none but single samples.)
-inline bool is_adaptive(const RenderSettings& s) {
-    return s.adaptive && !is_expanded(s);
 }
 
 /// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.

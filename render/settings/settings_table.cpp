@@ -173,11 +173,6 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Where "
          "sharing brings G-PR nothing, pixels take more paths of their own instead.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
-        {"adaptive", "Adaptive",
-         "Takes up to eight samples a pass where pixels are noisy for their brightness, as earlier passes tell, "
-         "and "
-         "one where they are not. Not with a basis of parts.",
-         Setting::Switch{&s.adaptive}, !is_expanded(s), true},
         {"jitter", "Jitter",
          "Moves the grid of tiles every pass, so that no pixel is always at a tile's edge. Off, edges stay in the "
          "picture.",

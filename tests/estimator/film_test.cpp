@@ -98,23 +98,6 @@ TEST(Film, CountsThePathsOfMeans) {
     EXPECT_TRUE(Film(2, 1, {}).reuse_maps(2).paths.empty());
 }
 
-/// Of the mean's standard deviation over the brightness; black pixels count against a little of the mean's.
-TEST(Film, NoiseIsRelativeToBrightness) {
-    Film film(3, 1, {});
-    Counters counters;
-    for (int pass = 0; pass < 2; ++pass) {
-        const float v = pass == 0 ? 1.5f : 0.5f;
-        film.add(0, 0, pass, {Rgb(v)}, counters);
-        film.add(1, 0, pass, {Rgb(2 * v)}, counters);
-        film.add(2, 0, pass, {Rgb(0)}, counters);
-    }
-    const Image<float> noise = film.noise(2);
-    const float deviation = std::sqrt(3 * 0.25f); // of the mean of two, all channels: s^2 = 0.5, over 2
-    EXPECT_NEAR(noise(0, 0), deviation / (1 + 0.03), 1e-5);
-    EXPECT_NEAR(noise(1, 0), 2 * deviation / (2 + 0.03), 1e-5);
-    EXPECT_EQ(noise(2, 0), 0);
-}
-
 /// Half the difference of two halves has their noise and nothing else, as much as the mean, for odd numbers of
 /// passes, too; and the brightest sample is known by its weight in it.
 TEST(Film, HalvesDifferByTheirNoise) {
@@ -161,28 +144,6 @@ TEST(Film, HalvesOfEqualSamplesDoNotDiffer) {
     for (const RgbImage* image : {&halves.primal, &halves.dx, &halves.dy})
         for (Rgb c : *image)
             EXPECT_NEAR(c.r, 0, 1e-6);
-}
-
-TEST(SampleMeans, AreOfAllThatSamplesHave) {
-    SampleMeans means;
-    means.begin({3, 5, 5, 6}, 2);
-    PixelSample a{Rgb(1000), Rgb(2), Rgb(4), Rgb(6), Rgb(0.01f)}, b{Rgb(0), Rgb(-2), Rgb(2), Rgb(0), Rgb(0.9f)};
-    a.luminance = 7;
-    a.paths = 3;
-    a.reuse.reused = b.reuse.reused = 1;
-    means.add(4, 5, a);
-    means.add(4, 5, b);
-    const PixelSample& m = means.at(4, 5);
-    EXPECT_EQ(m.primal, Rgb(500));
-    EXPECT_EQ(m.dx, Rgb(0));
-    EXPECT_EQ(m.dy, Rgb(3));
-    EXPECT_EQ(m.very_direct, Rgb(3));
-    EXPECT_FLOAT_EQ(m.albedo.r, 0.455f);
-    EXPECT_NEAR((m.primal * m.albedo + m.beside).r, 5, 1e-4); // the mean of 10 and 0
-    EXPECT_EQ(m.luminance, 7);                                // the first one's
-    EXPECT_EQ(m.paths, 4);
-    EXPECT_EQ(m.reuse.reused, 2u);
-    EXPECT_EQ(means.at(3, 5).paths, 0);
 }
 
 /// What e and a of a mean's paths have to do with each other says nothing of how the means go together: here not

@@ -172,22 +172,6 @@ TEST(Nets, AreAnewWherePassesGoByWhatOthersFound) {
     EXPECT_LT(repeated, 5);
 }
 
-TEST(Nets, OfPositionsAreAnewWhereTheirNumberIsLearnt) {
-    const auto scene = lit_floor();
-    int alike = 0;
-    for (std::uint64_t seed = 0; seed < 16; ++seed) {
-        RenderSettings s = settings_of(Method::pt, seed);
-        s.adaptive = true;
-        ReusePlan plan(size, s);
-        plan.take(ReusePlan(size, s), 6);
-        EXPECT_EQ(plan.first_pass(), 6);
-        EXPECT_EQ(count_even(*scene, s, plan, 6, 8), all_numbers);
-        for (std::size_t i = 0; i < positions; ++i)
-            alike += parts_of(*scene, s, plan, 6, 64)[i] == parts_of(*scene, s, ReusePlan(size, s), 6, 64)[i];
-    }
-    EXPECT_LT(alike, 4);
-}
-
 TEST(Nets, OfPixelsAndPathsDiffer) {
     const auto scene = lit_floor();
     const RenderSettings s = settings_of(Method::pt);

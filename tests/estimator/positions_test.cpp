@@ -104,7 +104,7 @@ TEST(Positions, HaveEachBasePathAtOneOfThem) {
     for (const int count : {1, 2, 3, 4, 7, 8, 16}) {
         std::map<int, int> turns_of_a_pixel;
         for (int index = 0; index < 4000; ++index) {
-            const PassNumbers numbers(3, index, {0, 0}, count);
+            const PassNumbers numbers(3, index, 0, count);
             std::set<int> side_by_side;
             for (int x = 0; x < count; ++x)
                 side_by_side.insert(numbers.turn({x, 5}));
@@ -121,7 +121,7 @@ TEST(Positions, AreANetOverThePasses) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         std::set<int> columns, rows;
         for (int index = 0; index < 16; ++index) {
-            const PassNumbers numbers(seed, index, {0, 0}, 4);
+            const PassNumbers numbers(seed, index, 0, 4);
             for (int i = 0; i < 4; ++i) {
                 const glm::vec2 at = numbers.subpixel(9, 0, i);
                 columns.insert(static_cast<int>(at.x * 64));

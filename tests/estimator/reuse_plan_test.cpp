@@ -148,29 +148,6 @@ TEST(ReusePlan, ATileIsInPiecesWhereSomeOfItSharesAndSomeDoesNot) {
     EXPECT_EQ(pieces_of(after_pilot(found(0, 0.5)), between), std::vector{between}); // all share
 }
 
-TEST(ReusePlan, BlocksTakeAsManySamplesAsTheyAreNoisy) {
-    ReusePlan plan(size, settings_of()); // 4 x 2 cells
-    const PixelRect blocks[] = {{-3, 0, 13, 16}, {16, 0, 32, 16}, {32, 0, 48, 16}, {48, 0, 64, 16}};
-    for (const PixelRect block : blocks)
-        EXPECT_EQ(plan.samples(block), 1); // knowing nothing
-    const auto learn = [&](std::initializer_list<float> columns) {
-        Image<float> noise(size.x, size.y);
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x)
-                noise(x, y) = columns.begin()[x / 16];
-        plan.learn_noise(noise);
-        return std::vector{plan.samples(blocks[0]), plan.samples(blocks[1]), plan.samples(blocks[2]),
-                           plan.samples(blocks[3])};
-    };
-    EXPECT_EQ(learn({1, 1, 1, 1}), (std::vector{2, 2, 2, 2}));
-    EXPECT_EQ(learn({0, 0.1f, 1, 2.9f}), (std::vector{1, 1, 2, 6}));
-    EXPECT_EQ(learn({0, 0, 0, 0.001f}), (std::vector{1, 1, 1, 8}));
-    EXPECT_EQ(learn({0, 0, 0, 0}), (std::vector{1, 1, 1, 1}));
-    learn({0, 0.1f, 1, 2.9f});
-    EXPECT_EQ(plan.samples({40, 0, 56, 16}), 4); // the mean of its cells: (2 + 5.8) / 2
-    EXPECT_EQ(plan.samples({70, 0, 86, 16}), 1); // of no pixels
-}
-
 TEST(ReusePlan, CutsWherePathsBringAlike) {
     ReusePlan plan(size, settings_of());
     plan.learn(luminance(10));

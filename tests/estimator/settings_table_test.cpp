@@ -54,12 +54,17 @@ TEST(SettingsTable, TheLargestTileHasLanes) {
 
 TEST(SettingsTable, SetTextUndoesText) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-        {"tile", {"1", "16"}},           {"adapt_tile", {"on", "off"}},
-        {"adaptive", {"on", "off"}},     {"jitter", {"off", "on"}},
-        {"pattern", {"tile", "rooks"}},  {"roulette", {"relative", "absolute", "none"}},
-        {"rr_scale", {"0", "0.25"}},     {"rr_delta", {"1e+30", "0.001"}},
-        {"primal", {"reuse", "base"}},   {"shift", {"half-vector", "replay-reconnection"}},
-        {"max_depth", {"1", "64"}},      {"q_min", {"0.0001", "1"}},
+        {"tile", {"1", "16"}},
+        {"adapt_tile", {"on", "off"}},
+        {"jitter", {"off", "on"}},
+        {"pattern", {"tile", "rooks"}},
+        {"roulette", {"relative", "absolute", "none"}},
+        {"rr_scale", {"0", "0.25"}},
+        {"rr_delta", {"1e+30", "0.001"}},
+        {"primal", {"reuse", "base"}},
+        {"shift", {"half-vector", "replay-reconnection"}},
+        {"max_depth", {"1", "64"}},
+        {"q_min", {"0.0001", "1"}},
         {"roulette_depth", {"0", "12"}},
     };
     for (const auto& [id, values] : cases) {
@@ -175,7 +180,7 @@ TEST(SettingsTable, SettingsHaveTheNamesOfTheirOptions) {
         setting_named(settings_of(settings), "tiles");
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), HasSubstr("there is no setting \"tiles\", only: tile, adapt_tile, adaptive"));
+        EXPECT_THAT(error.what(), HasSubstr("there is no setting \"tiles\", only: tile, adapt_tile, "));
         EXPECT_THAT(error.what(), HasSubstr("roulette_depth"));
     }
 }

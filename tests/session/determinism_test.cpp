@@ -18,7 +18,7 @@ namespace tessera::test {
 namespace {
 
 constexpr glm::ivec2 size(53, 37);
-constexpr int passes = 5; // the last one knows where adaptive renders are noisy
+constexpr int passes = 5;
 
 std::shared_ptr<const Scene> scene() {
     for (const TestScene& t : all_test_scenes())
@@ -71,9 +71,7 @@ std::vector<Variant> variants() {
     add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
     add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
     add("path_guiding", Method::gpr, [](S& s) { s.path_guiding = Guiding::on; });
-    add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on, s.adaptive = true; });
-    add("adaptive", Method::gpr, [](S& s) { s.adaptive = true; });
-    add("adaptive_pairs", Method::gpt, [](S& s) { s.adaptive = true; });
+    add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on; });
     add("positions", Method::gpr, [](S& s) { s.positions = 7; });
     add("one_position", Method::gpr, [](S& s) { s.positions = 1; });
     add("positions_of_rooks", Method::pr, [](S& s) { s.pattern = Pattern::rooks, s.positions = 16; });

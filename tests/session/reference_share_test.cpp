@@ -104,7 +104,6 @@ TEST_F(Shares, ComeToTheSameBitsInWhateverOrder) {
 /// in which they are summed, the picture is the same.
 TEST_F(Shares, HaveTheSamplesOfTheWhole) {
     recipe.settings.method = Method::pt;
-    recipe.settings.adaptive = false;
     recipe.spp = 23; // 12 passes a half, for 5 shares
     const ReferenceImage expected = whole("whole.exr");
     std::vector<fs::path> files;

@@ -217,8 +217,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
         return "A variance takes two passes";
-    if (buffer == Buffer::samples && snapshot && !is_adaptive(snapshot->settings) &&
-        !finds_gain_of_sharing(snapshot->settings))
+    if (buffer == Buffer::samples && snapshot && !finds_gain_of_sharing(snapshot->settings))
         return "All pixels have taken as many: the passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt && buffer != Buffer::samples)
         return name + " shares no paths between pixels";

@@ -122,8 +122,7 @@ constexpr BufferInfo table[] = {
      "nothing; 0: nothing is known. Of G-PR whose tiles adapt.",
      Family::reuse, ColourMap::false_colour, "times", 1},
     {Buffer::samples, "samples", "Samples",
-     "How many base paths of its own a pixel has taken in all passes: more than one in each where pixels share "
-     "nothing, and where an adaptive render found them noisy.",
+     "Base paths that a pixel has traced in all passes. A pass traces more than one where pixels reuse no paths.",
      Family::reuse, ColourMap::false_colour, "paths", 1},
 };
 

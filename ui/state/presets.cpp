@@ -11,7 +11,6 @@ namespace {
 PaneSettings plain() {
     PaneSettings s;
     s.render.adapt_tile = false;
-    s.render.adaptive = false;
     s.render.positions = 1;
     s.render.basis = Basis::none;
     s.render.shift_distance = 0;
