@@ -135,7 +135,7 @@ void ReusePlan::learn(const std::vector<PlanEvidence>& pilot) {
 
 namespace {
 
-/// How much the light that the paths share, as it arrives, differs from path to path.
+/// Returns the standard deviation of the arriving luminance over the paths of a set.
 float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const> set) {
     double sum = 0, squares = 0; // the squares of a float may be beyond floats
     for (const BasePath* path : set) {
@@ -154,7 +154,7 @@ ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, 
     : reuse_(reuse), kind_(kind), q_min_(settings.q_min) {
     switch (kind) {
     case RouletteKind::relative:
-        threshold_ = settings.rr_scale * standard_deviation(reuse, set);
+        threshold_ = standard_deviation(reuse, set);
         break;
     case RouletteKind::absolute:
         threshold_ = settings.rr_delta;

@@ -174,10 +174,10 @@ struct ReuseDecision {
 /// Absolute: L is what leaves toward the camera and the threshold a radiance, rr_delta [Bauszat 2017, 3.3].
 /// Relative: L is what arrives (PathReuse::arriving_luminance), as the light of a path that begins on a dark texel
 /// is worth as much to the bright ones as any; lost with its own small radiance for a measure, it would weigh 1/q
-/// there when it is not. The threshold is rr_scale standard deviations of the set's own L, the noise that a lost
-/// path would drown in. Then the unit of light does not matter, a set that is lit evenly keeps all its paths, and
-/// one in which few paths carry light spends its time on these. As q stands on nothing but the base paths at hand,
-/// and survivors weigh 1/q, the estimate stays unbiased.
+/// there when it is not. The threshold is one standard deviation of the L of the set, the noise that hides a lost
+/// path; 2 and 4 are not better (TRIALS.md, "scale of the reuse roulette"). Then the unit of light does not
+/// matter, a set that is lit evenly keeps all its paths, and one in which few paths carry light spends its time on
+/// these. As q stands on nothing but the base paths at hand, and survivors weigh 1/q, the estimate stays unbiased.
 class ReuseRoulette {
 public:
     /// @param settings  has the thresholds; its own kind is not looked at

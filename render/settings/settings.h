@@ -107,7 +107,6 @@ struct RenderSettings : PathSettings, ShiftSettings {
     bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
-    float rr_scale = 1;         ///< relative roulette's threshold, in standard deviations of the sampling set
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
     float q_min = 0.1f;         ///< least probability that a path is reused
     float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none

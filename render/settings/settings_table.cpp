@@ -181,10 +181,6 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          s.method == Method::pr},
         {"roulette", "Roulette", "How it is decided which base paths are reused.",
          one_of(roulette_kinds, s.roulette), shares},
-        {"rr_scale", "RR scale",
-         "Relative roulette: a path whose value is below this many standard deviations of the values in its tile "
-         "is reused less often, in proportion (no unit).",
-         Setting::Real{&s.rr_scale, 0, 1000, 0, 100}, shares && s.roulette == RouletteKind::relative},
         {"rr_delta", "RR delta",
          "Absolute roulette: a path whose value (luminance, a radiance) is below delta is reused with probability "
          "value / delta. 0: every path is reused.",

@@ -81,7 +81,6 @@ TEST(ReuseRoulette, AbsoluteIsLuminanceOverDelta) {
 
 TEST(ReuseRoulette, RelativeIsLuminanceOverTheNoiseOfTheSet) {
     RenderSettings s = settings_of(RouletteKind::relative);
-    s.rr_scale = 0.5f;
     double sum = 0, squares = 0;
     for (const double l : lit_in_part) {
         sum += l;
@@ -89,14 +88,14 @@ TEST(ReuseRoulette, RelativeIsLuminanceOverTheNoiseOfTheSet) {
     }
     const double deviation = std::sqrt(squares / 8 - sum * sum / 64);
     const Roulette roulette(s, lit_in_part);
-    EXPECT_NEAR(roulette.survival(Rgb(0.9f)), 0.9 / (0.5 * deviation), 1e-5);
+    EXPECT_NEAR(roulette.survival(Rgb(0.9f)), 0.9 / deviation, 1e-5);
     EXPECT_EQ(roulette.survival(Rgb(0.01f)), s.q_min);
     EXPECT_EQ(roulette.survival(Rgb(8)), 1);
     // Reconnection leaves direct light where it is.
     s.shift = ShiftKind::reconnection;
     BasePath indirect = path_with(Rgb(0.9f), 0.5f);
     indirect.indirect = std::exchange(indirect.direct, Rgb(0)) + indirect.indirect;
-    EXPECT_NEAR(Roulette(s, lit_in_part).survival(indirect), 0.9 / (0.5 * 0.75 * deviation), 1e-5);
+    EXPECT_NEAR(Roulette(s, lit_in_part).survival(indirect), 0.9 / (0.75 * deviation), 1e-5);
 }
 
 TEST(ReuseRoulette, RelativeKeepsAllOfASetThatIsLitEvenly) {

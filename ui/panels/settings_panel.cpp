@@ -26,8 +26,7 @@ namespace {
 
 /// What the panel begins with; all else is for experts.
 bool is_essential(const Setting& setting) {
-    static constexpr std::string_view ids[] = {"tile", "roulette", "rr_scale", "rr_delta",
-                                               "norm", "alpha",    "max_depth"};
+    static constexpr std::string_view ids[] = {"tile", "roulette", "rr_delta", "norm", "alpha", "max_depth"};
     return std::find(std::begin(ids), std::end(ids), setting.id) != std::end(ids);
 }
 

@@ -113,17 +113,17 @@ TEST_F(PanelTest, LogSlidersReachSmallValuesInTheMiddle) {
 }
 
 TEST_F(PanelTest, ValuesBeyondASlidersEndsStayUntilItIsMoved) {
-    state().panes[0].settings.render.rr_scale = state().panes[1].settings.render.rr_scale = 200;
+    choose("roulette", "absolute");
+    state().panes[0].settings.render.rr_delta = state().panes[1].settings.render.rr_delta = 200;
     frames(3);
-    ASSERT_TRUE(has("rr_scale"));
-    EXPECT_EQ(render(0).rr_scale, 200);
-    EXPECT_EQ(render(1).rr_scale, 200);
-    click_at("rr_scale", 0.9f);
-    EXPECT_LT(render(1).rr_scale, 200);
+    ASSERT_TRUE(has("rr_delta"));
+    EXPECT_EQ(render(0).rr_delta, 200);
+    EXPECT_EQ(render(1).rr_delta, 200);
+    click_at("rr_delta", 0.9f);
+    EXPECT_LT(render(1).rr_delta, 200);
 }
 
 TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
-    EXPECT_TRUE(has("rr_scale"));
     EXPECT_FALSE(has("rr_delta"));
     EXPECT_FALSE(has("pattern"));
     choose("pane0.method", "pr"); // linked: what matters in any pane
@@ -132,7 +132,6 @@ TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
     EXPECT_EQ(render(0).pattern, Pattern::rooks);
     choose("roulette", "absolute");
     EXPECT_TRUE(has("rr_delta"));
-    EXPECT_FALSE(has("rr_scale"));
     click_at("linked", 0.5f);
     choose("pane0.method", "pt");
     click("pane0.picture");
