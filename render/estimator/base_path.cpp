@@ -10,34 +10,32 @@
 
 namespace tessera {
 
-void BasePath::reset(const Random& numbers, int light_samples) {
+void BasePath::reset(const Random& numbers) {
     very_direct = direct = indirect = Rgb(0);
     albedo = Rgb(1);
     random = numbers;
     pixel_width = pixel_angle = own_width = 0;
     mirrors = 0;
     size_ = 0;
-    light_samples_ = light_samples;
 }
 
 BaseVertex& BasePath::spare() {
     const auto n = static_cast<std::size_t>(size_);
     if (vertices_.size() == n)
         vertices_.emplace_back();
-    if (lights_.size() < (n + 1) * light_count())
-        lights_.resize((n + 1) * light_count());
-    for (LightSample& s : lights(size_))
-        s.brings = Rgb(0);
+    if (lights_.size() == n)
+        lights_.emplace_back();
+    lights_[n].brings = Rgb(0);
     vertices_[n].escapes = false;
     return vertices_[n];
 }
 
-bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
-                LightSample& drawn, Segment& way) {
+bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, LightSample& drawn,
+                Segment& way) {
     drawn.brings = Rgb(0);
     if (tracer.scene.lights().empty() || x.bsdf.roughness() <= 0)
         return false;
-    if (!tracer.sample_light(x.position, random, index, sample, drawn.light))
+    if (!tracer.scene.lights().sample(x.position, random, index, drawn.light))
         return false;
     const std::optional<LightRay> seen = drawn.light.seen_from(x.position);
     if (!seen)
@@ -57,20 +55,16 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
 
 namespace {
 
-/// Next-event estimation at x_index, the last vertex.
-void sample_lights(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
-    const Vertex& x = path[path.size() - 1].vertex;
-    const std::span<LightSample> lights = path.lights(path.size() - 1);
-    for (int j = 0; j < path.light_samples(); ++j) {
-        LightSample& drawn = lights[static_cast<std::size_t>(j)];
-        Segment way;
-        if (!draw_light(tracer, x, path.random, index, j, drawn, way))
-            continue;
-        if (tracer.occluded(way, kind))
-            drawn.brings = Rgb(0);
-        else
-            complete_light(tracer, drawn);
-    }
+/// Estimates the direct light at x_index, the last vertex, by emitter sampling.
+void sample_light(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
+    LightSample& drawn = path.light(path.size() - 1);
+    Segment way;
+    if (!draw_light(tracer, path[path.size() - 1].vertex, path.random, index, drawn, way))
+        return;
+    if (tracer.occluded(way, kind))
+        drawn.brings = Rgb(0);
+    else
+        complete_light(tracer, drawn);
 }
 
 /// A light that BSDF sampling at v has met. `pdf_w` is that of emitter sampling there.
@@ -150,7 +144,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     v.hit_pdf_w = 0;
     v.hit_brings = Rgb(0);
     if (next.vertex.emitter_pdf_a > 0) {
-        const LightPoint light = tracer.light_of(next.vertex, -direction);
+        const LightPoint light = next.vertex.light_toward(-direction);
         add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
     }
     path.keep();
@@ -181,9 +175,7 @@ void gather(BasePath& path) {
     for (int i = path.size() - 1; i >= 0; --i) {
         BaseVertex& v = path[i];
         v.arriving = toward_camera;
-        Rgb here(0);
-        for (const LightSample& s : path.lights(i))
-            here += s.brings;
+        Rgb here = path.light(i).brings;
         Rgb beyond(0);
         if (i + 1 < path.size() || v.escapes) {
             here += v.throughput() * v.hit_brings;
@@ -204,7 +196,7 @@ struct Purpose {
 void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& path) {
     // Emitter sampling at x_i makes i + 1 edges, and so does going on to x_{i+1} for its emission.
     for (int i = 1; i <= last; ++i) {
-        sample_lights(tracer, i, purpose.light, path);
+        sample_light(tracer, i, purpose.light, path);
         if (!extend(tracer, i, purpose.bounce, path))
             break;
     }
@@ -215,7 +207,7 @@ void trace_onward(const Tracer& tracer, int last, Purpose purpose, BasePath& pat
 /// Begins a path with what its camera ray meets; false: nothing.
 bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_width, const Random& random,
                 BasePath& path) {
-    path.reset(random, tracer.settings.light_samples);
+    path.reset(random);
     BaseVertex& primary = path.spare();
     if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera, tracer.first_lookup())) {
         path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
@@ -254,7 +246,7 @@ void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth 
 }
 
 void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path) {
-    path.reset(random, tracer.settings.light_samples);
+    path.reset(random);
     path.spare().vertex = seen[0].vertex;
     path.mirrors = seen[0].vertex.bsdf.is_mirror();
     path.pixel_width = path.own_width = seen.pixel_width;
@@ -278,10 +270,9 @@ LightPaths::Step LightPaths::step_from(const BasePath& path, const JoinRule& rul
 void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
     carried_.clear();
     steps_.clear();
-    light_samples_ = path.light_samples();
     join_ = 0;
     last_alive_ = -1;
-    first_shared_ = settings.shift == ShiftKind::reconnection ? emitter_slot(1, 0) : 0;
+    first_shared_ = settings.shift == ShiftKind::reconnection ? emitter_slot(1) : 0;
     const bool joins = settings.shift != ShiftKind::replay;
     const JoinRule rule(settings, path.pixel_angle);
     float apart = rule.apart(path.pixel_width);
@@ -289,8 +280,7 @@ void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
     Rgb throughput(1);
     for (int i = 0; i < count; ++i) {
         const BaseVertex& v = path[i];
-        for (const LightSample& s : path.lights(i))
-            carried_.push_back(throughput * s.brings);
+        carried_.push_back(throughput * path.light(i).brings);
         if (i + 1 == count && !v.escapes) {
             carried_.emplace_back(0);
             steps_.push_back({apart});

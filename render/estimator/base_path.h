@@ -4,7 +4,6 @@
 #include "render/estimator/tracer.h"
 
 #include <algorithm>
-#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -12,8 +11,7 @@
 
 namespace tessera {
 
-/// A point on a light, drawn by emitter sampling at a vertex x_i. Every pdf is per solid angle at x_i, and that of
-/// all light samples of the vertex together.
+/// A point on a light, drawn by emitter sampling at a vertex x_i. Every pdf is per solid angle at x_i.
 struct LightSample {
     LightPoint light;
     glm::vec3 to_light; ///< unit, in the vertex's frame
@@ -47,8 +45,8 @@ struct BaseVertex {
     Rgb throughput() const { return f_cos / (pdf_w * survival); }
 };
 
-/// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex some
-/// that end by emitter sampling and one that ends by hitting an emitter.
+/// A path from the camera and the light it found. One vertex list carries many light paths: for each vertex one
+/// that ends by emitter sampling and one that ends by hitting an emitter.
 struct BasePath {
     Rgb very_direct{0}; ///< emission seen by the camera itself, straight or in mirrors
     Rgb direct{0};      ///< sum over its light paths of two edges
@@ -69,15 +67,12 @@ struct BasePath {
     const BaseVertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
     BaseVertex& operator[](int i) { return vertices_[static_cast<std::size_t>(i)]; }
 
-    /// Light samples of vertex i, as many as at every vertex.
-    std::span<const LightSample> lights(int i) const {
-        return {lights_.data() + i * light_samples_, light_count()};
-    }
-    std::span<LightSample> lights(int i) { return {lights_.data() + i * light_samples_, light_count()}; }
-    int light_samples() const { return light_samples_; }
+    /// The light sample of vertex i.
+    const LightSample& light(int i) const { return lights_[static_cast<std::size_t>(i)]; }
+    LightSample& light(int i) { return lights_[static_cast<std::size_t>(i)]; }
 
     /// Starts anew, without vertices, with random numbers for all that follows.
-    void reset(const Random& numbers, int light_samples);
+    void reset(const Random& numbers);
     /// Room for one more vertex, which counts only once keep() is called. Old references end here.
     BaseVertex& spare();
     void keep() { ++size_; }
@@ -88,13 +83,10 @@ struct BasePath {
     }
 
 private:
-    std::size_t light_count() const { return static_cast<std::size_t>(light_samples_); }
-
     // Never shrink: paths are traced into the memory of earlier ones.
     std::vector<BaseVertex> vertices_;
     std::vector<LightSample> lights_;
     int size_ = 0;
-    int light_samples_ = 1;
 };
 
 /// Traces the path of one sample, with the numbers of `random`. Light paths have tracer.settings.max_depth edges
@@ -113,12 +105,12 @@ void trace_first_vertex(const Tracer& tracer, const Ray& camera_ray, PixelWidth 
 /// @param last  light is looked for at x_1 to x_last
 void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& random, int last, BasePath& path);
 
-/// Emitter sampling: light sample `sample` (from 0) of vertex x_index, weighted against BSDF sampling, as if
-/// nothing were in the way. False: it brings nothing. What the environment brings is left black, as its radiance
-/// is dear and much of it blocked: complete_light() looks it up.
-/// @param way  the stretch that must be free
-bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, int sample,
-                LightSample& drawn, Segment& way);
+/// Draws the light sample of vertex x_index by emitter sampling, weighted against BSDF sampling, without
+/// visibility. Returns false if it brings no light. The radiance of the environment stays black until
+/// complete_light() looks it up: the lookup is slow, and many of these samples are occluded.
+/// @param way  segment that must be unoccluded
+bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int index, LightSample& drawn,
+                Segment& way);
 
 inline void complete_light(const Tracer& tracer, LightSample& drawn) {
     if (drawn.light.kind != LightPoint::Kind::environment)
@@ -128,7 +120,7 @@ inline void complete_light(const Tracer& tracer, LightSample& drawn) {
 }
 
 /// The light paths that a base path carries, as slots in the order of their ends, and what each brings: for every
-/// vertex one for each light sample there, and one for the light that BSDF sampling runs into. Where shifts join
+/// vertex one for its light sample, and one for the emitter that BSDF sampling hits. Where shifts join
 /// base and offset, all light paths through the same vertices beyond the join share their ratios of value and of
 /// density, so they are one slot, the tail: the suffix is summed once. Vertices count from 0 here: vertex 0 is
 /// x_1.
@@ -137,11 +129,11 @@ public:
     /// Lists the light paths of `path`; keeps no reference to it.
     void reset(const BasePath& path, const ShiftSettings& settings);
 
-    /// Ends by light sample `sample` of the vertex.
-    int emitter_slot(int vertex, int sample) const { return vertex * (light_samples_ + 1) + sample; }
-    /// Ends by BSDF sampling at the vertex meeting an emitter.
-    int hit_slot(int vertex) const { return emitter_slot(vertex, light_samples_); }
-    int vertex_of(int slot) const { return slot / (light_samples_ + 1); } ///< not for the tail
+    /// Slot of the light path that ends at the light sample of the vertex.
+    static int emitter_slot(int vertex) { return 2 * vertex; }
+    /// Slot of the light path whose BSDF sample at the vertex hits an emitter.
+    static int hit_slot(int vertex) { return 2 * vertex + 1; }
+    static int vertex_of(int slot) { return slot / 2; }   ///< not for the tail
     int tail_slot() const { return hit_slot(join_) + 1; } ///< ends further on; only where has_join()
 
     /// The vertex at which offsets join the base path: the first j >= 1 that the step from j-1 joins, and that is
@@ -181,7 +173,6 @@ private:
 
     std::vector<Rgb> carried_;
     std::vector<Step> steps_; ///< one a vertex, the last one perhaps without a step
-    int light_samples_ = 1;
     int join_ = 0;
     int first_shared_ = 0;
     int last_alive_ = -1;

@@ -17,8 +17,7 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     const auto edge = static_cast<std::uint64_t>(block_edge_of(settings) + 1); // with one more column and row
     const std::uint64_t paths = settings.method == Method::pt ? 1 : edge * edge;
     const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
-    const std::uint64_t a_vertex =
-        sizeof(BaseVertex) + static_cast<std::uint64_t>(settings.light_samples) * sizeof(LightSample);
+    constexpr std::uint64_t a_vertex = sizeof(BaseVertex) + sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
                               (settings.method != Method::pt ? SetMeans::bytes(part_count(settings)) : 0);
     const std::uint64_t a_glimpse = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
@@ -112,7 +111,7 @@ void refuse_if_not_finite(const Pass& pass, const Tracer& tracer, glm::ivec2 pix
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, pixel.y, pixel.x});
-    path.reset(path.random, path.light_samples());
+    path.reset(path.random);
 }
 } // namespace
 

@@ -76,8 +76,7 @@ void PathReuse::replay_to_all(int base) {
     const BasePath& path = *set_[static_cast<std::size_t>(base)];
     replayed_scatters_.clear();
     if (paths_.keeps_scatters()) {
-        for (int slot = 0; slot < light_.hit_slot(0); ++slot)
-            replayed_scatters_.push_back(&paths_.add_first_scatter(slot, slot + 1));
+        replayed_scatters_.push_back(&paths_.add_first_scatter(light_.emitter_slot(0), light_.hit_slot(0)));
         replayed_scatters_.push_back(&paths_.add_first_scatter(light_.hit_slot(0), light_.slot_count()));
     }
     for (int m = 0; m < paths_.offsets(); ++m) {
@@ -101,13 +100,10 @@ void PathReuse::replay_to_all(int base) {
 /// How the path that was replayed for pixel m leaves y_1.
 void PathReuse::keep_scatters_of_replay(int m) {
     const BaseVertex& y = replayed_[0];
-    const int samples = light_.hit_slot(0);
-    for (int sample = 0; sample < samples; ++sample) {
-        const LightSample& l = replayed_.lights(0)[static_cast<std::size_t>(sample)];
-        replayed_scatters_[static_cast<std::size_t>(sample)]->direction.set(m, y.vertex.to_world(l.to_light));
-        replayed_scatters_[static_cast<std::size_t>(sample)]->f_cos.set(m, l.f_cos);
-    }
-    FirstScatter& onward = *replayed_scatters_[static_cast<std::size_t>(samples)];
+    const LightSample& l = replayed_.light(0);
+    FirstScatter &toward_light = *replayed_scatters_[0], &onward = *replayed_scatters_[1];
+    toward_light.direction.set(m, y.vertex.to_world(l.to_light));
+    toward_light.f_cos.set(m, l.f_cos);
     onward.direction.set(m, y.vertex.to_world(y.to_next));
     onward.f_cos.set(m, y.is_delta ? Rgb(FirstScatter::infinite) : y.f_cos);
 }
@@ -123,9 +119,7 @@ void PathReuse::tell_of_replay(int m) {
             if (slot <= std::min(light_.last_alive(), replayed_light_.last_alive()) && light_.is_alive(slot))
                 onlooker_->ends(m, slot, {i, pdf_w, is_delta, 1, paths_.ratio(slot, m), paths_.value(slot, m)});
         };
-        for (int sample = 0; sample < replayed_.light_samples(); ++sample)
-            end(light_.emitter_slot(i, sample), replayed_.lights(i)[static_cast<std::size_t>(sample)].pdf_sum,
-                false);
+        end(light_.emitter_slot(i), replayed_.light(i).pdf_sum, false);
         if (i + 1 == replayed_.size() && !y.escapes)
             return;
         end(light_.hit_slot(i), y.pdf_w + y.hit_pdf_w, y.is_delta);
@@ -206,7 +200,7 @@ void PathReuse::add_own(const BasePath& path, int slot, float factor, int lane, 
         return;
     const BaseVertex& x = path[0];
     if (slot < light_.hit_slot(0)) {
-        const LightSample& l = path.lights(0)[static_cast<std::size_t>(slot)];
+        const LightSample& l = path.light(0);
         arriving.add(lane, x.vertex.to_world(l.to_light), l.f_cos, carried);
     } else if (!x.is_delta) {
         arriving.add(lane, x.vertex.to_world(x.to_next), x.f_cos, carried);

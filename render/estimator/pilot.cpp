@@ -31,7 +31,7 @@ struct Trial {
             if (const float l = worker.reuse.arriving_luminance(path); l >= 0)
                 found.add_path(l);
             found.offset_rays += set.offset_rays;
-            found.base_rays += static_cast<double>(path.size() * (1 + path.light_samples()));
+            found.base_rays += static_cast<double>(2 * path.size());
             shared.emplace_back(set.coefficient(i));
             own.emplace_back(coefficient(path.radiance(), set.albedo[at]));
         }

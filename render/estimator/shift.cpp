@@ -44,7 +44,7 @@ void Shift::walk() {
     bool lights_are_connected = false; // emitter sampling at x_i went the way y_{i-1} -> x_i
     for (int i = 0; i < base_->size(); ++i) {
         if (!lights_are_connected)
-            shift_lights(i);
+            shift_light(i);
         if (!alive_from(light_->hit_slot(i)))
             return;
         if (base(i).survival < 1) // all that ends further on has survived the roulette on path length here
@@ -62,7 +62,7 @@ void Shift::walk() {
         if (settings_.shift == ShiftKind::reconnection)
             return; // x_1 and x_2 are joined or nothing is
         // What is left for a bounce: emitter sampling at x_{i+1}, unless it is done, and all that ends further on.
-        const int next_slot = lights_are_connected ? light_->hit_slot(i + 1) : light_->emitter_slot(i + 1, 0);
+        const int next_slot = lights_are_connected ? light_->hit_slot(i + 1) : light_->emitter_slot(i + 1);
         const bool hit_is_left = !light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i));
         if ((!hit_is_left && !alive_from(next_slot)) || !bounce(i))
             return;
@@ -70,26 +70,20 @@ void Shift::walk() {
 }
 
 /// Emitter sampling at x_i.
-void Shift::shift_lights(int i) {
-    const int first = light_->emitter_slot(i, 0), end = light_->hit_slot(i);
-    if (first < light_->first_shared() || !light_->is_alive(first, end))
+void Shift::shift_light(int i) {
+    const int slot = light_->emitter_slot(i);
+    if (slot < light_->first_shared() || !light_->is_alive(slot))
         return;
     LaneMask& asked = light_connection_.asked;
-    for (int sample = 0; sample < end - first; ++sample) {
-        if (!light_->is_alive(first + sample))
-            continue;
-        ask_for_lobes(asked);
-        const bool can_be_hit = base_light(i, sample).light.can_be_hit(), is_joined = joins_light(i, sample);
-        if (is_joined || (!replays() && !can_be_hit)) {
-            connect_light(i, sample, is_joined);
-            continue;
-        }
-        ask_for_scatter(i, first + sample, first + sample + 1);
-        EdgeGroup* edges = replays() ? &edges_->add(first + sample, first + sample + 1) : nullptr;
-        for (int m = 0; m < y_->count(); ++m)
-            if (asked[m])
-                edges ? replay_light(i, sample, m, *edges) : bounce_to_light(i, sample, m);
-    }
+    ask_for_lobes(asked);
+    const bool is_joined = joins_light(i);
+    if (is_joined || (!replays() && !base_->light(i).light.can_be_hit()))
+        return connect_light(i, is_joined);
+    ask_for_scatter(i, slot, slot + 1);
+    EdgeGroup* edges = replays() ? &edges_->add(slot, slot + 1) : nullptr;
+    for (int m = 0; m < y_->count(); ++m)
+        if (asked[m])
+            edges ? replay_light(i, m, *edges) : bounce_to_light(i, m);
 }
 
 /// The base leaves the scene at its last vertex, x_i, and meets the environment.
@@ -104,9 +98,9 @@ void Shift::escape(int i) {
             bounce_out(i, m);
 }
 
-bool Shift::joins_light(int i, int sample) const {
+bool Shift::joins_light(int i) const {
     const Vertex& x = base(i).vertex;
-    const float distance = base_light(i, sample).light.distance_from(x.position);
+    const float distance = base_->light(i).light.distance_from(x.position);
     return rule_.covers(x.bsdf.roughness(), rule_.turn(light_->apart(i), distance));
 }
 

@@ -132,12 +132,9 @@ public:
 
 private:
     const BaseVertex& base(int i) const { return (*base_)[i]; }
-    const LightSample& base_light(int i, int sample) const {
-        return base_->lights(i)[static_cast<std::size_t>(sample)];
-    }
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
-    /// Whether offsets at x_i are joined to a light sample there.
-    bool joins_light(int i, int sample) const;
+    /// Whether offsets at x_i are joined to the light sample there.
+    bool joins_light(int i) const;
     /// Whether an offset at y_i would be joined to what it meets at that distance, for the light that it gives.
     bool joins(int m, float distance) const {
         return rule_.covers(y_->roughness[m], rule_.turn(apart_[m], distance));
@@ -146,7 +143,7 @@ private:
     // The walk.
     bool start(int self);
     void walk();
-    void shift_lights(int i);
+    void shift_light(int i);
     void escape(int i);
     void ask_for_lobes(LaneMask& asked);
     void keep_alike(bool joined, LaneMask& asked, SightLanes& sight);
@@ -155,23 +152,23 @@ private:
 
     // Connections.
     void keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf);
-    void connect_light(int i, int sample, bool is_joined);
+    void connect_light(int i, bool is_joined);
     void connect_infinity(int i);
     void connect_next(int i);
     const VertexConnection& connect_vertex(int i, EdgeGroup& edges);
     void shift_hit(const VertexConnection& connection);
-    void shift_lights_beyond(const VertexConnection& connection);
+    void shift_light_beyond(const VertexConnection& connection);
     void shift_tail(const VertexConnection& connection);
 
     // Bounces.
     bool bounce(int i);
     bool bounce(int i, int m);
     const Vertex* meet(int i, int m, glm::vec3 direction);
-    void bounce_to_light(int i, int sample, int m);
+    void bounce_to_light(int i, int m);
     void bounce_out(int i, int m);
     void ask_for_scatter(int i, int first_slot, int end_slot);
     void keep_bounce(int m, const CopiedScatter& s, bool is_delta);
-    void replay_light(int i, int sample, int m, EdgeGroup& edges);
+    void replay_light(int i, int m, EdgeGroup& edges);
     void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
     bool is_joined_alike(int i, int m, float distance, const Vertex& next) const;

@@ -78,7 +78,7 @@ bool Shift::bounce(int i, int m) {
     const Vertex* next = met_[static_cast<std::size_t>(m)] = meet(i, m, direction);
     // By a connectable step, an emitter is reached by connecting (done before); else by this very ray.
     if (!light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i))) {
-        const LightPoint met = next ? tracer_.light_of(*next, -direction) : tracer_.environment_toward(direction);
+        const LightPoint met = next ? next->light_toward(-direction) : tracer_.environment_toward(direction);
         end_at_light(light_->hit_slot(i), m, *s, origin, met, x.pdf_w + x.hit_pdf_w, x.is_delta);
     }
     if (!next) {
@@ -116,9 +116,9 @@ void Shift::bounce_out(int i, int m) {
 }
 
 /// Emitter sampling at a vertex too glossy to connect: the half vector is copied, and the ray must find a light.
-void Shift::bounce_to_light(int i, int sample, int m) {
+void Shift::bounce_to_light(int i, int m) {
     const Vertex& y = (*y_)[m];
-    const LightSample& x = base_light(i, sample);
+    const LightSample& x = base_->light(i);
     const std::optional<CopiedScatter> s = copy_half_vector(base(i).vertex, x.to_light, y);
     if (!s)
         return fail(m, ShiftOutcome::no_light);
@@ -126,24 +126,24 @@ void Shift::bounce_to_light(int i, int sample, int m) {
     Vertex scratch;
     const LightPoint light = tracer_.light_along(tracer_.leave(y, y.to_world(s->to_next)), scratch,
                                                  RayKind::shift_bounce, tracer_.lookup());
-    end_at_light(light_->emitter_slot(i, sample), m, *s, y.position, light, x.pdf_sum, false);
+    end_at_light(light_->emitter_slot(i), m, *s, y.position, light, x.pdf_sum, false);
 }
 
 /// At a vertex too glossy to connect, the numbers of the light sample are replayed: as in
 /// PathReuse::replay_to_all, the ratio of densities is 1, and the value the offset's own.
-void Shift::replay_light(int i, int sample, int m, EdgeGroup& edges) {
+void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     LightSample drawn;
     Segment way;
-    if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, sample, drawn, way))
+    if (!draw_light(tracer_, (*y_)[m], base_->random, i + 1, drawn, way))
         return fail(m, ShiftOutcome::no_light);
     if (joins(m, drawn.light.distance_from((*y_)[m].position)))
         return fail(m, ShiftOutcome::kind_mismatch);
     complete_light(tracer_, drawn);
-    const int slot = light_->emitter_slot(i, sample);
+    const int slot = light_->emitter_slot(i);
     paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
     keep_bounce(m, {drawn.to_light, drawn.f_cos, drawn.pdf_w, 1}, false);
     if (onlooker_)
-        onlooker_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_light(i, sample).pdf_sum / drawn.pdf_sum));
+        onlooker_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_->light(i).pdf_sum / drawn.pdf_sum));
     edges.exists[m] = -1;
     edges.segments.from.set(m, way.from);
     edges.segments.to.set(m, way.to);

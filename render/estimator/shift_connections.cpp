@@ -22,9 +22,9 @@ void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& d
 
 /// Joins the offsets to the same point of the light, at infinity to the same direction.
 /// @param is_joined  whether the base is, by its lobe
-void Shift::connect_light(int i, int sample, bool is_joined) {
-    const LightSample& x = base_light(i, sample);
-    const int slot = light_->emitter_slot(i, sample);
+void Shift::connect_light(int i, bool is_joined) {
+    const LightSample& x = base_->light(i);
+    const int slot = light_->emitter_slot(i);
     LightConnection& c = light_connection_;
     connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
     // A copied half vector cannot meet a light without extent: that is joined to from either side.
@@ -104,7 +104,7 @@ void Shift::connect_next(int i) {
     if (first == hit && light_->is_alive(first))
         shift_hit(connection);
     if (light_->step_joins(i))
-        shift_lights_beyond(connection);
+        shift_light_beyond(connection);
     if (light_->join() == i + 1 && light_->last_alive() >= light_->hit_slot(i + 1))
         shift_tail(connection);
     fail_others(connection.asked, connection.lit, ShiftOutcome::no_light);
@@ -150,7 +150,7 @@ void Shift::shift_hit(const VertexConnection& c) {
     const BaseVertex& x = base(c.vertex);
     const Vertex& next = base(c.vertex + 1).vertex;
     const int slot = light_->hit_slot(c.vertex);
-    const LightPoint front = tracer_.light_of(next, next.geometric_normal);
+    const LightPoint front = next.light_toward(next.geometric_normal);
     const glm::vec3 normal = next.geometric_normal;
     const Vec3Lanes& direction = c.sight.direction;
     OffsetRow& row = paths_->row(slot);
@@ -168,28 +168,26 @@ void Shift::shift_hit(const VertexConnection& c) {
     });
 }
 
-/// Emitter sampling at x_{i+1}, seen from other directions than the base's. Nothing else changes.
-void Shift::shift_lights_beyond(const VertexConnection& c) {
-    const int next = c.vertex + 1, count = y_->count();
+/// Shifts the light sample of x_{i+1}, which the offsets see from other directions than the base. Nothing else
+/// changes.
+void Shift::shift_light_beyond(const VertexConnection& c) {
+    const int next = c.vertex + 1, slot = light_->emitter_slot(next), count = y_->count();
+    if (!light_->is_alive(slot))
+        return;
     const Vertex& x = base(next).vertex;
-    for (int sample = 0; sample < base_->light_samples(); ++sample) {
-        const LightSample& l = base_light(next, sample);
-        const int slot = light_->emitter_slot(next, sample);
-        if (!light_->is_alive(slot))
-            continue;
-        const std::optional<LightRay> seen = l.light.seen_from(x.position);
-        if (!seen)
-            continue;
-        evaluate(x, c.to_previous, l.to_light, c.reached, count, beyond_);
-        const float bsdf_counts = l.light.can_be_hit() ? 1 : 0, scale = 1 / l.pdf_sum;
-        OffsetRow& row = paths_->row(slot);
-        for (int m = 0; m < padded(count); ++m)
-            row.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
-                    c.prefix.value[m] * beyond_.f_cos[m] * seen->radiance * scale);
-        tell_of(c.reached, [&](int m) {
-            onlooker_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
-        });
-    }
+    const LightSample& l = base_->light(next);
+    const std::optional<LightRay> seen = l.light.seen_from(x.position);
+    if (!seen)
+        return;
+    evaluate(x, c.to_previous, l.to_light, c.reached, count, beyond_);
+    const float bsdf_counts = l.light.can_be_hit() ? 1 : 0, scale = 1 / l.pdf_sum;
+    OffsetRow& row = paths_->row(slot);
+    for (int m = 0; m < padded(count); ++m)
+        row.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
+                c.prefix.value[m] * beyond_.f_cos[m] * seen->radiance * scale);
+    tell_of(c.reached, [&](int m) {
+        onlooker_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
+    });
 }
 
 /// All that BSDF sampling at x_{i+1} finds: a light that it meets, and the sum of what lies further on, which

@@ -82,39 +82,10 @@ struct Tracer {
     const PathGuiding* guiding = nullptr; ///< null: paths are not guided
     std::vector<Hit>* hits = nullptr;     ///< vertices' own are added, as they are made; null: nobody asks
 
-    /// Draws point `sample` of settings.light_samples on the lights for vertex `index` of a path, not for a scene
-    /// without lights. False: it sends no light to the receiver. The pdf of a LightPoint that comes from here is
-    /// that of all light samples of a vertex together, which is what the balance heuristic weighs [Veach
-    /// 1997, 9.2.2].
-    bool sample_light(glm::vec3 receiver, const Random& random, int index, int sample, LightPoint& light) const {
-        if (!scene.lights().sample(receiver, random, index + sample * (most_edges + 1), light))
-            return false;
-        light.pdf *= density_factor();
-        return true;
-    }
-
-    /// Of the point that sample_light() draws.
-    LightDerivatives differentiate_light(const Random& random, int index, int sample) const {
-        LightDerivatives d = scene.lights().differentiate(random, index + sample * (most_edges + 1));
-        d.chance *= density_factor();
-        return d;
-    }
-
-    /// The light of a vertex toward a unit direction (world, away from the surface); black from behind.
-    LightPoint light_of(const Vertex& vertex, glm::vec3 direction) const {
-        LightPoint light = vertex.light_toward(direction);
-        light.pdf *= density_factor();
-        return light;
-    }
-
     /// The light of the environment from a unit direction; black: none.
     LightPoint environment_toward(glm::vec3 direction) const {
-        LightPoint light = scene.lights().environment_toward(direction);
-        light.pdf *= density_factor();
-        return light;
+        return scene.lights().environment_toward(direction);
     }
-
-    float density_factor() const { return static_cast<float>(settings.light_samples); }
 
     /// How wide what is looked up in textures is, as make_vertex() has it.
     struct TextureLookup {
@@ -177,7 +148,7 @@ struct Tracer {
     LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, TextureLookup lookup) const {
         switch (closest_light(ray, scratch, kind, lookup)) {
         case Met::light:
-            return light_of(scratch, -ray.direction);
+            return scratch.light_toward(-ray.direction);
         case Met::infinity:
             return environment_toward(ray.direction);
         case Met::darkness:

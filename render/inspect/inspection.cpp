@@ -91,11 +91,10 @@ Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number
 }
 
 /// @param d  of vertex i of the path
-void add_light_footprints(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
-                          InspectedVertex& x) {
-    for (InspectedLight& light : x.light_points)
-        if (worker.path.lights(i)[static_cast<std::size_t>(light.sample)].light.kind == LightPoint::Kind::surface)
-            light.footprint = footprint(differentiate_light(worker.tracer, worker.path, i, light.sample, d), rule);
+void add_light_footprint(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
+                         InspectedVertex& x) {
+    if (x.light && worker.path.light(i).light.kind == LightPoint::Kind::surface)
+        x.light->footprint = footprint(differentiate_light(worker.tracer, worker.path, i, d), rule);
 }
 
 /// Finds what the vertices of the path stand for, and its light samples.
@@ -114,7 +113,7 @@ void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from
                       InspectedVertex& x = path[static_cast<std::size_t>(i)];
                       x.footprint = footprint(d, rule);
                       x.footprint_width = widths[static_cast<std::size_t>(i)];
-                      add_light_footprints(worker, i, d, rule, x);
+                      add_light_footprint(worker, i, d, rule, x);
                   });
 }
 

@@ -6,6 +6,7 @@
 #include "render/inspect/path_differentials.h"
 #include "render/settings/settings.h"
 
+#include <optional>
 #include <stop_token>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,6 @@ struct SeenVertex {
 
 /// A light sample that brings light, on a surface or a point.
 struct InspectedLight {
-    int sample; ///< of those of its vertex
     glm::vec3 position;
     Footprint footprint{}; ///< as InspectedVertex has it; a point: a light without extent
 };
@@ -44,7 +44,7 @@ struct InspectedVertex : SeenVertex {
     float survival; ///< probability of the roulette on path length
     Rgb sampled;    ///< direct light by emitter sampling, with its MIS weight
     Rgb hit;        ///< direct light by BSDF sampling, with its MIS weight
-    std::vector<InspectedLight> light_points;
+    std::optional<InspectedLight> light; ///< the light sample, if it brings light and is not at infinity
     /// What the path stands for there, as one of the samples so far; a point: not known, or none of this pixel's
     /// own.
     Footprint footprint{};

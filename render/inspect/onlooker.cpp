@@ -28,12 +28,10 @@ InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
                       Rgb(0),
                       Rgb(0),
                       {}};
-    for (int sample = 0; sample < path.light_samples(); ++sample) {
-        const LightSample& light = path.lights(i)[static_cast<std::size_t>(sample)];
-        v.sampled += light.brings;
-        if (!is_black(light.brings) && !light.light.is_at_infinity())
-            v.light_points.push_back({sample, light.light.position});
-    }
+    const LightSample& light = path.light(i);
+    v.sampled = light.brings;
+    if (!is_black(light.brings) && !light.light.is_at_infinity())
+        v.light = InspectedLight{light.light.position};
     if (v.goes_on) {
         v.to_next = x.vertex.to_world(x.to_next);
         v.hit = x.hit_brings;

@@ -52,10 +52,10 @@ Scattering scattering_of(const BasePath& path, int i) {
             x.survival};
 }
 
-PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i, int sample,
+PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i,
                                     const PathDerivatives& vertex) {
-    const LightPoint& light = path.lights(i)[static_cast<std::size_t>(sample)].light;
-    const LightDerivatives by = tracer.differentiate_light(path.random, i + 1, sample);
+    const LightPoint& light = path.light(i).light;
+    const LightDerivatives by = tracer.scene.lights().differentiate(path.random, i + 1);
     PathDerivatives d{};
     d.count = 2;
     d.normal = light.normal;

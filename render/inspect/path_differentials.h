@@ -40,10 +40,10 @@ void differentiate(const Scene& scene, const Projection& projection, glm::vec2 p
     }
 }
 
-/// How light sample `sample` of vertex i of a path, which lies on a surface and brings light, moves: by its own
-/// two numbers, as those before do not move it. The gradient is of f cos at the vertex, and of cosine and squared
-/// distance at the light.
-PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i, int sample,
+/// Returns the derivatives of the light sample of vertex i of a path. The sample lies on a surface and brings
+/// light. Only its own two random numbers move it. The gradient is that of f cos at the vertex, and of cosine and
+/// squared distance at the light.
+PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i,
                                     const PathDerivatives& vertex);
 
 /// How large a part of [0, 1] one path stands for in each of its numbers [Suykens 2001, 3.4 and 4.3].

@@ -66,7 +66,7 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
         hits.footprint_1 = hits.footprint_2 = hits.depth;
     const Projection projection(camera, size);
     Counters counters;
-    const Tracer tracer{scene, counters, {3, 1, 0}}; // a vertex at the last edge is not kept if it does not shine
+    const Tracer tracer{scene, counters, {3, 0}}; // a vertex at the last edge is not kept if it does not shine
     for (int y = 0; y < size.y; ++y) {
         if (stop.stop_requested())
             return {};

@@ -11,8 +11,7 @@ namespace tessera {
 /// The purposes for which a path draws random numbers at one vertex. Every purpose has its own dimension, so
 /// that a path drawn again takes the same numbers whatever it skips.
 enum class Draw : std::uint32_t {
-    emitter, ///< for light sample j > 0 of a vertex: of that many times 65 vertices further on
-             ///< (Tracer::sample_light)
+    emitter,
     emitter_position,
     emitter_cell,
     lobe,

@@ -29,7 +29,6 @@ enum class Guiding : std::uint8_t {
 /// What decides how far base paths go and what they look for.
 struct PathSettings {
     int max_depth = 8;      ///< edges of a light path; 1: emission only
-    int light_samples = 1;  ///< points on lights drawn at every vertex
     int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
     TextureFilter filter_textures = TextureFilter::off;
     Guiding path_guiding = Guiding::where_it_pays;

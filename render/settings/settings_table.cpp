@@ -218,8 +218,6 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Draws some of the directions at rough surfaces from where earlier passes found light to come from, by "
          "place in the scene: as many as have paid there. The BSDF has the others.",
          one_of(guidings, s.path_guiding), true, true},
-        {"light_samples", "Light samples", "Points on lights that are drawn at every vertex of a path.",
-         Setting::Whole{&s.light_samples, 1, 16}, true, true},
         {"positions", "Positions",
          "Where a pixel sees several things, as at edges, a pass sees it from so many places within it, and each "
          "base path is shared at one of them. 1: all are shared at the same, and an edge is as rough as one "

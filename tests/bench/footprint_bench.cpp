@@ -85,7 +85,7 @@ private:
 
     void trace(std::uint32_t i, std::vector<Hit>* hits) {
         hits_.clear();
-        const Tracer tracer{scene_, counters_, {6, 1, 0}, {}, nullptr, hits};
+        const Tracer tracer{scene_, counters_, {6, 0}, {}, nullptr, hits};
         ray_ = projection_.ray(pixel(i));
         trace_base_path(tracer, ray_, projection_.pixel_width(), Random(1, i, 0), path_);
     }

@@ -40,11 +40,10 @@ constexpr const char* names[] = {"point", "footprint", "limited"};
 class RayTracer {
 public:
     RayTracer(const Scene& scene, Lookup lookup, int rays_edge)
-        : scene_(scene), tracer_{scene, counters_, {most_scatters + 2, 1, 0}}, projection_(scene.camera(), size),
-          lookup_(lookup),
-          rays_edge_(rays_edge), rule_{static_cast<float>(rays_edge * rays_edge), false,
-                                       lookup == Lookup::limited ? DeltaRule::published_change : 0,
-                                       static_cast<float>(splits)} {}
+        : scene_(scene), tracer_{scene, counters_, {most_scatters + 2, 0}}, projection_(scene.camera(), size),
+          lookup_(lookup), rays_edge_(rays_edge),
+          rule_{static_cast<float>(rays_edge * rays_edge), false,
+                lookup == Lookup::limited ? DeltaRule::published_change : 0, static_cast<float>(splits)} {}
 
     /// @param jitters  points of the grid are spread over its cells, not in their middle
     Rgb pixel(glm::ivec2 p, std::uint64_t seed, bool jitters) {

@@ -109,7 +109,7 @@ Rays rays_of(const Scene& scene) {
             const BaseVertex& v = path[i];
             LightSample drawn;
             Segment way;
-            if (i + 1 < max_depth && draw_light(tracer, v.vertex, path.random, i + 1, 0, drawn, way))
+            if (i + 1 < max_depth && draw_light(tracer, v.vertex, path.random, i + 1, drawn, way))
                 rays.to_lights.push_back(way);
             if (i + 1 < path.size() || v.escapes)
                 rays.bounces.push_back(tracer.leave(v.vertex, v.vertex.to_world(v.to_next)));

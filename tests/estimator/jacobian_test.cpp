@@ -160,7 +160,7 @@ void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&
 TEST(Jacobian, OfReconnectionIsThatOfDirections) {
     const auto scene = Room().build();
     Counters counters;
-    const Tracer tracer{*scene, counters, {4, 1, 0}};
+    const Tracer tracer{*scene, counters, {4, 0}};
     int count = 0;
     for_pairs(tracer, 3, {3, 2}, [&](const BasePath& base, const BasePath& other) {
         for (const ShiftKind kind :
@@ -200,19 +200,19 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
 TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
     const auto scene = Room().build();
     Counters counters;
-    const Tracer tracer{*scene, counters, {2, 1, 0}};
+    const Tracer tracer{*scene, counters, {2, 0}};
     const ShiftSettings settings;
     int count = 0;
     for_pairs(tracer, 4, {3, 2}, [&](const BasePath& base, const BasePath& other) {
         LightPaths light;
         light.reset(base, settings);
-        const int slot = light.emitter_slot(0, 0);
+        const int slot = light.emitter_slot(0);
         if (!light.is_alive(slot))
             return;
         OffsetPaths paths;
         const Vertex &x = base[0].vertex, &y = other[0].vertex;
         shift_to_one(tracer, settings, base, light, other, paths);
-        const LightSample& l = base.lights(0)[0];
+        const LightSample& l = base.light(0);
         const glm::vec3 direction = glm::normalize(l.light.position - x.position);
         const auto seen = l.light.seen_from(y.position);
         if (!(paths.ratio(slot, 0) > 0) || !seen || glm::dot(direction, l.light.normal) > -0.15f)
@@ -239,7 +239,7 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
     r.sphere({0.35f, -0.55f, 0}, 0.35f, r.rough_glass(0.3f));
     const auto scene = r.build();
     Counters counters;
-    const Tracer tracer{*scene, counters, {5, 1, 0}};
+    const Tracer tracer{*scene, counters, {5, 0}};
     const ShiftSettings settings{ShiftKind::replay_reconnection, 1};
     int count = 0;
     for_pairs(tracer, 5, {1, 1}, [&](const BasePath& base, const BasePath& other) {

@@ -55,14 +55,12 @@ std::vector<Variant> all_variants() {
     using S = RenderSettings;
     return {
         variant("pt", Method::pt, 1),
-        variant("pt, 3 light samples, RR depth 2", Method::pt, 1,
-                [](S& s) { s.light_samples = 3, s.roulette_depth = 2; }),
+        variant("pt, RR depth 2", Method::pt, 1, [](S& s) { s.roulette_depth = 2; }),
         variant("pt, path guiding, RR depth 1", Method::pt, 1,
                 [](S& s) { s.path_guiding = Guiding::on, s.roulette_depth = 1; }),
         variant("pr, path guiding", Method::pr, 4, [](S& s) { s.path_guiding = Guiding::on; }),
         variant("gpt, path guiding", Method::gpt, 1, [](S& s) { s.path_guiding = Guiding::on; }),
-        variant("gpr, path guiding, 2 light samples", Method::gpr, 6,
-                [](S& s) { s.path_guiding = Guiding::on, s.light_samples = 2; }),
+        variant("gpr, path guiding", Method::gpr, 6, [](S& s) { s.path_guiding = Guiding::on; }),
         variant("gpr, path guiding, replay", Method::gpr, 3,
                 [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay; }),
         variant("gpr, path guiding, replay-reconnection", Method::gpr, 4,
@@ -74,14 +72,14 @@ std::vector<Variant> all_variants() {
                 [](S& s) { s.pattern = Pattern::rooks, s.weight_threshold = 0.9f; }),
         variant("pr, 4-rooks, replay, RR depth 2", Method::pr, 4,
                 [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::replay, s.roulette_depth = 2; }),
-        variant("pr, reconnection, 2 light samples, RR depth 2", Method::pr, 4,
-                [](S& s) { s.shift = ShiftKind::reconnection, s.light_samples = 2, s.roulette_depth = 2; }),
+        variant("pr, reconnection, RR depth 2", Method::pr, 4,
+                [](S& s) { s.shift = ShiftKind::reconnection, s.roulette_depth = 2; }),
         variant("gpt, RR weight, RR depth 1", Method::gpt, 1,
                 [](S& s) { s.weight_threshold = 1, s.roulette_depth = 1; }),
         variant("gpt, replay, no basis, base primal", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none, s.primal = PrimalSource::base; }),
         variant("gpt, replay-reconnection", Method::gpt, 1,
-                [](S& s) { s.shift = ShiftKind::replay_reconnection, s.light_samples = 2; }),
+                [](S& s) { s.shift = ShiftKind::replay_reconnection; }),
         variant("gpr", Method::gpr, 1),
         variant("gpr, absolute roulette, joins by threshold", Method::gpr, 2,
                 [](S& s) { s.roulette = RouletteKind::absolute, s.join = JoinKind::threshold; }),
@@ -93,9 +91,9 @@ std::vector<Variant> all_variants() {
                 [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2; }),
         variant("gpr, reconnection, base primal", Method::gpr, 8,
                 [](S& s) { s.shift = ShiftKind::reconnection, s.primal = PrimalSource::base; }),
-        variant("gpr, no roulette, 2 light samples, RR weight, RR depth 2", Method::gpr, 16,
+        variant("gpr, no roulette, RR weight, RR depth 2", Method::gpr, 16,
                 [](S& s) {
-                    s.roulette = RouletteKind::none, s.adapt_tile = false, s.light_samples = 2;
+                    s.roulette = RouletteKind::none, s.adapt_tile = false;
                     s.weight_threshold = 0.9f, s.roulette_depth = 2;
                 }),
     };

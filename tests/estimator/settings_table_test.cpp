@@ -59,7 +59,6 @@ TEST(SettingsTable, SetTextUndoesText) {
         {"jitter", {"off", "on"}},
         {"pattern", {"tile", "rooks"}},
         {"roulette", {"relative", "absolute", "none"}},
-        {"rr_scale", {"0", "0.25"}},
         {"rr_delta", {"1e+30", "0.001"}},
         {"primal", {"reuse", "base"}},
         {"shift", {"half-vector", "replay-reconnection"}},

@@ -38,11 +38,11 @@ struct Tally {
 
 class Sharing {
 public:
-    Sharing(const TestScene& t, ShiftSettings settings, int light_samples, int roulette_depth,
-            TextureFilter filter, bool spares_first = false)
+    Sharing(const TestScene& t, ShiftSettings settings, int roulette_depth, TextureFilter filter,
+            bool spares_first = false)
         : scene_(*t.scene), settings_(settings), tracer_{scene_,
                                                          counters_,
-                                                         {t.max_depth, light_samples, roulette_depth, filter},
+                                                         {t.max_depth, roulette_depth, filter},
                                                          {filter, spares_first, scene_.camera(), size}},
           reuse_(tracer_, settings_, 0) {}
 
@@ -181,13 +181,11 @@ class Shares : public testing::TestWithParam<TestScene> {
 protected:
     /// Floats cannot tell the length of the shortest edges, in corners, to 1e-3, nor a direction to what a narrow
     /// lobe makes of it, nor on which side of a triangle's border a ray passes.
-    static void judge(ShiftSettings s, int light_samples, int roulette_depth,
-                      TextureFilter filter = TextureFilter::off) {
+    static void judge(ShiftSettings s, int roulette_depth, TextureFilter filter = TextureFilter::off) {
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
-                     std::to_string(s.shift_distance) + ", join " + std::to_string(static_cast<int>(s.join)) +
-                     ", light samples " + std::to_string(light_samples));
-        const Tally t = Sharing(GetParam(), s, light_samples, roulette_depth, filter).run(40);
+                     std::to_string(s.shift_distance) + ", join " + std::to_string(static_cast<int>(s.join)));
+        const Tally t = Sharing(GetParam(), s, roulette_depth, filter).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.apart, 0.001 * t.shared);
@@ -202,9 +200,9 @@ protected:
 TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        judge({kind, 0, 0, JoinKind::threshold}, 1, 0);
-        judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 3, 2);
-        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 2, 0, TextureFilter::path);
+        judge({kind, 0, 0, JoinKind::threshold}, 0);
+        judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 2);
+        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 0, TextureFilter::path);
     }
 }
 
@@ -213,7 +211,7 @@ TEST_P(Shares, AreTheSameWhetherASetIsBegunOnceOrForEachPath) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
         const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance, JoinKind::threshold};
-        Sharing sharing(GetParam(), s, 1, 0, TextureFilter::path);
+        Sharing sharing(GetParam(), s, 0, TextureFilter::path);
         const auto once = sharing.share_sets(40, false), anew = sharing.share_sets(40, true);
         EXPECT_TRUE(once.radiance == anew.radiance) << static_cast<int>(kind);
         EXPECT_LE(once.rays, anew.rays);
@@ -251,7 +249,7 @@ TEST(SharesInMirrors, AreTheSameWhateverIsFilteredThere) {
         for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path})
             for (const bool spares_first : {false, true}) {
                 const Tally t =
-                    Sharing(scene, {kind, 0.001f, 0, JoinKind::footprint}, 1, 0, filter, spares_first).run(60);
+                    Sharing(scene, {kind, 0.001f, 0, JoinKind::footprint}, 0, filter, spares_first).run(60);
                 EXPECT_GT(t.shared, 200);
                 EXPECT_EQ(t.lost, 0);
                 EXPECT_LE(t.unequal, 0.04 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;

@@ -57,7 +57,7 @@ Tally tally(const TestScene& t) {
                 if (base.size() < 2 || right.empty())
                     continue;
                 light.reset(base, shift_settings);
-                const int slot = light.emitter_slot(1, 0);
+                const int slot = light.emitter_slot(1);
                 if (base[1].vertex.bsdf.roughness() > t.shift_threshold || !light.is_alive(slot))
                     continue;
                 shift_to_one(tracer, shift_settings, base, light, right, paths, true);

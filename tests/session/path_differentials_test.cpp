@@ -118,7 +118,7 @@ template <class Visit>
 void for_paths(const Scene& scene, Visit&& visit) {
     Counters counters;
     std::vector<Hit> hits;
-    const Tracer tracer{scene, counters, {6, 1, 0}, {}, nullptr, &hits};
+    const Tracer tracer{scene, counters, {6, 0}, {}, nullptr, &hits};
     const Projection projection(scene.camera(), size);
     Differentiation along;
     for (std::uint32_t i = 0; i < 400; ++i) {
@@ -315,11 +315,11 @@ TEST(PathDifferentials, LightSamplesHaveTheirGradients) {
     std::vector<double> errors;
     for_paths(*r.build(), [&](const Differentiated& d) {
         for (int i = 0; i < d.path.size(); ++i) {
-            const LightSample& drawn = d.path.lights(i)[0];
+            const LightSample& drawn = d.path.light(i);
             if (is_black(drawn.brings))
                 continue;
             const PathDerivatives& vertex = d.vertices[static_cast<std::size_t>(i)];
-            const PathDerivatives light = differentiate_light(d.tracer, d.path, i, 0, vertex);
+            const PathDerivatives light = differentiate_light(d.tracer, d.path, i, vertex);
             EXPECT_EQ(light.numbers, vertex.numbers + 2);
             EXPECT_LT(footprint(light, {16}).area(), footprint(light, {}).area() * 1.001f);
             const Vertex& x = d.path[i].vertex;

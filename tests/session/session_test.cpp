@@ -90,8 +90,7 @@ TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
     all = &session;
     session.set_pace(until(1));
     std::uint64_t last = 0;
-    RenderRequest r = request(Method::gpr, {320, 240});
-    r.settings.light_samples = 4; // so that looks take long
+    const RenderRequest r = request(Method::gpr, {640, 480}); // large, so that looks take long
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t looks = 0; looks < 3 && std::chrono::steady_clock::now() - begin < 2min;) {
         last = session.submit(0, r); // as a camera that is dragged without rest

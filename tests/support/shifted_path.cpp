@@ -16,14 +16,13 @@ struct SlotMeaning {
     bool is_tail; ///< all that ends beyond the join
     bool is_hit;  ///< BSDF sampling at `vertex` meets a light
     int vertex;   ///< the last one with a choice: of the tail the join
-    int sample;   ///< of emitter sampling at `vertex`
 };
 
 SlotMeaning meaning_of(const LightPaths& light, int slot) {
     if (light.has_join() && slot == light.tail_slot())
-        return {true, false, light.join(), -1};
+        return {true, false, light.join()};
     const int vertex = light.vertex_of(slot);
-    return {false, slot == light.hit_slot(vertex), vertex, slot - light.emitter_slot(vertex, 0)};
+    return {false, slot == light.hit_slot(vertex), vertex};
 }
 
 class Builder {
@@ -35,7 +34,7 @@ public:
     }
 
     std::optional<BasePath> build(const BasePath& other) {
-        path_.reset(base_.random, base_.light_samples());
+        path_.reset(base_.random);
         path_.pixel_width = other.pixel_width;
         path_.pixel_angle = other.pixel_angle;
         path_.own_width = other.pixel_width;
@@ -143,7 +142,7 @@ private:
         const glm::vec3 d = next.position - y.vertex.position;
         y.next_geometry = std::abs(glm::dot(next.geometric_normal, direction)) / glm::dot(d, d);
         if (ends_by_hit(i)) {
-            const LightPoint light = tracer_.light_of(next, -direction);
+            const LightPoint light = next.light_toward(-direction);
             set_hit(y, light.radiance, light.pdf / y.next_geometry);
         }
         return y.next_geometry > 0;
@@ -157,8 +156,8 @@ private:
     /// The light path ends at a point of a light that the last vertex has chosen.
     bool end_by_emitter_sampling() {
         const Vertex& y = path_[end_.vertex].vertex;
-        const LightSample& x = base_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
-        LightSample& drawn = path_.lights(end_.vertex)[static_cast<std::size_t>(end_.sample)];
+        const LightSample& x = base_.light(end_.vertex);
+        LightSample& drawn = path_.light(end_.vertex);
         const Vertex& last = base_[end_.vertex].vertex;
         const JoinRule rule(settings_, base_.pixel_angle);
         const bool is_joined = end_.vertex > 0 && light_.step_joins(end_.vertex - 1); // then it is the base's own
@@ -167,7 +166,7 @@ private:
                                      rule.turn(light_.apart(end_.vertex), x.light.distance_from(last.position)));
         if (!connectable && settings_.shift == ShiftKind::replay_reconnection) {
             Segment way;
-            if (!draw_light(tracer_, y, base_.random, end_.vertex + 1, end_.sample, drawn, way))
+            if (!draw_light(tracer_, y, base_.random, end_.vertex + 1, drawn, way))
                 return false;
             complete_light(tracer_, drawn);
             return true;
@@ -222,9 +221,8 @@ BasePath isolated(const BasePath& path, const ShiftSettings& settings, int slot)
     for (int i = 0; i < one.size(); ++i) {
         if (end.is_tail && i > end.vertex)
             break; // that is the tail
-        for (int j = 0; j < one.light_samples(); ++j)
-            if (end.is_tail || end.is_hit || i != end.vertex || j != end.sample)
-                one.lights(i)[static_cast<std::size_t>(j)].brings = Rgb(0);
+        if (end.is_tail || end.is_hit || i != end.vertex)
+            one.light(i).brings = Rgb(0);
         if (!end.is_hit || i != end.vertex)
             one[i].hit_brings = Rgb(0);
         if (!end.is_tail)

@@ -195,11 +195,11 @@ void draw_base_path(const SceneLines& lines, const std::vector<InspectedVertex>&
         if (x.footprint.area() > 0)
             draw_footprint(lines, x.position, x.footprint, font * 0.08f);
     for (const InspectedVertex& x : path)
-        for (const InspectedLight& light : x.light_points) {
-            lines.line(x.position, light.position, light_colour, font * 0.09f);
-            lines.point(light.position, light_colour, font * 0.15f);
-            if (light.footprint.area() > 0)
-                draw_footprint(lines, light.position, light.footprint, font * 0.08f);
+        if (x.light) {
+            lines.line(x.position, x.light->position, light_colour, font * 0.09f);
+            lines.point(x.light->position, light_colour, font * 0.15f);
+            if (x.light->footprint.area() > 0)
+                draw_footprint(lines, x.light->position, x.light->footprint, font * 0.08f);
         }
     for (std::size_t i = 0; i < path.size(); ++i) {
         if (i + 1 < path.size())

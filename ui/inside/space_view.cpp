@@ -26,8 +26,8 @@ std::vector<glm::vec3> extent_of(const SpaceSubject& subject, const SpaceView& v
     std::vector<glm::vec3> all;
     for (const InspectedVertex& x : subject.path) {
         all.push_back(x.position);
-        for (const InspectedLight& light : x.light_points)
-            all.push_back(light.position);
+        if (x.light)
+            all.push_back(x.light->position);
     }
     for (const InspectedShift* s : subject.shifts)
         if (!is_black(s->value)) {

@@ -80,7 +80,6 @@ PaneSettings with_own(PaneSettings preset, const PaneSettings& pane) {
     preset.render.method = pane.render.method;
     preset.render.seed = pane.render.seed;
     preset.render.max_depth = pane.render.max_depth;
-    preset.render.light_samples = pane.render.light_samples;
     preset.buffer = pane.buffer;
     preset.comparison = pane.comparison;
     return preset;

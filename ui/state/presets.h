@@ -18,8 +18,7 @@ struct Preset {
 /// All presets; the program's own is the first.
 std::span<const Preset> presets();
 
-/// Gives a pane the preset's settings. Its method and its depth, seed and light samples stay, which are the
-/// scene's or the user's, and so do its buffer and comparison.
+/// Gives a pane the settings of the preset. The pane keeps its method, depth, seed, buffer and comparison.
 void apply(const Preset& preset, PaneSettings& pane);
 
 /// The preset that the pane's settings are those of, whatever it keeps of its own; -1: none.

@@ -1,4 +1,5 @@
 #include "render/scene/scene.h"
+#include "render/settings/settings.h"
 #include "tests/ui/viewer_harness.h"
 
 #include <cstdint>
@@ -92,14 +93,14 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
 TEST_F(PanelTest, SeldomChangedSettingsAreFoldedAway) {
     state().layout.open_sections = Layout().open_sections;
     frames(2);
-    EXPECT_FALSE(has("light_samples"));
+    EXPECT_FALSE(has("roulette_depth"));
     click("more");
-    click_at("light_samples", 0.99f);
-    EXPECT_EQ(render(0).light_samples, 16);
+    click_at("roulette_depth", 0.99f);
+    EXPECT_EQ(render(0).roulette_depth, most_edges);
     choose("primal", "base");
     EXPECT_EQ(render(1).primal, PrimalSource::base);
     click("more");
-    EXPECT_FALSE(has("light_samples"));
+    EXPECT_FALSE(has("roulette_depth"));
 }
 
 TEST_F(PanelTest, LogSlidersReachSmallValuesInTheMiddle) {
