@@ -82,7 +82,6 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
-    add_per_channel(command, words.reconstruction);
     command.add_flag(
         "--buffers", options.layers.buffers,
         "primal, dx, dy, direct, the variances, and shares of what was reused, of each outcome of the "

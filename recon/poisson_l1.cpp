@@ -34,7 +34,7 @@ const float* values(const RgbImage& image, int y) {
 }
 
 /// How a term turns w = q - g into the dual variable u.
-enum class Cut { joint, per_channel, scale };
+enum class Cut { joint, scale };
 
 /// factors[i] such that u = factors[i] w[i], for `count` pixels.
 void cut_factors(Cut cut, float threshold, int count, const float* w, float* factors) {
@@ -50,10 +50,6 @@ void cut_factors(Cut cut, float threshold, int count, const float* w, float* fac
             factors[3 * i] = factors[3 * i + 1] = factors[3 * i + 2] = length[i];
         return;
     }
-    case Cut::per_channel:
-        for (int i = 0; i < 3 * count; ++i)
-            factors[i] = threshold / std::max(std::abs(w[i]), threshold);
-        return;
     case Cut::scale:
         std::fill(factors, factors + 3 * count, threshold);
         return;
@@ -70,7 +66,7 @@ struct L1Solver::Step {
     float beta;
     float old_dual_scale;  ///< of u: thresholds that change scale it
     float next_dual_scale; ///< of u in the iteration to come
-    Cut gradient_cut, primal_cut;
+    Cut primal_cut;
     float old_threshold, threshold;               ///< of the gradients
     float old_primal_threshold, primal_threshold; ///< of primal_cut
 };
@@ -142,8 +138,7 @@ int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, R
 
     Step step{};
     step.beta = std::max(problem.alpha, least_beta);
-    step.gradient_cut = settings.joint_colour ? Cut::joint : Cut::per_channel;
-    step.primal_cut = settings.square_primal ? Cut::scale : step.gradient_cut;
+    step.primal_cut = settings.square_primal ? Cut::scale : Cut::joint;
     const float pull = problem.alpha / (step.beta * step.beta);
     const auto primal_threshold = [&](float t) {
         const float squared = 2 * problem.alpha * pull * t;
@@ -250,8 +245,8 @@ void L1Solver::update_row(const PoissonProblem& problem, const Step& step, const
                           float* below) {
     const int width = solver_.width();
     const bool last_row = y + 1 == solver_.height();
-    const TermUpdate gradient{step.gradient_cut, step.old_threshold, step.threshold,      step.relaxation,
-                              step.resume,       step.park,          step.old_dual_scale, step.next_dual_scale};
+    const TermUpdate gradient{Cut::joint,  step.old_threshold, step.threshold,      step.relaxation,
+                              step.resume, step.park,          step.old_dual_scale, step.next_dual_scale};
     TermUpdate primal = gradient;
     primal.cut = step.primal_cut;
     primal.old_threshold = step.old_primal_threshold;

@@ -10,8 +10,6 @@ namespace tessera {
 /// What an L1 solve minimises, and for how long.
 struct L1Settings {
     bool square_primal = false; ///< mixed norms: the primal's misfit is squared, which keeps its mean
-    bool joint_colour = true; ///< |.| is the length of a colour, so that the channels agree on what is an outlier;
-                              ///< or else each channel is on its own
     int cold_iterations = 25; ///< inner solves of a first start, >= 1
     int warm_iterations = 5;  ///< of a warm start, >= 1
 };
@@ -20,7 +18,8 @@ struct L1Settings {
 /// a scale that an outlier does not move. 1 for a black image.
 float typical_value(const RgbImage& image);
 
-/// The screened Poisson problem with absolute values for squares: minimises the sum over the pixels of
+/// The screened Poisson problem with lengths of colours for squares, so that the channels agree on outliers.
+/// Minimises the sum over the pixels of
 ///     |Dx I - dx| + |Dy I - dy| + alpha |I - primal| ,
 /// or with (alpha |I - primal|)^2 / typical_value(primal) for the last (square_primal), whose unit is then that of
 /// the others. A cold start comes within 1 % of the least sum in the default iterations.

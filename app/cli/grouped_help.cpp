@@ -28,7 +28,7 @@ const std::vector<HelpGroup>& help_groups() {
           "--tile", "--reference", "-o"}},
         {"Scene", {"-D", "--camera", "--strict"}},
         {"Method", render_option_names()},
-        {"Reconstruction", {"--alpha", "--spikes", "--per-channel"}},
+        {"Reconstruction", {"--alpha", "--spikes"}},
         {"Jobs that processes share",
          {"--list", "--job", "--report", "--any-build", "--machine", "--any-machine", "--silence"}},
     };

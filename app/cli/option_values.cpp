@@ -193,12 +193,6 @@ CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings) {
     return add_setting(command, setting_named(settings_of(settings), "spikes"));
 }
 
-CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings) {
-    return command.add_flag_callback(
-        "--per-channel", [&settings] { settings.joint_colour = false; },
-        "l1 and mixed: absolute values of each channel, not lengths of colours");
-}
-
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
     return command.add_option("--clock", clock, "what --time counts: cpu or wall")
         ->check(CLI::IsMember({"wall", "cpu"}))

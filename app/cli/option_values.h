@@ -60,8 +60,6 @@ CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string&
 CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings);
 /// --spikes.
 CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings);
-/// --per-channel, which turns the joint colour off.
-CLI::Option* add_per_channel(CLI::App& command, ReconstructionSettings& settings);
 /// --clock, "cpu" or "wall": what --time counts.
 CLI::Option* add_clock(CLI::App& command, std::string& clock);
 

@@ -46,7 +46,6 @@ void add_reconstruct(CLI::App& app, ReconstructWords& words) {
     add_norms(command, words.norms, "or several: one layer each")->capture_default_str();
     add_alpha(command, options.layers.settings);
     add_spikes(command, options.layers.settings);
-    add_per_channel(command, options.layers.settings);
     add_setting(command, threads_setting(options.threads));
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
@@ -85,7 +84,6 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"norms", norms},
             {"alpha", options.layers.settings.alpha},
             {"spikes", to_string(options.layers.settings.spikes)},
-            {"per_channel", !options.layers.settings.joint_colour},
             {"repaired_pixels", input.repaired}};
 }
 

@@ -23,7 +23,6 @@ nlohmann::json settings_of(const SavedPicture& picture, Norm norm) {
     nlohmann::json json =
         settings_json(picture.source, snapshot.settings, size, snapshot.spp, picture.reconstruction);
     json["norm"] = to_string(norm);
-    json["joint_colour"] = picture.reconstruction.joint_colour;
     return json;
 }
 

@@ -14,8 +14,6 @@ namespace tessera {
 std::vector<Setting> settings_of(PictureSettings& s) {
     std::vector<Setting> all = settings_of(s.render);
     for (Setting& setting : settings_of(s.reconstruction, has_gradients(s.render.method))) {
-        if (setting.id == "joint_colour") // journals and names of pictures do not tell it
-            continue;
         if (setting.id == "norm") {
             setting.id = "recon";
             setting.label = "Reconstruction";

@@ -53,7 +53,7 @@ Reconstruction PictureSolvers::solve(const GradientImages& images, const Reconst
         break;
     case Norm::l1:
     case Norm::mixed: {
-        const L1Settings l1{.square_primal = settings.norm == Norm::mixed, .joint_colour = settings.joint_colour};
+        const L1Settings l1{.square_primal = settings.norm == Norm::mixed};
         result.iterations = made(l1_).solve(problem, l1, result.image, parallel_for, watch);
         break;
     }

@@ -16,7 +16,6 @@ namespace tessera {
 struct ReconstructionSettings {
     Norm norm = Norm::guided;
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
-    bool joint_colour = true; ///< L1 and mixed: lengths of colours, not absolute values of each channel
     Spikes spikes = Spikes::consistent;
 
     bool operator==(const ReconstructionSettings&) const = default;

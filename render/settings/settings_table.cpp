@@ -243,10 +243,6 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
          "mean, as far as they are trusted; with weights of their own alpha counts half.",
          Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10},
          s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed},
-        {"joint_colour", "Joint colour",
-         "On: misfits are lengths of colours, and the channels agree on what is an outlier. Off: each channel is "
-         "on its own.",
-         Setting::Switch{&s.joint_colour}, s.norm == Norm::l1 || s.norm == Norm::mixed},
         spikes_setting(s.spikes),
     };
 }

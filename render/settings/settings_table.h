@@ -23,7 +23,7 @@ inline constexpr int most_threads = 1024;    ///< of a renderer
 /// All members of RenderSettings but method and seed, in the order of the panel.
 std::vector<Setting> settings_of(RenderSettings& settings);
 
-/// Norm, alpha, joint colour and spikes, in this order. What matters is so for methods that have gradients.
+/// Norm, alpha and spikes, in this order. What matters is so for methods that have gradients.
 std::vector<Setting> settings_of(ReconstructionSettings& settings);
 /// The same, where it is known whether there are gradients: without them, there is nothing to solve.
 std::vector<Setting> settings_of(ReconstructionSettings& settings, bool has_gradients);

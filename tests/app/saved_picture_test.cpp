@@ -58,7 +58,6 @@ TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     snapshot->cpu_seconds = 9.25;
     snapshot->counters.camera_paths = 1344;
     settings.norm = Norm::l1;
-    settings.joint_colour = false;
     const SceneSource source{"room.xml", {{"roughness", "0.1"}}, {}};
     const ExrFile exr = saved({snapshot, settings, source, nullptr, nullptr});
 
@@ -66,7 +65,6 @@ TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     EXPECT_EQ(about.at("norm"), "l1");
     EXPECT_EQ(about.at("scene"), "room.xml");
     EXPECT_EQ(about.at("variables").at("roughness"), "0.1");
-    EXPECT_EQ(about.at("joint_colour"), false);
     const auto stats = json::parse(exr.attributes.at("tessera:stats"));
     EXPECT_EQ(stats.at("seconds").at("render").at("wall"), 3.5);
     EXPECT_EQ(stats.at("seconds").at("render").at("cpu"), 9.25);

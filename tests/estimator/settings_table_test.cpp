@@ -88,7 +88,6 @@ TEST(SettingsTable, HasWhatIsNoRenderSetting) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
         {"norm", {"none", "l2", "l1", "mixed", "uniform", "weighted"}},
         {"alpha", {"0.0001", "1000"}},
-        {"joint_colour", {"off", "on"}},
         {"method", {"pt", "pr", "gpt", "gpr"}},
         {"seed", {"0", "18446744073709551615"}},
         {"spp", {"2", "100000000"}},
@@ -101,7 +100,7 @@ TEST(SettingsTable, HasWhatIsNoRenderSetting) {
             EXPECT_EQ(setting_named(settings, id).text(), value) << id;
         }
     EXPECT_EQ(method, Method::gpr);
-    EXPECT_EQ(reconstruction, (ReconstructionSettings{Norm::weighted, 1000, true}));
+    EXPECT_EQ(reconstruction, (ReconstructionSettings{Norm::weighted, 1000}));
     EXPECT_EQ(size, glm::ivec2(64, 32));
     EXPECT_EQ(refusal(setting_named(settings, "spp"), "1"),
               "spp is \"1\": must be a whole number from 2 to 100000000");
@@ -129,9 +128,6 @@ TEST(SettingsTable, SaysWhatMatters) {
         reconstruction.norm = norm;
         EXPECT_EQ(setting_named(settings_of(reconstruction), "alpha").matters,
                   norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed)
-            << to_string(norm);
-        EXPECT_EQ(setting_named(settings_of(reconstruction), "joint_colour").matters,
-                  norm == Norm::l1 || norm == Norm::mixed)
             << to_string(norm);
     }
     RenderSettings render;

@@ -18,8 +18,8 @@ PoissonProblem problem_of(const GradientImages& images) {
     return {images.primal, images.dx, images.dy, alpha};
 }
 
-L1Settings settings_of(bool square_primal, bool joint_colour, int cold_iterations) {
-    return {.square_primal = square_primal, .joint_colour = joint_colour, .cold_iterations = cold_iterations};
+L1Settings settings_of(bool square_primal, int cold_iterations) {
+    return {.square_primal = square_primal, .cold_iterations = cold_iterations};
 }
 
 RgbImage solve_cold(const GradientImages& images, const L1Settings& settings) {
@@ -31,10 +31,7 @@ RgbImage solve_cold(const GradientImages& images, const L1Settings& settings) {
 
 /// What is minimised, in double.
 double objective(const GradientImages& g, const RgbImage& image, const L1Settings& settings) {
-    const auto norm = [&](Rgb c) {
-        return settings.joint_colour ? glm::length(glm::dvec3(c))
-                                     : std::abs(double{c.r}) + std::abs(double{c.g}) + std::abs(double{c.b});
-    };
+    const auto norm = [](Rgb c) { return glm::length(glm::dvec3(c)); };
     const double typical = typical_value(g.primal);
     double sum = 0;
     for (int y = 0; y < image.height(); ++y)
@@ -64,15 +61,14 @@ double relative_mean_difference(const RgbImage& image, const RgbImage& expected)
 
 TEST(PoissonL1, AColdStartComesNearTheOptimum) {
     const GradientImages images = noisy_images(160, 90);
-    for (const bool square_primal : {false, true})
-        for (const bool joint_colour : {false, true}) {
-            const RgbImage longest = solve_cold(images, settings_of(square_primal, joint_colour, 2000));
-            const L1Settings settings = settings_of(square_primal, joint_colour, L1Settings{}.cold_iterations);
-            const RgbImage image = solve_cold(images, settings);
-            EXPECT_LE(settings.cold_iterations, 40);
-            EXPECT_LE(objective(images, image, settings), 1.01 * objective(images, longest, settings));
-            EXPECT_LE(relative_mean_difference(image, longest), 0.005);
-        }
+    for (const bool square_primal : {false, true}) {
+        const RgbImage longest = solve_cold(images, settings_of(square_primal, 2000));
+        const L1Settings settings{.square_primal = square_primal};
+        const RgbImage image = solve_cold(images, settings);
+        EXPECT_LE(settings.cold_iterations, 40);
+        EXPECT_LE(objective(images, image, settings), 1.01 * objective(images, longest, settings));
+        EXPECT_LE(relative_mean_difference(image, longest), 0.005);
+    }
 }
 
 TEST(PoissonL1, AWarmStartComesNearTheOptimumOfNewerData) {
@@ -80,7 +76,7 @@ TEST(PoissonL1, AWarmStartComesNearTheOptimumOfNewerData) {
     const GradientImages newer = blend(images, noisy_images(160, 90, 1, 17), 0.1f);
     for (const bool square_primal : {false, true}) {
         const L1Settings settings{.square_primal = square_primal};
-        const RgbImage longest = solve_cold(newer, settings_of(square_primal, true, 2000));
+        const RgbImage longest = solve_cold(newer, settings_of(square_primal, 2000));
         L1Solver solver(160, 90);
         RgbImage image;
         EXPECT_EQ(solver.solve(problem_of(images), settings, image), settings.cold_iterations);
@@ -91,14 +87,6 @@ TEST(PoissonL1, AWarmStartComesNearTheOptimumOfNewerData) {
         EXPECT_EQ(solver.solve(problem_of(newer), settings, image), settings.cold_iterations);
         EXPECT_EQ(relative_difference(image, solve_cold(newer, settings)), 0);
     }
-}
-
-TEST(PoissonL1, JointColourAndChannelsEachAreTheOptimumOfTheirOwn) {
-    const GradientImages images = noisy_images(80, 60);
-    const L1Settings joint, channels{.joint_colour = false};
-    const RgbImage by_colour = solve_cold(images, joint), by_channel = solve_cold(images, channels);
-    EXPECT_LT(objective(images, by_colour, joint), objective(images, by_channel, joint));
-    EXPECT_LT(objective(images, by_channel, channels), objective(images, by_colour, channels));
 }
 
 TEST(PoissonL1, MixedKeepsTheMeanOfThePrimal) {

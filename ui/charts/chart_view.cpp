@@ -172,15 +172,15 @@ ScreenPixels chart_picture(const ViewerState& state) {
 
 namespace {
 
-/// "weighted,0.2,1", as far as they matter.
+/// Returns the norm and alpha, such as "weighted,0.2". Alpha is empty if the norm is none.
 std::string reconstruction_columns(const ReconstructionSettings& s) {
     if (s.norm == Norm::none)
-        return "none,,";
-    return fmt::format("{},{:.6g},{}", to_string(s.norm), s.alpha, static_cast<int>(s.joint_colour));
+        return "none,";
+    return fmt::format("{},{:.6g}", to_string(s.norm), s.alpha);
 }
 
 std::string error_lines(const ViewerState& state) {
-    std::string text = "pane,method,norm,alpha,joint_colour,spp,seconds,relMSE,standard_error,efficiency,"
+    std::string text = "pane,method,norm,alpha,spp,seconds,relMSE,standard_error,efficiency,"
                        "not_finite,estimated\n";
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         for (const ErrorCurve& curve : state.chart_of(state.panes[i]).curves)

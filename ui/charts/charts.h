@@ -26,7 +26,7 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
 ScreenPixels chart_picture(const ViewerState& state);
 
 /// All that charts show, in blocks with a header each and an empty line between them: the panes' errors (pane from
-/// 1; method, norm, alpha and joint colour that the picture was made with; spp, seconds, relMSE and its standard
+/// 1; method, norm and alpha that the picture was made with; spp, seconds, relMSE and its standard
 /// error, empty where the reference has no halves; efficiency; pixels left out as they are not finite; 1 where it
 /// is an estimate of the samples' error, without a reference), the shares of their shifts by outcome, and the bins
 /// of the active pane's histogram. Blocks without lines are left out, but for the first.

@@ -79,9 +79,6 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
     choose("norm", "mixed");
     expected.reconstruction.norm = Norm::mixed;
     check("norm");
-    click("joint_colour");
-    expected.reconstruction.joint_colour = false;
-    check("joint_colour");
     choose("norm", "l1");
     expected.reconstruction.norm = Norm::l1;
     check("norm");

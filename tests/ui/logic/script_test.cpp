@@ -81,8 +81,6 @@ TEST(NamedSettings, SetPanesAndViewer) {
     EXPECT_EQ(state.size.custom, glm::ivec2(64, 32));
     set_by_name(state, "norm", "l1");
     EXPECT_EQ(state.panes[0].settings.reconstruction.norm, Norm::l1);
-    set_by_name(state, "joint_colour", "off");
-    EXPECT_FALSE(state.panes[0].settings.reconstruction.joint_colour);
     set_by_name(state, "compare_with", "reference");
     EXPECT_EQ(state.panes[2].settings.comparison.with, the_reference);
     set_by_name(state, "compare_with", "2");

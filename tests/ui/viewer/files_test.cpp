@@ -37,7 +37,7 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     state().tone = {Tone::Curve::filmic, -2.5f, 1.75f};
     state().size = {SizeChoice::Base::custom, 0.5f, {80, 60}};
     state().pace = {Pace::Equal::spp, 12, 34.5};
-    state().panes[3].settings.reconstruction.joint_colour = false;
+    state().panes[3].settings.reconstruction.alpha = 0.5f;
     state().active_pane = 1;
     state().layout.alone = state().show_tiles = state().magnifier = state().layout.charts_by_spp =
         state().mark_negative = true;

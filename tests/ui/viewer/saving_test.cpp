@@ -52,14 +52,14 @@ TEST_F(SavedAsExr, TheWriterGetsTheActivePane) {
     options.write_exr = [&](const fs::path& file, const SavedPicture& picture) {
         EXPECT_EQ(file.extension(), ".exr");
         EXPECT_EQ(picture.snapshot->settings.method, Method::gpr);
-        EXPECT_FALSE(picture.reconstruction.joint_colour);
+        EXPECT_EQ(picture.reconstruction.alpha, 0.5f);
         EXPECT_EQ(picture.scene, scene);
         EXPECT_EQ(picture.reference, reference);
         if (++calls == 2)
             throw std::runtime_error("the disk is full");
     };
     ViewerHarness h({900, 600}, 1, options);
-    h.state().panes[1].settings.reconstruction.joint_colour = false;
+    h.state().panes[1].settings.reconstruction.alpha = 0.5f;
     h.rest(2);
     scene = h.state().scene;
     h.state().companions.reference = reference;
