@@ -82,7 +82,7 @@ void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&
     pass.grid.for_each_part(block, [&](PixelRect, int paths_alone) { shares = shares || paths_alone == 0; });
     if (!shares || !worker.base.is_mixed())
         return visit(0);
-    for (int position = 0; position < pass.settings.positions; ++position) {
+    for (int position = 0; position < camera_positions(pass.settings); ++position) {
         worker.base.see_from(pass, worker.tracer, position);
         visit(position);
     }

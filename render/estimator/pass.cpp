@@ -43,7 +43,7 @@ Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const Re
     : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, plan, index_),
       telling_share(telling_share_of(size_, settings_, plan.guiding(), index_)), projection_(camera, size_),
       has_lens_(camera.aperture_radius > 0),
-      numbers_(settings_.seed, index_, begin_of_nets(plan, index_), settings_.positions) {}
+      numbers_(settings_.seed, index_, begin_of_nets(plan, index_), camera_positions(settings_)) {}
 
 /// Blocks are moved with the grid of tiles. Those of a square begin at one place, so that few pixels change from
 /// one sequence to another, and see only parts of both.
@@ -82,7 +82,7 @@ Random Pass::shift_of_looks(int x, int y) const {
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     const Random shift = shift_of_looks(x, y);
     const std::uint64_t subpixel = shift.digits(2, Draw::direction), lens = shift.digits(3, Draw::direction);
-    const auto rays = static_cast<std::uint32_t>(settings.very_direct_rays);
+    constexpr std::uint32_t rays = edge_emitter_rays;
     const std::uint32_t first = static_cast<std::uint32_t>(index) * rays;
     Rgb sum(0);
     for (std::uint32_t i = 0; i < rays; ++i)
@@ -209,7 +209,7 @@ constexpr int cells_along = 4; // of the grid, of a pixel and of the lens, by wh
 }
 
 int very_direct_looks(const Pass& pass) {
-    if (pass.settings.very_direct_rays == 1)
+    if (!pass.settings.edge_rays)
         return 0;
     return pass.has_lens() ? cells_along * cells_along : cells_along;
 }

@@ -50,12 +50,13 @@ public:
         return sample_at(PassNumbers::only, pixel, path);
     }
 
-    /// Whether a pixel sees several things: then the pass sees it from several positions where it receives light,
-    /// settings.positions, each the same for all such pixels of a block.
+    /// Returns whether a pixel sees several surfaces, so that the pass sees it from camera_positions(settings)
+    /// positions to receive light. All such pixels of a block have the same positions.
     bool is_mixed(glm::ivec2 pixel) const { return has_positions(settings) && grid.is_mixed(pixel); }
-    /// From how many positions the pass sees a set of such pixels: one, if none of them is mixed.
+    /// Returns the number of positions from which the pass sees a set of pixels: one if no pixel is mixed.
     int positions_of(std::span<const glm::ivec2> set) const {
-        return std::ranges::any_of(set, [&](glm::ivec2 p) { return is_mixed(p); }) ? settings.positions : 1;
+        return std::ranges::any_of(set, [&](glm::ivec2 p) { return is_mixed(p); }) ? camera_positions(settings)
+                                                                                   : 1;
     }
     /// At which of the positions the base path of a pixel is shared, where any pixel of its set is mixed.
     int turn(glm::ivec2 pixel) const { return numbers_.turn(pixel); }
@@ -72,9 +73,9 @@ public:
         return projection_.ray(glm::vec2(x, y) + sample.subpixel, sample.lens);
     }
 
-    /// Very direct light of a pixel by settings.very_direct_rays camera rays. Their points in the pixel, and on
-    /// the lens, are a net over the passes, each pixel's own: along an upright or level edge, as those of windows,
-    /// no two rays are in one place, as they would be in a grid.
+    /// Estimates the directly visible emission of a pixel with edge_emitter_rays camera rays. Their points in the
+    /// pixel and on the lens are a net over the passes, with its own scrambling for each pixel. No two rays of a
+    /// net share a row or a column, in contrast to a grid, so vertical and horizontal edges have little noise.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
     /// What a base path's radiance is divided by: the albedo at x_1 or of what mirrors show there, black where it

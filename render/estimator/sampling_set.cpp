@@ -29,7 +29,7 @@ void SamplingSet::collect(const Pass& pass, const BaseBlock& block) {
 }
 
 void SamplingSet::balance_turns(const Pass& pass) {
-    std::array<int, most_positions> turns{};
+    std::array<int, edge_positions> turns{};
     for (glm::ivec2 p : pixels)
         ++turns[static_cast<std::size_t>(pass.turn(p))];
     const auto taken = static_cast<float>(std::ranges::count_if(turns, [](int n) { return n > 0; }));

@@ -80,14 +80,14 @@ Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number
         return worker.path.very_direct;
     Rgb sum = worker.path.very_direct;
     BasePath seen;
-    for (int position = 0; position < pass.settings.positions; ++position) {
+    for (int position = 0; position < camera_positions(pass.settings); ++position) {
         if (position == pass.turn(pixel))
             continue;
         const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.sample_at(position, pixel, number));
         trace_first_vertex(worker.tracer, ray, pass.pixel_width(), worker.path.random, seen);
         sum += seen.very_direct;
     }
-    return sum / static_cast<float>(pass.settings.positions);
+    return sum / static_cast<float>(camera_positions(pass.settings));
 }
 
 /// @param d  of vertex i of the path

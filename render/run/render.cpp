@@ -26,7 +26,7 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             is_demodulated(s),
             s.method != Method::pt,
             reuses_paths(s.method) && s.adapt_tile,
-            s.very_direct_rays > 1,
+            s.edge_rays,
             part_count(s),
             finds_gain_of_sharing(s) || has_positions(s)};
 }

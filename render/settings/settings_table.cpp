@@ -218,15 +218,10 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Draws some of the directions at rough surfaces from where earlier passes found light to come from, by "
          "place in the scene: as many as have paid there. The BSDF has the others.",
          one_of(guidings, s.path_guiding), true, true},
-        {"positions", "Positions",
-         "Where a pixel sees several things, as at edges, a pass sees it from so many places within it, and each "
-         "base path is shared at one of them. 1: all are shared at the same, and an edge is as rough as one "
-         "sample. (Not of parts.)",
-         Setting::Whole{&s.positions, 1, most_positions}, reuses_paths(s.method) && !is_expanded(s), true},
-        {"very_direct_rays", "Lamp rays",
-         "Where lamps that the camera sees have their edges, a sample looks for them with so many rays, of which "
-         "powers of two lie most evenly. 1: with the ray of its path.",
-         Setting::Whole{&s.very_direct_rays, 1, 64}, true, true},
+        {"edge_rays", "Edge rays",
+         "Traces several camera rays per sample where a pixel sees several surfaces, or the edge of a directly "
+         "visible emitter. Off: one ray, as published.",
+         Setting::Switch{&s.edge_rays}, true, true},
         {"roulette_depth", "RR depth",
          "Edges beyond which a path goes on with a probability that follows the reflectance it meets (at most "
          "0.95). 0: it goes on to the max depth.",

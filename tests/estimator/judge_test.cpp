@@ -175,7 +175,8 @@ protected:
             has_positions(v.settings) ? ever_mixed(t.scene, size, v.settings) : Image<std::uint8_t>();
         const auto floored = [&](const Measured& measured) { // of light, where it is seen from several positions
             return has_positions(v.settings)
-                       ? no_surer_than_by_chance(measured, truth.light, count * v.settings.positions, &mixed)
+                       ? no_surer_than_by_chance(measured, truth.light, count * camera_positions(v.settings),
+                                                 &mixed)
                        : measured;
         };
         std::vector<Test> tests;

@@ -220,7 +220,7 @@ TEST(PathGuiding, LeavesMirrorsBesideRoughLobesTheirPaths) {
         RenderSettings settings;
         settings.method = Method::pt;
         settings.max_depth = 6;
-        settings.very_direct_rays = 1;
+        settings.edge_rays = false;
         settings.path_guiding = is_guided ? Guiding::on : Guiding::off;
         Render render(scene, scene->camera(), {96, 72}, settings);
         for (int i = 0; i < 32; ++i)

@@ -71,9 +71,7 @@ std::vector<Variant> variants() {
     add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
     add("path_guiding", Method::gpr, [](S& s) { s.path_guiding = Guiding::on; });
     add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on; });
-    add("positions", Method::gpr, [](S& s) { s.positions = 7; });
-    add("one_position", Method::gpr, [](S& s) { s.positions = 1; });
-    add("positions_of_rooks", Method::pr, [](S& s) { s.pattern = Pattern::rooks, s.positions = 16; });
+    add("no_edge_rays", Method::gpr, [](S& s) { s.edge_rays = false; });
     add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
     return list;
 }

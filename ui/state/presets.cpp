@@ -6,18 +6,17 @@ namespace tessera {
 
 namespace {
 
-/// Nothing that came after the papers: each pixel the radiance itself, from one position, all spikes, all edges
-/// joined, tiles whole, one ray at the edges of lamps, too.
+/// Returns settings without extensions of the papers: radiance as the primal, one camera ray per sample, no
+/// firefly suppression, reconnection of edges of any length, and whole tiles.
 PaneSettings plain() {
     PaneSettings s;
     s.render.adapt_tile = false;
-    s.render.positions = 1;
     s.render.basis = Basis::none;
     s.render.shift_distance = 0;
     s.render.weight_threshold = 0;
     s.render.roulette_depth = 0;
     s.render.path_guiding = Guiding::off;
-    s.render.very_direct_rays = 1;
+    s.render.edge_rays = false;
     s.reconstruction.spikes = Spikes::off;
     return s;
 }

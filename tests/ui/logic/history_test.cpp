@@ -98,14 +98,14 @@ TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {
             pane.render.method = method;
             pane.render.max_depth = 17;
             pane.render.seed = 5;
-            pane.render.very_direct_rays = 7;
+            pane.render.edge_rays = i != 0;
             pane.buffer = Buffer::dx;
             apply(presets()[i], pane);
             EXPECT_EQ(pane.render.method, method);
             EXPECT_EQ(pane.render.max_depth, 17);
             EXPECT_EQ(pane.render.seed, 5u);
             EXPECT_EQ(pane.buffer, Buffer::dx);
-            EXPECT_EQ(pane.render.very_direct_rays, i == 0 ? 16 : 1) << "as published";
+            EXPECT_EQ(pane.render.edge_rays, i == 0) << "as published";
             EXPECT_EQ(preset_of(pane), static_cast<int>(i));
             EXPECT_NO_THROW(check(pane.render));
             pane.render.tile = 11;
