@@ -92,8 +92,7 @@ json counters_json(const Counters& c) {
               {"skipped_by_roulette", c.skipped_paths},
               {"reused_paths", c.reused_paths},
               {"reused_share", static_cast<double>(c.reused_paths) / set_paths},
-              {"skipped_share", static_cast<double>(c.skipped_paths) / set_paths},
-              {"light_paths_skipped_by_weight", c.skipped_light_paths}}},
+              {"skipped_share", static_cast<double>(c.skipped_paths) / set_paths}}},
             {"shifts", {{"attempts", c.shift_attempts()}, {"outcomes", outcomes}}},
             {"refused_samples", c.refused_samples}};
 }

@@ -81,7 +81,6 @@ nlohmann::ordered_json to_json(const Counters& c) {
             {"dark_paths", c.dark_paths},
             {"skipped_paths", c.skipped_paths},
             {"reused_paths", c.reused_paths},
-            {"skipped_light_paths", c.skipped_light_paths},
             {"shifts", c.shifts},
             {"refused_samples", c.refused_samples}};
 }
@@ -94,7 +93,6 @@ Counters counters_from_json(const nlohmann::json& json) {
     json.at("dark_paths").get_to(c.dark_paths);
     json.at("skipped_paths").get_to(c.skipped_paths);
     json.at("reused_paths").get_to(c.reused_paths);
-    json.at("skipped_light_paths").get_to(c.skipped_light_paths);
     json.at("shifts").get_to(c.shifts);
     json.at("refused_samples").get_to(c.refused_samples);
     return c;

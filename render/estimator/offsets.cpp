@@ -191,15 +191,11 @@ EdgeGroup& PendingEdges::add(int first_slot, int end_slot) {
     return group;
 }
 
-void PendingEdges::resolve(const Tracer& tracer, OffsetPaths& paths, std::span<const float> slot_scale,
-                           LaneMask& lost) {
+void PendingEdges::resolve(const Tracer& tracer, OffsetPaths& paths, LaneMask& lost) {
     for (int m = 0; m < padded(offsets_); ++m)
         lost[m] = 0;
     for (std::size_t i = 0; i < used_; ++i) {
         const EdgeGroup& g = *groups_[i];
-        const auto first = slot_scale.begin() + g.first_slot, end = slot_scale.begin() + g.end_slot;
-        if (std::all_of(first, end, [](float scale) { return scale == 0; }))
-            continue;
         tracer.occluded(g.segments, g.exists, offsets_, blocked_);
         for (int m = 0; m < offsets_; ++m) {
             if (!blocked_[m])

@@ -6,7 +6,6 @@
 
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace tessera {
@@ -174,9 +173,8 @@ public:
     /// A group to be filled in: none exists as yet.
     EdgeGroup& add(int first_slot, int end_slot);
 
-    /// Traces all edges; says in which lanes something was lost.
-    /// @param slot_scale  a slot with 0 needs no answer
-    void resolve(const Tracer& tracer, OffsetPaths& paths, std::span<const float> slot_scale, LaneMask& lost);
+    /// Traces all edges. Fails the slots of occluded edges, and marks their lanes in `lost`.
+    void resolve(const Tracer& tracer, OffsetPaths& paths, LaneMask& lost);
 
 private:
     int offsets_ = 0;

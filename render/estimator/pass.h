@@ -171,7 +171,7 @@ struct Worker {
                  settings,
                  {settings.filter_textures, is_demodulated(settings), camera, size},
                  guiding && guiding->draws() ? guiding : nullptr},
-          reuse(tracer, settings, settings.weight_threshold) {}
+          reuse(tracer, settings) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 

@@ -36,7 +36,6 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLi
         return; // where the base carries nothing, no offset can
     tried_ = true;
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()), arriving != nullptr);
-    slot_scale_.assign(static_cast<std::size_t>(light_.slot_count()), 1.0f);
     if (onlooker_)
         onlooker_->begins(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
@@ -63,9 +62,7 @@ void PathReuse::shift_to_all(int base) {
     }
     edges_.reset(count);
     shift_.run(path, light_, primary_, base, paths_, edges_, outcomes_);
-    if (weight_threshold_ > 0)
-        play_weight_roulette(path.random);
-    edges_.resolve(tracer_, paths_, slot_scale_, lost_);
+    edges_.resolve(tracer_, paths_, lost_);
 }
 
 /// Random replay: every pixel takes the base's numbers all the way. In the space of these numbers the shift is the
@@ -134,7 +131,7 @@ void PathReuse::judge(int base) {
     for (int m = 0; m < padded(paths_.offsets()); ++m)
         arrived_[m] = 0;
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
-        if (!is_shared(slot))
+        if (!light_.is_alive(slot))
             continue;
         const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < padded(paths_.offsets()); ++m)
@@ -162,28 +159,9 @@ float PathReuse::ratio_sum(int slot) const {
     return sum;
 }
 
-/// Before visibility is known, 1/R is a lower bound of the weight. It only decides on a probability, so that the
-/// estimator stays unbiased whatever becomes of the edges.
-void PathReuse::play_weight_roulette(const Random& random) {
-    const float even = static_cast<float>(paths_.offsets());
-    for (int slot = light_.first_shared(); slot < light_.slot_count(); ++slot) {
-        if (!light_.is_alive(slot)) {
-            slot_scale_[static_cast<std::size_t>(slot)] = 0;
-            continue;
-        }
-        // Not below 0.1: should most edges turn out to be blocked, 1/q would not be made up for by 1/R.
-        const float q = std::max(even / (ratio_sum(slot) * weight_threshold_), 0.1f);
-        if (q >= 1)
-            continue;
-        const bool survives = random.draw(slot, Draw::weight_survival) < q;
-        slot_scale_[static_cast<std::size_t>(slot)] = survives ? 1 / q : 0;
-        tracer_.counters.skipped_light_paths += !survives;
-    }
-}
-
 void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
-        if (!is_shared(slot))
+        if (!light_.is_alive(slot))
             continue;
         const float factor = weight(slot, scale);
         radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * factor;
@@ -220,7 +198,7 @@ void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
     };
     flush(-1);
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
-        if (!is_shared(slot))
+        if (!light_.is_alive(slot))
             continue;
         const float factor = weight(slot, scale);
         add_own(*set_[static_cast<std::size_t>(base)], slot, factor, base, arriving);

@@ -18,12 +18,8 @@ namespace tessera {
 /// differences between pixels of one T are gradients.
 class PathReuse {
 public:
-    /// @param weight_threshold  roulette on small weights: a light path whose weight 1/R would be below this
-    ///                          share of the even weight 1/|T| if no new edge were blocked is shared
-    ///                          out with a probability in proportion to it [after Bekaert 2002];
-    ///                          0: all are
-    PathReuse(const Tracer& tracer, const ShiftSettings& settings, float weight_threshold)
-        : tracer_(tracer), settings_(settings), weight_threshold_(weight_threshold), shift_(tracer, settings) {}
+    PathReuse(const Tracer& tracer, const ShiftSettings& settings)
+        : tracer_(tracer), settings_(settings), shift_(tracer, settings) {}
 
     /// Begins with another sampling set.
     /// Throws std::logic_error for more than most_lanes pixels.
@@ -61,11 +57,10 @@ public:
 
     const LightPaths& light_paths() const { return light_; }
     const OffsetPaths& offset_paths() const { return paths_; }
-    /// g/R of a light path, times `scale` and what makes up for the roulette on small weights; 0: it was not
-    /// shared out.
+    /// Returns g/R of a light path times `scale`, or 0 if the path carries no light.
     float weight(int slot, float scale) const {
         const float count = counts_[static_cast<std::size_t>(base_)];
-        return is_shared(slot) ? scale * count * slot_scale_[static_cast<std::size_t>(slot)] / ratio_sum(slot) : 0;
+        return light_.is_alive(slot) ? scale * count / ratio_sum(slot) : 0;
     }
     /// @param onlooker  is told of all that the next share() do; null: nobody is
     void set_onlooker(ShiftOnlooker* onlooker) {
@@ -80,19 +75,14 @@ private:
     void tell_of_replay(int m);
     void keep_scatters_of_replay(int m);
     void judge(int base);
-    void play_weight_roulette(const Random& random);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
     void add_own(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
     void balance_parts(int base, float scale, ArrivingLight& arriving);
     /// R of a light path.
     float ratio_sum(int slot) const;
-    bool is_shared(int slot) const {
-        return light_.is_alive(slot) && slot_scale_[static_cast<std::size_t>(slot)] > 0;
-    }
 
     Tracer tracer_;
     ShiftSettings settings_;
-    float weight_threshold_;
     std::span<const BasePath* const> set_;
     std::span<const float> counts_;
     int base_ = 0;            ///< of the last share()
@@ -105,8 +95,6 @@ private:
     LightPaths replayed_light_;
     std::vector<FirstScatter*> replayed_scatters_; ///< by emitter slot at y_1, the last of all others
     Vec3Lanes carried_; ///< by all light paths through one first scatter, times their weights
-    /// One over the probability that the roulette on small weights kept a slot; 0: it did not.
-    std::vector<float> slot_scale_;
     OutcomeLanes outcomes_;
     bool tried_ = false;
     ShiftOnlooker* onlooker_ = nullptr;

@@ -54,7 +54,6 @@ Counters& Counters::operator+=(const Counters& other) {
     dark_paths += other.dark_paths;
     skipped_paths += other.skipped_paths;
     reused_paths += other.reused_paths;
-    skipped_light_paths += other.skipped_light_paths;
     for (std::size_t i = 0; i < shifts.size(); ++i)
         shifts[i] += other.shifts[i];
     refused_samples += other.refused_samples;

@@ -75,7 +75,6 @@ struct Counters {
     std::uint64_t dark_paths = 0;          ///< carry nothing that could be reused
     std::uint64_t skipped_paths = 0;       ///< carry light, and were ended by the reuse roulette
     std::uint64_t reused_paths = 0;        ///< carry light, and were shifted to the others
-    std::uint64_t skipped_light_paths = 0; ///< light paths of these ended by the roulette on small weights
 
     std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
 

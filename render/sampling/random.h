@@ -16,10 +16,9 @@ enum class Draw : std::uint32_t {
     emitter_cell,
     lobe,
     direction,
-    path_survival,   ///< roulette on path length
-    reuse_survival,  ///< roulette on reuse
-    weight_survival, ///< roulette on small weights; a slot in place of a vertex
-    count
+    path_survival,  ///< roulette on path length
+    reuse_survival, ///< roulette on reuse
+    count = 8       ///< dimensions of a vertex; another value changes the random numbers of all pictures
 };
 
 /// Two numbers in [0, 1) by 32 digits each in base 2: x in the upper half, y in the lower.

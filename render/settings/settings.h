@@ -115,7 +115,6 @@ struct RenderSettings : PathSettings, ShiftSettings {
     RouletteKind roulette = RouletteKind::relative;
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
     float q_min = 0.1f;         ///< least probability that a path is reused
-    float weight_threshold = 0; ///< roulette on small weights, as a share of the even weight; 0: none
     bool edge_rays =
         true; ///< several camera rays per sample at edges: edge_positions and edge_emitter_rays, or one
     PrimalSource primal = PrimalSource::reuse;

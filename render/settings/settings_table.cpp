@@ -189,10 +189,6 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Least probability with which the roulette lets a path be reused (no unit). Above 0, since a path can "
          "bring far more light to a neighbour than to its own pixel.",
          Setting::Real{&s.q_min, 1e-4f, 1, 0.001f, 1}, shares && s.roulette != RouletteKind::none},
-        {"weight_threshold", "RR weight",
-         "Roulette on small weights: a light path whose weight is below this share of the even one is shared out "
-         "less often, in proportion (no unit) [Bekaert 2002]. 0: never.",
-         Setting::Real{&s.weight_threshold, 0, 1, 0, 1}, joins, true},
         {"primal", "Primal", "Where G-PT and G-PR have their primal image from.", one_of(primals, s.primal),
          has_gradients(s.method), true},
         {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",

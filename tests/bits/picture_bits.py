@@ -53,7 +53,7 @@ def main():
     jobs += [(s, 4, "160x90", extra) for s in arguments.scenes
              for extra in ([], ["--recon", "l1,mixed,weighted,uniform"], ["--shift", "replay-reconnection"],
                            ["--shift", "replay"], ["--pattern", "rooks", "--roulette", "absolute"],
-                           ["--roulette-depth", "3", "--weight-threshold", "0.5"])]
+                           ["--roulette-depth", "1"])]
     with tempfile.TemporaryDirectory() as folder:
         for scene, spp, size, extra in jobs:
             for method in METHODS:

@@ -68,14 +68,12 @@ std::vector<Variant> all_variants() {
         variant("pr, absolute roulette", Method::pr, 4, [](S& s) { s.roulette = RouletteKind::absolute; }),
         variant("pr, 5-rooks, reconnection", Method::pr, 5,
                 [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::reconnection; }),
-        variant("pr, 8-rooks, RR weight", Method::pr, 8,
-                [](S& s) { s.pattern = Pattern::rooks, s.weight_threshold = 0.9f; }),
+        variant("pr, 8-rooks", Method::pr, 8, [](S& s) { s.pattern = Pattern::rooks; }),
         variant("pr, 4-rooks, replay, RR depth 2", Method::pr, 4,
                 [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::replay, s.roulette_depth = 2; }),
         variant("pr, reconnection, RR depth 2", Method::pr, 4,
                 [](S& s) { s.shift = ShiftKind::reconnection, s.roulette_depth = 2; }),
-        variant("gpt, RR weight, RR depth 1", Method::gpt, 1,
-                [](S& s) { s.weight_threshold = 1, s.roulette_depth = 1; }),
+        variant("gpt, RR depth 1", Method::gpt, 1, [](S& s) { s.roulette_depth = 1; }),
         variant("gpt, replay, no basis, base primal", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none, s.primal = PrimalSource::base; }),
         variant("gpt, replay-reconnection", Method::gpt, 1,
@@ -91,10 +89,10 @@ std::vector<Variant> all_variants() {
                 [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2; }),
         variant("gpr, reconnection, base primal", Method::gpr, 8,
                 [](S& s) { s.shift = ShiftKind::reconnection, s.primal = PrimalSource::base; }),
-        variant("gpr, no roulette, RR weight, RR depth 2", Method::gpr, 16,
+        variant("gpr, no roulette, RR depth 2", Method::gpr, 16,
                 [](S& s) {
                     s.roulette = RouletteKind::none, s.adapt_tile = false;
-                    s.weight_threshold = 0.9f, s.roulette_depth = 2;
+                    s.roulette_depth = 2;
                 }),
     };
 }
@@ -131,7 +129,7 @@ Image<std::uint8_t> ever_mixed(const std::shared_ptr<const Scene>& scene, glm::i
 /// Each method in one form, and of the other variants every second: half of the scenes have the one half, the
 /// others the other.
 std::vector<Variant> variants_of(const std::string& scene) {
-    constexpr std::string_view always[] = {"pt", "pr, absolute roulette", "gpt, RR weight, RR depth 1", "gpr"};
+    constexpr std::string_view always[] = {"pt", "pr, absolute roulette", "gpt, RR depth 1", "gpr"};
     std::vector<Variant> some;
     std::size_t number = std::accumulate(scene.begin(), scene.end(), std::size_t{0});
     for (Variant& v : all_variants())

@@ -19,7 +19,7 @@ namespace {
 /// A base path whose light is given; direct light is a quarter of it.
 BasePath path_with(Rgb light, float albedo) {
     BasePath path;
-    path.reset(Random(0, 0, 0), 1);
+    path.reset(Random(0, 0, 0));
     path.spare();
     path.keep();
     path.direct = 0.25f * light;
@@ -41,7 +41,7 @@ public:
     float survival(const BasePath& path) const {
         static const std::shared_ptr<const Scene> scene = Room().build();
         Counters counters;
-        const PathReuse reuse({*scene, counters, settings_}, settings_, 0);
+        const PathReuse reuse({*scene, counters, settings_}, settings_);
         std::vector<const BasePath*> set;
         for (const BasePath& each : paths_)
             set.push_back(&each);

@@ -160,8 +160,8 @@ TEST(SettingsTable, RefusesWhatItMayNotBe) {
     const std::string tile = "must be a whole number from 1 to 16";
     for (const char* text : {"0", "17", "-1", "4.5", "4x", " 4", "", "four", "99999999999"})
         EXPECT_THAT(refusal("tile", text), HasSubstr(tile)) << text;
-    for (const char* text : {"-0.1", "1.1", "nan", "inf", "", "0.1,0.2"})
-        EXPECT_THAT(refusal("weight_threshold", text), HasSubstr("must be a number from 0 to 1")) << text;
+    for (const char* text : {"-0.1", "1000.1", "nan", "inf", "", "0.1,0.2"})
+        EXPECT_THAT(refusal("shift_distance", text), HasSubstr("must be a number from 0 to 1000")) << text;
     for (const char* text : {"true", "1", "", "ON"})
         EXPECT_THAT(refusal("adapt_tile", text), HasSubstr("must be on or off")) << text;
     EXPECT_EQ(refusal("roulette", "fair"), "roulette is \"fair\": must be one of relative, absolute, none");

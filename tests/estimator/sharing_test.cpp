@@ -44,7 +44,7 @@ public:
                                                          counters_,
                                                          {t.max_depth, roulette_depth, filter},
                                                          {filter, spares_first, scene_.camera(), size}},
-          reuse_(tracer_, settings_, 0) {}
+          reuse_(tracer_, settings_) {}
 
     Tally run(int sets) {
         for (int i = 0; i < sets; ++i)
@@ -263,7 +263,7 @@ TEST(PathReuse, RefusesASetThatHasNoLanes) {
     Counters counters;
     const Tracer tracer{*scene, counters, {}};
     const ShiftSettings settings;
-    PathReuse reuse(tracer, settings, 0);
+    PathReuse reuse(tracer, settings);
     const BasePath path;
     const std::vector<const BasePath*> most(most_lanes, &path), too_many(most_lanes + 1, &path);
     EXPECT_NO_THROW(reuse.begin(most, {}));

@@ -78,13 +78,6 @@ StatisticGroup reuse(const Counters& c) {
           "81.6 to 85.3 % and no third kind: to be compared with skipped and dark together."},
          {"dark", "dark", count_text(c.dark_paths), ratio(c.dark_paths, all),
           "Base paths without any light that could be reused."}}};
-    if (c.skipped_light_paths > 0)
-        group.statistics.push_back(
-            {"skipped_light",
-             "skipped by weight",
-             count_text(c.skipped_light_paths),
-             {},
-             "Light paths of reused base paths that were ended because their weight is small."});
     return group;
 }
 

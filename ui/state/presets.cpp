@@ -13,7 +13,6 @@ PaneSettings plain() {
     s.render.adapt_tile = false;
     s.render.basis = Basis::none;
     s.render.shift_distance = 0;
-    s.render.weight_threshold = 0;
     s.render.roulette_depth = 0;
     s.render.path_guiding = Guiding::off;
     s.render.edge_rays = false;

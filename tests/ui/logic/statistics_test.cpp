@@ -65,9 +65,6 @@ TEST(Statistics, FiguresOfEveryCounter) {
 TEST(Statistics, WhatDidNotHappenIsLeftOut) {
     Snapshot snapshot = snapshot_of_counts();
     EXPECT_FALSE(has_figure(snapshot, "rays.light"));
-    EXPECT_FALSE(has_figure(snapshot, "skipped_light"));
-    snapshot.counters.skipped_light_paths = 7;
-    EXPECT_TRUE(has_figure(snapshot, "skipped_light"));
     snapshot.counters.dark_paths = snapshot.counters.skipped_paths = snapshot.counters.reused_paths = 0;
     snapshot.counters.shifts = {};
     EXPECT_FALSE(has_figure(snapshot, "reused"));
