@@ -63,7 +63,7 @@ CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings);
 /// --clock, "cpu" or "wall": what --time counts.
 CLI::Option* add_clock(CLI::App& command, std::string& clock);
 
-/// The options that lead from some settings to others, as words of a command line: " --tile 4 --no-jitter".
+/// The options that lead from some settings to others, as words of a command line: " --tile 4 --no-adapt-tile".
 /// Without method and seed.
 std::string option_words(RenderSettings from, RenderSettings to);
 

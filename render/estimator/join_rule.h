@@ -19,7 +19,6 @@ public:
     /// @param pixel_angle  BasePath::pixel_angle
     JoinRule(const ShiftSettings& settings, float pixel_angle)
         : threshold_(settings.shift_threshold),
-          roughness_a_turn_(settings.join == JoinKind::footprint ? 1 / lobe_of_roughness : 0),
           pixels_(settings.shift == ShiftKind::reconnection ? 0 : settings.shift_distance),
           spread_(pixels_ * pixel_angle) {}
 
@@ -34,9 +33,9 @@ public:
     /// Whether a lobe is wide enough for that turn. Light that x_{i+1} itself gives is joined to at any length:
     /// one that is not narrow turns far with it.
     bool covers(float roughness, float turn) const {
-        return roughness > threshold_ && roughness >= roughness_a_turn_ * std::min(turn, 1.0f);
+        return roughness > threshold_ && roughness >= roughness_a_turn * std::min(turn, 1.0f);
     }
-    bool covers_all(float roughness) const { return roughness > threshold_ && roughness >= roughness_a_turn_; }
+    bool covers_all(float roughness) const { return roughness > threshold_ && roughness >= roughness_a_turn; }
     bool covers_none(float roughness) const { return !covers(roughness, spread_); }
 
     /// Whether light from beyond x_{i+1} is, by that end of the edge: what a vertex sees close by, as in a corner,
@@ -48,11 +47,12 @@ public:
     }
 
 private:
-    /// How far a lobe reaches, in radians, by its roughness: some way into its tail. (8 and 16 are alike; less
-    /// is worse where it is glossy.)
+    /// Angle of a lobe, in radians, for a roughness of 1; it includes a part of the tail. 8 and 16 have the same
+    /// error, 2 and 4 a larger one on glossy surfaces (TRIALS.md, "Which edges are joined").
     static constexpr float lobe_of_roughness = 8;
+    static constexpr float roughness_a_turn = 1 / lobe_of_roughness;
 
-    float threshold_, roughness_a_turn_;
+    float threshold_;
     float pixels_; ///< across which paths are shared
     float spread_; ///< the same, as an angle
 };

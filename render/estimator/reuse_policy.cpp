@@ -151,7 +151,7 @@ float standard_deviation(const PathReuse& reuse, std::span<const BasePath* const
 
 ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
                              std::span<const BasePath* const> set)
-    : reuse_(reuse), kind_(kind), q_min_(settings.q_min) {
+    : reuse_(reuse), kind_(kind) {
     switch (kind) {
     case RouletteKind::relative:
         threshold_ = standard_deviation(reuse, set);
@@ -167,7 +167,7 @@ ReuseRoulette::ReuseRoulette(RouletteKind kind, const RenderSettings& settings, 
 float ReuseRoulette::survival(const BasePath& path) const {
     const float l =
         kind_ == RouletteKind::absolute ? luminance(reuse_.shared_light(path)) : reuse_.arriving_luminance(path);
-    return l < threshold_ ? std::max(l / threshold_, q_min_) : 1;
+    return l < threshold_ ? std::max(l / threshold_, q_min) : 1;
 }
 
 } // namespace tessera

@@ -180,7 +180,11 @@ struct ReuseDecision {
 /// these. As q stands on nothing but the base paths at hand, and survivors weigh 1/q, the estimate stays unbiased.
 class ReuseRoulette {
 public:
-    /// @param settings  has the thresholds; its own kind is not looked at
+    /// Least probability that a path with light is reused [Bauszat 2017]. It is above 0, because a path can bring
+    /// far more light to a neighbour than to its own pixel.
+    static constexpr float q_min = 0.1f;
+
+    /// @param settings  has rr_delta; `kind` replaces its own kind
     ReuseRoulette(RouletteKind kind, const RenderSettings& settings, const PathReuse& reuse,
                   std::span<const BasePath* const> set);
 
@@ -191,7 +195,6 @@ private:
     const PathReuse& reuse_;
     RouletteKind kind_;
     float threshold_ = 0; // luminance
-    float q_min_;
 };
 
 } // namespace tessera

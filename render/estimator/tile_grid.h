@@ -18,8 +18,8 @@ public:
     /// `pass` counts from 0. Keeps references to settings and plan, which is the one that this pass had.
     TileGrid(glm::ivec2 size, const RenderSettings& settings, const ReusePlan& plan, int pass);
 
-    /// Where the grid begins, in (-tile, 0]: with jitter, moved every pass, so that no pixel is always at a tile's
-    /// edge.
+    /// Where the grid begins, in (-tile, 0]. Each pass draws another origin, so that no pixel is always at the
+    /// edge of a tile and the grid does not show in the picture [Bekaert 2002; Bauszat 2017, 3.3].
     const glm::ivec2 origin;
     const glm::ivec2 size; ///< of the image
 
@@ -80,9 +80,8 @@ private:
     int pass_;
 };
 
+/// Draws the origin of the grid of tiles for a pass.
 inline glm::ivec2 origin_of(const RenderSettings& settings, int pass) {
-    if (!settings.jitter)
-        return {0, 0};
     const Random random(settings.seed, 0xfffffffeu, static_cast<std::uint32_t>(pass));
     return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
 }

@@ -51,17 +51,10 @@ enum class ShiftKind : std::uint8_t {
     replay_reconnection ///< random numbers are replayed until two vertices can be connected [Hua 2019, 3.1]
 };
 
-/// Which vertices offsets are joined to.
-enum class JoinKind : std::uint8_t {
-    footprint, ///< whose lobes cover what moves from pixel to pixel (join_rule.h), and are above the threshold
-    threshold  ///< those above it [Kettunen 2015]
-};
-
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
     float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]
     float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at its beginning
-    JoinKind join = JoinKind::footprint;
 
     bool operator==(const ShiftSettings&) const = default;
 };
@@ -110,11 +103,9 @@ struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
     int tile = 6;           ///< pixels along a tile's edge [1, most_tile]
     bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_policy.h)
-    bool jitter = true;     ///< the grid of tiles is moved every pass
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
-    float q_min = 0.1f;         ///< least probability that a path is reused
     bool edge_rays =
         true; ///< several camera rays per sample at edges: edge_positions and edge_emitter_rays, or one
     PrimalSource primal = PrimalSource::reuse;

@@ -43,12 +43,6 @@ constexpr SettingChoice shift_kinds[] = {
     {"replay-reconnection", "replay, reconnection",
      "Random numbers are replayed until two rough vertices can be connected [Hua 2019, 3.1]."},
 };
-constexpr SettingChoice join_kinds[] = {
-    {"footprint", "by footprint",
-     "Those whose lobe is wide enough for how far the edge turns against it from pixel to pixel: what is too "
-     "glossy for one edge can be joined by another. The rest is shifted by half vectors."},
-    {"threshold", "by threshold", "All that are rougher than the shift threshold [Kettunen 2015]."},
-};
 constexpr SettingChoice texture_filters[] = {
     {"off", "off", "Points of textures are looked up, as in Mitsuba."},
     {"camera", "by camera",
@@ -173,10 +167,6 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Where "
          "sharing brings G-PR nothing, pixels take more paths of their own instead.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
-        {"jitter", "Jitter",
-         "Moves the grid of tiles every pass, so that no pixel is always at a tile's edge. Off, edges stay in the "
-         "picture.",
-         Setting::Switch{&s.jitter}, shares, true},
         {"pattern", "Pattern", "Which pixels share their paths.", one_of(patterns, s.pattern),
          s.method == Method::pr},
         {"roulette", "Roulette", "How it is decided which base paths are reused.",
@@ -185,25 +175,19 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Absolute roulette: a path whose value (luminance, a radiance) is below delta is reused with probability "
          "value / delta. 0: every path is reused.",
          Setting::Real{&s.rr_delta, 0, 1e30f, 0, 10}, shares && s.roulette == RouletteKind::absolute},
-        {"q_min", "q min",
-         "Least probability with which the roulette lets a path be reused (no unit). Above 0, since a path can "
-         "bring far more light to a neighbour than to its own pixel.",
-         Setting::Real{&s.q_min, 1e-4f, 1, 0.001f, 1}, shares && s.roulette != RouletteKind::none},
         {"primal", "Primal", "Where G-PT and G-PR have their primal image from.", one_of(primals, s.primal),
          has_gradients(s.method), true},
         {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
          one_of(bases, s.basis), s.method != Method::pt},
         {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},
-        {"join", "Join", "Which vertices of a path another pixel can be joined to.", one_of(join_kinds, s.join),
-         joins_long_edges},
         {"shift_threshold", "Roughness",
          "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",
          Setting::Real{&s.shift_threshold, 0, 1, 0, 1}, joins, true},
         {"shift_distance", "Distance",
-         "Shift distance: how far pixels that share are taken to be apart, in pixels' widths there. Edges shorter "
-         "than "
-         "that are not joined, but bounced along: from other pixels, what is close in a corner looks quite "
-         "different; and by footprint, lobes must be as wide as it is from there. 0: all edges are long enough.",
+         "Shift distance: the distance between pixels that reuse paths, in pixel widths. The shift copies the "
+         "half "
+         "vector where an edge is shorter than this, or a lobe narrower than the angle of this distance. "
+         "0: all edges are reconnected, as published.",
          Setting::Real{&s.shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
         {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
          Setting::Whole{&s.max_depth, 1, most_edges}},

@@ -110,7 +110,7 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "-m bdpt", "bdpt"},
         {render + "--tile 0", "--tile"},
         {render + "--tile 17", "--tile"},
-        {render + "--q-min 0", "--q-min"},
+        {render + "--rr-delta -1", "--rr-delta"},
         {render + "--rr-delta -1", "--rr-delta"},
         {render + "--max-depth 0", "--max-depth"},
         {render + "--alpha 0", "--alpha"},

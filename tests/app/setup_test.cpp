@@ -61,10 +61,10 @@ TEST(Setups, CarryTheirSettings) {
     PictureSettings base;
     base.render.roulette_depth = 5;
     const auto setups =
-        setups_of(base, {Method::pr}, {Norm::l2}, {parse_variation("tile=5"), parse_variation("q-min=0.5")});
+        setups_of(base, {Method::pr}, {Norm::l2}, {parse_variation("tile=5"), parse_variation("rr-delta=0.5")});
     ASSERT_EQ(setups.size(), 1u);
     EXPECT_EQ(setups[0].settings.render.tile, 5);
-    EXPECT_EQ(setups[0].settings.render.q_min, 0.5f);
+    EXPECT_EQ(setups[0].settings.render.rr_delta, 0.5f);
     EXPECT_EQ(setups[0].settings.render.roulette_depth, 5);
 }
 

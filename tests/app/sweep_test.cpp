@@ -188,7 +188,7 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "--vary roulette=relative,fair", "must be one of relative, absolute, none"},
         {sweep + "--vary adapt_tile=yes", "must be on or off"},
         {sweep + "--vary tile=2 --vary tile=3", "varied twice"},
-        {sweep + "--vary tile=2 --vary q_min=1 --vary primal=base", "two settings at the most"},
+        {sweep + "--vary tile=2 --vary rr_delta=1 --vary shift=replay", "two settings at the most"},
         {sweep + "-m gpr,bdpt", "-m bdpt"},
         {sweep + "-m ''", "-m"},
         {sweep + "--vary threads=0", "threads is \"0\": must be a whole number from 1 to 1024"},

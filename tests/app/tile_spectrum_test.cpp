@@ -51,7 +51,7 @@ TEST(TileSpectrum, NoiseThatIsAlikeWithinTilesShowsAtTheirEdges) {
     EXPECT_NEAR(s.edge_ratio, 26, 6);
 }
 
-/// The grid is moved as passes of a render move it with jitter.
+/// Moves the grid as the passes of a render do.
 TEST(TileSpectrum, OfManyMovedGridsIsFlat) {
     std::mt19937 random(3);
     RgbImage image = truth;

@@ -57,7 +57,6 @@ private:
 RenderSettings settings_of(RouletteKind kind) {
     RenderSettings s;
     s.roulette = kind;
-    s.q_min = 0.1f;
     return s;
 }
 
@@ -75,7 +74,8 @@ TEST(ReuseRoulette, AbsoluteIsLuminanceOverDelta) {
         s.rr_delta = delta;
         const Roulette roulette(s, lit_in_part);
         for (const Rgb light : {Rgb(0), Rgb(1e-3f), Rgb(0.03f), Rgb(0.1f, 0, 0), Rgb(0, 0, 2), Rgb(1), Rgb(1e6f)})
-            EXPECT_FLOAT_EQ(roulette.survival(light), std::clamp(luminance(light) / delta, s.q_min, 1.0f));
+            EXPECT_FLOAT_EQ(roulette.survival(light),
+                            std::clamp(luminance(light) / delta, ReuseRoulette::q_min, 1.0f));
     }
 }
 
@@ -89,7 +89,7 @@ TEST(ReuseRoulette, RelativeIsLuminanceOverTheNoiseOfTheSet) {
     const double deviation = std::sqrt(squares / 8 - sum * sum / 64);
     const Roulette roulette(s, lit_in_part);
     EXPECT_NEAR(roulette.survival(Rgb(0.9f)), 0.9 / deviation, 1e-5);
-    EXPECT_EQ(roulette.survival(Rgb(0.01f)), s.q_min);
+    EXPECT_EQ(roulette.survival(Rgb(0.01f)), ReuseRoulette::q_min);
     EXPECT_EQ(roulette.survival(Rgb(8)), 1);
     // Reconnection leaves direct light where it is.
     s.shift = ShiftKind::reconnection;

@@ -56,14 +56,13 @@ TEST(SettingsTable, SetTextUndoesText) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
         {"tile", {"1", "16"}},
         {"adapt_tile", {"on", "off"}},
-        {"jitter", {"off", "on"}},
         {"pattern", {"tile", "rooks"}},
         {"roulette", {"relative", "absolute", "none"}},
         {"rr_delta", {"1e+30", "0.001"}},
         {"primal", {"reuse", "base"}},
         {"shift", {"half-vector", "replay-reconnection"}},
         {"max_depth", {"1", "64"}},
-        {"q_min", {"0.0001", "1"}},
+        {"shift_distance", {"0", "1000"}},
         {"roulette_depth", {"0", "12"}},
     };
     for (const auto& [id, values] : cases) {
@@ -143,8 +142,8 @@ TEST(SettingsTable, ValuesAreJson) {
     RenderSettings settings;
     const auto json = [&](std::string_view id) { return setting_named(settings_of(settings), id).json_value(); };
     EXPECT_EQ(json("tile"), nlohmann::json(6));
-    EXPECT_EQ(json("q_min"), nlohmann::json(0.1f));
-    EXPECT_EQ(json("jitter"), nlohmann::json(true));
+    EXPECT_EQ(json("rr_delta"), nlohmann::json(0.1f));
+    EXPECT_EQ(json("adapt_tile"), nlohmann::json(true));
     EXPECT_EQ(json("shift"), nlohmann::json("half-vector"));
 }
 
@@ -183,12 +182,12 @@ TEST(SettingsTable, SettingsHaveTheNamesOfTheirOptions) {
 TEST(SettingsTable, CheckNamesTheSettingAndItsLimits) {
     RenderSettings settings;
     EXPECT_NO_THROW(check(settings));
-    settings.q_min = 0;
+    settings.rr_delta = -1;
     try {
         check(settings);
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "q_min is 0: must be a number from 0.0001 to 1");
+        EXPECT_STREQ(error.what(), "rr_delta is -1: must be a number from 0 to 1e+30");
     }
 }
 

@@ -184,7 +184,7 @@ protected:
     static void judge(ShiftSettings s, int roulette_depth, TextureFilter filter = TextureFilter::off) {
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
-                     std::to_string(s.shift_distance) + ", join " + std::to_string(static_cast<int>(s.join)));
+                     std::to_string(s.shift_distance));
         const Tally t = Sharing(GetParam(), s, roulette_depth, filter).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
@@ -200,9 +200,9 @@ protected:
 TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        judge({kind, 0, 0, JoinKind::threshold}, 0);
-        judge({kind, 0, GetParam().shift_distance, JoinKind::threshold}, 2);
-        judge({kind, 0, GetParam().shift_distance, JoinKind::footprint}, 0, TextureFilter::path);
+        judge({kind, 0, 0}, 0);
+        judge({kind, 0, GetParam().shift_distance}, 2);
+        judge({kind, 0, GetParam().shift_distance}, 0, TextureFilter::path);
     }
 }
 
@@ -210,7 +210,7 @@ TEST_P(Shares, AreTheSameWhicheverPixelALightPathComesFrom) {
 TEST_P(Shares, AreTheSameWhetherASetIsBegunOnceOrForEachPath) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance, JoinKind::threshold};
+        const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance};
         Sharing sharing(GetParam(), s, 0, TextureFilter::path);
         const auto once = sharing.share_sets(40, false), anew = sharing.share_sets(40, true);
         EXPECT_TRUE(once.radiance == anew.radiance) << static_cast<int>(kind);
@@ -248,8 +248,7 @@ TEST(SharesInMirrors, AreTheSameWhateverIsFilteredThere) {
     for (const ShiftKind kind : {ShiftKind::half_vector, ShiftKind::replay, ShiftKind::replay_reconnection})
         for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path})
             for (const bool spares_first : {false, true}) {
-                const Tally t =
-                    Sharing(scene, {kind, 0.001f, 0, JoinKind::footprint}, 0, filter, spares_first).run(60);
+                const Tally t = Sharing(scene, {kind, 0.001f, 0}, 0, filter, spares_first).run(60);
                 EXPECT_GT(t.shared, 200);
                 EXPECT_EQ(t.lost, 0);
                 EXPECT_LE(t.unequal, 0.04 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;

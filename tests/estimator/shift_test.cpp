@@ -39,8 +39,7 @@ Tally tally(const TestScene& t) {
     PathSettings path_settings;
     path_settings.max_depth = t.max_depth;
     const Tracer tracer{*t.scene, counters, path_settings};
-    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold, t.shift_distance,
-                                       JoinKind::threshold};
+    const ShiftSettings shift_settings{ShiftKind::half_vector, t.shift_threshold, t.shift_distance};
     const Projection projection(t.scene->camera(), size);
     LightPaths light;
     OffsetPaths paths;

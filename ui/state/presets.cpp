@@ -42,7 +42,6 @@ PaneSettings bauszat() {
     s.render.tile = 6;
     s.render.roulette = RouletteKind::absolute;
     s.render.rr_delta = 0.1f;
-    s.render.q_min = 0.1f;
     return s;
 }
 
