@@ -41,7 +41,8 @@ void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, W
     for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
 }
 
-/// Adds what a pixel got in all sets of the block that it is in, or, for its primal, by its own base path alone.
+/// Adds the light of a pixel from all sets of the block that contain it. A pixel without a set, as in an image of
+/// one pixel, has the light of its own base path.
 void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     const BasePath& path = worker.base.at(x, y);
     const Rgb albedo = pass.albedo_of(path);
@@ -53,7 +54,7 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
                        worker.set_means.reuse(x, y),
                        worker.reuse.arriving_luminance(path)};
     sample.own = path.radiance();
-    if (!has_own_primal(pass.settings) && worker.set_means.has(x, y))
+    if (worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
         sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);

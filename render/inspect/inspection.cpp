@@ -47,9 +47,6 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
 
 /// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
 bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
-    // A set's last pixel has no neighbours in it: with base paths as the primal, nothing is made of what it got.
-    if (has_gradients(settings.method) && has_own_primal(settings) && pixel == set.pixels.back())
-        return false;
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
         return m >= 0 && !is_finite(set.coefficient[static_cast<std::size_t>(m)]);
@@ -76,7 +73,7 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
 
 /// What the sample of worker.path, a pixel's base path, has of very direct light.
 Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number, Worker& worker) {
-    if (is_alone || has_own_primal(pass.settings) || !pass.is_mixed(pixel))
+    if (is_alone || !pass.is_mixed(pixel))
         return worker.path.very_direct;
     Rgb sum = worker.path.very_direct;
     BasePath seen;
@@ -189,9 +186,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
         worker.tracer.hits = nullptr;
         const Rgb very_direct = very_direct_of(pass, pixel, paths_alone > 0, number, worker);
         result.very_direct += very_direct / static_cast<float>(paths);
-        const Rgb albedo = has_own_primal(settings) ? pass.albedo_of(worker.path) : Rgb(1);
-        result.is_refused =
-            result.is_refused || !is_finite(coefficient(worker.path.radiance(), albedo) + very_direct);
+        result.is_refused = result.is_refused || !is_finite(worker.path.radiance() + very_direct);
     }
     for_each_set_with(pass, pixel, worker.set,
                       [&](PixelRect inner) { result.sets.push_back(inspect_set(pass, inner, pixel, worker)); });

@@ -76,7 +76,7 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
 /// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
 /// it is so in smaller squares: this is the most.
 GradientImages Render::with_patch(GradientImages images) const {
-    if (reuses_paths(settings_.method) && settings_.primal == PrimalSource::reuse)
+    if (reuses_paths(settings_.method))
         images.patch = static_cast<float>(settings_.tile);
     return images;
 }

@@ -53,7 +53,8 @@ enum class ShiftKind : std::uint8_t {
 
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
-    float shift_threshold = 0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]
+    float shift_threshold =
+        0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]; no option changes it
     float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at its beginning
 
     bool operator==(const ShiftSettings&) const = default;
@@ -81,12 +82,6 @@ enum class RouletteKind : std::uint8_t {
     none      ///< every path is reused
 };
 
-/// Where G-PT and G-PR have their primal image from.
-enum class PrimalSource : std::uint8_t {
-    reuse, ///< what the sampling sets share out; in G-PT the mean of a pixel's two
-    base   ///< each pixel's own base path
-};
-
 /// What of a pixel's radiance primal and gradients are made of [Fang 2024].
 enum class Basis : std::uint8_t {
     none,   ///< the radiance itself
@@ -108,7 +103,6 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
     bool edge_rays =
         true; ///< several camera rays per sample at edges: edge_positions and edge_emitter_rays, or one
-    PrimalSource primal = PrimalSource::reuse;
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
 
@@ -123,11 +117,6 @@ inline bool has_gradients(Method method) {
 /// Whether its pixels share the light of base paths by tiles or patterns.
 inline bool reuses_paths(Method method) {
     return method == Method::pr || method == Method::gpr;
-}
-
-/// Whether the primal is the light that a pixel's own base path finds, and no other's.
-inline bool has_own_primal(const RenderSettings& s) {
-    return s.method == Method::pt || (has_gradients(s.method) && s.primal == PrimalSource::base);
 }
 
 /// Whether what it measures is divided by albedos. (PT has nothing that could gain by it.)

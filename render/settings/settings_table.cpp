@@ -75,11 +75,6 @@ constexpr SettingChoice bases[] = {
     {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes 1768 bytes a pixel more."},
     {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1068 bytes a pixel more."},
 };
-constexpr SettingChoice primals[] = {
-    {"reuse", "shared paths", "What the pixels of a set share out: less noise, alike for neighbours."},
-    {"base", "base paths", "Each pixel's own path: as noisy as path tracing, but independent."},
-};
-
 } // namespace
 
 std::string_view short_name(Method method) {
@@ -175,14 +170,9 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          "Absolute roulette: a path whose value (luminance, a radiance) is below delta is reused with probability "
          "value / delta. 0: every path is reused.",
          Setting::Real{&s.rr_delta, 0, 1e30f, 0, 10}, shares && s.roulette == RouletteKind::absolute},
-        {"primal", "Primal", "Where G-PT and G-PR have their primal image from.", one_of(primals, s.primal),
-         has_gradients(s.method), true},
         {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
          one_of(bases, s.basis), s.method != Method::pt},
         {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},
-        {"shift_threshold", "Roughness",
-         "Shift threshold: roughness (alpha, no unit) above which a vertex can be connected to [Kettunen 2015].",
-         Setting::Real{&s.shift_threshold, 0, 1, 0, 1}, joins, true},
         {"shift_distance", "Distance",
          "Shift distance: the distance between pixels that reuse paths, in pixel widths. The shift copies the "
          "half "

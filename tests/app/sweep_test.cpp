@@ -222,7 +222,7 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
 }
 
 TEST_F(SweepCommand, OptionsMayComeBeforeScenes) {
-    const Outcome o = run(folder(), "sweep --vary primal=reuse,base -m gpr" + small_ + "box/scene.xml");
+    const Outcome o = run(folder(), "sweep --vary basis=albedo,none -m gpr" + small_ + "box/scene.xml");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     EXPECT_EQ(csv().size(), 3u);
 }

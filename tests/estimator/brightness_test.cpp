@@ -47,39 +47,6 @@ TEST(Brightness, L2KeepsTheMeanOfThePrimal) {
     }
 }
 
-/// The image of each pixel's own paths equals the primal image without path reuse, with whole tiles and with
-/// adaptive tile splitting, where some pixels trace several paths and reuse none.
-TEST(Brightness, OwnPathsAreThoseOfAPrimalWithoutSharing) {
-    for (const TestScene& t : all_test_scenes()) {
-        if (t.name != "patchwork_half_vectors")
-            continue;
-        ThreadPool pool(2);
-        const auto images_of = [&](Method method, PrimalSource primal, bool adapts) {
-            RenderSettings settings;
-            settings.method = method;
-            settings.primal = primal;
-            settings.adapt_tile = adapts;
-            settings.max_depth = t.max_depth;
-            settings.seed = 8;
-            Render render(t.scene, t.scene->camera(), {37, 23}, settings);
-            for (int pass = 0; pass < 6; ++pass)
-                render.pass(pool);
-            return render.images();
-        };
-        for (const Method method : {Method::gpt, Method::gpr})
-            for (const bool adapts : {false, true}) {
-                const GradientImages base = images_of(method, PrimalSource::base, adapts);
-                const GradientImages shared = images_of(method, PrimalSource::reuse, adapts);
-                for (std::size_t i = 0; i < base.own.size(); ++i)
-                    for (int c = 0; c < 3; ++c) {
-                        const float expected = base.radiance().data()[i][c];
-                        EXPECT_NEAR(base.own.data()[i][c], expected, 1e-5f * (1 + expected));
-                        EXPECT_EQ(shared.own.data()[i][c], base.own.data()[i][c]);
-                    }
-            }
-    }
-}
-
 TEST(Brightness, NothingGlowsBeforeNothing) {
     SceneBuilder things;
     const int white = things.diffuse(Rgb(0.7f));

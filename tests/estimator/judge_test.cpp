@@ -74,8 +74,8 @@ std::vector<Variant> all_variants() {
         variant("pr, reconnection, RR depth 2", Method::pr, 4,
                 [](S& s) { s.shift = ShiftKind::reconnection, s.roulette_depth = 2; }),
         variant("gpt, RR depth 1", Method::gpt, 1, [](S& s) { s.roulette_depth = 1; }),
-        variant("gpt, replay, no basis, base primal", Method::gpt, 1,
-                [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none, s.primal = PrimalSource::base; }),
+        variant("gpt, replay, no basis", Method::gpt, 1,
+                [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none; }),
         variant("gpt, replay-reconnection", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay_reconnection; }),
         variant("gpr", Method::gpr, 1),
@@ -86,8 +86,7 @@ std::vector<Variant> all_variants() {
         variant("gpr", Method::gpr, 6),
         variant("gpr, replay-reconnection, RR depth 2", Method::gpr, 6,
                 [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2; }),
-        variant("gpr, reconnection, base primal", Method::gpr, 8,
-                [](S& s) { s.shift = ShiftKind::reconnection, s.primal = PrimalSource::base; }),
+        variant("gpr, reconnection", Method::gpr, 8, [](S& s) { s.shift = ShiftKind::reconnection; }),
         variant("gpr, no roulette, RR depth 2", Method::gpr, 16,
                 [](S& s) {
                     s.roulette = RouletteKind::none, s.adapt_tile = false;

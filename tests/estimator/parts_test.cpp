@@ -113,13 +113,12 @@ struct Variant {
     int tile;
     Basis basis;
     ShiftKind shift;
-    PrimalSource primal = PrimalSource::reuse;
 };
 
 constexpr Variant variants[] = {
     {"gpt", Method::gpt, 1, Basis::sh1, ShiftKind::half_vector},
     {"gpr", Method::gpr, 6, Basis::sh2, ShiftKind::half_vector},
-    {"gpr, base primal", Method::gpr, 3, Basis::box, ShiftKind::half_vector, PrimalSource::base},
+    {"gpr, boxes", Method::gpr, 3, Basis::box, ShiftKind::half_vector},
     {"gpr, reconnection", Method::gpr, 4, Basis::sh1, ShiftKind::reconnection},
     {"gpr, replay", Method::gpr, 3, Basis::sh1, ShiftKind::replay},
     {"gpr, replay-reconnection", Method::gpr, 4, Basis::box, ShiftKind::replay_reconnection},
@@ -131,7 +130,6 @@ RenderSettings settings_of(const Variant& v, const TestScene& t) {
     s.tile = v.tile;
     s.basis = v.basis;
     s.shift = v.shift;
-    s.primal = v.primal;
     s.max_depth = t.max_depth;
     s.shift_threshold = t.shift_threshold;
     s.shift_distance = t.shift_distance;

@@ -43,7 +43,6 @@ TEST(SettingsTable, HasAChoiceForEachValue) {
     EXPECT_EQ(choices("shift"), enumerator_count<ShiftKind>);
     EXPECT_EQ(choices("pattern"), enumerator_count<Pattern>);
     EXPECT_EQ(choices("roulette"), enumerator_count<RouletteKind>);
-    EXPECT_EQ(choices("primal"), enumerator_count<PrimalSource>);
 }
 
 TEST(SettingsTable, TheLargestTileHasLanes) {
@@ -59,7 +58,6 @@ TEST(SettingsTable, SetTextUndoesText) {
         {"pattern", {"tile", "rooks"}},
         {"roulette", {"relative", "absolute", "none"}},
         {"rr_delta", {"1e+30", "0.001"}},
-        {"primal", {"reuse", "base"}},
         {"shift", {"half-vector", "replay-reconnection"}},
         {"max_depth", {"1", "64"}},
         {"shift_distance", {"0", "1000"}},

@@ -63,7 +63,6 @@ std::vector<Variant> variants() {
     add("replay_reconnection", Method::gpr, [](S& s) { s.shift = ShiftKind::replay_reconnection; });
     add("half_vectors", Method::gpr, [](S& s) { s.shift_threshold = 0.1f; });
     add("roulette_depth", Method::gpr, [](S& s) { s.roulette_depth = 1; });
-    add("base_primal", Method::gpr, [](S& s) { s.primal = PrimalSource::base; });
     add("absolute_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::absolute; });
     add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
     add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });

@@ -99,14 +99,6 @@ TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
     expect_found_again(settings, GetParam() == Method::gpr ? glm::ivec2(4, 3) : glm::ivec2(7, 5));
 }
 
-/// The last pixel has no neighbours: the film takes what the others share with it in no buffer.
-TEST(RefusedBasePrimal, SamplesAreFoundAgainByPixelPassAndSeed) {
-    RenderSettings settings;
-    settings.method = Method::gpr;
-    settings.primal = PrimalSource::base;
-    expect_found_again(settings, {2, 2});
-}
-
 INSTANTIATE_TEST_SUITE_P(methods, Refused, testing::ValuesIn(all_methods),
                          [](const auto& p) { return std::string(short_name(p.param)); });
 

@@ -20,7 +20,7 @@ inline bool shift_to_one(const Tracer& tracer, const ShiftSettings& settings, co
     paths.reset(light.slot_count(), 1);
     shift.run(base, light, primary, -1, paths, edges, outcomes);
     if (trace_edges)
-        edges.resolve(tracer, paths, std::vector<float>(static_cast<std::size_t>(light.slot_count()), 1.0f), lost);
+        edges.resolve(tracer, paths, lost);
     return lost[0] != 0;
 }
 

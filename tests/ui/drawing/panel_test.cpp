@@ -91,8 +91,8 @@ TEST_F(PanelTest, SeldomChangedSettingsAreFoldedAway) {
     click("more");
     click_at("roulette_depth", 0.99f);
     EXPECT_EQ(render(0).roulette_depth, most_edges);
-    choose("primal", "base");
-    EXPECT_EQ(render(1).primal, PrimalSource::base);
+    choose("filter_textures", "path");
+    EXPECT_EQ(render(1).filter_textures, TextureFilter::path);
     click("more");
     EXPECT_FALSE(has("roulette_depth"));
 }
