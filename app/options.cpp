@@ -26,7 +26,6 @@ namespace {
 struct Words {
     std::string scene, camera, methods, norms, clock = "wall", sample;
     std::vector<std::string> definitions;
-    bool strict = false;
     glm::ivec2 size{0}, window{0}; ///< 0: not given
     int spp = 0;
     double time = 0;
@@ -36,15 +35,13 @@ struct Words {
     RenderSettings settings;
     ReconstructionSettings reconstruction;
 
-    SceneSource source() const { return {scene, parse_variables(definitions), camera, strict}; }
+    SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
 };
 
 void add_scene(CLI::App& command, Words& words, bool required) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
-    command.add_flag("--strict", words.strict,
-                     "a texture or mesh whose file is not there ends the load, instead of being left out");
 }
 
 void add_settings(CLI::App& command, Words& words) {
@@ -176,8 +173,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         // Camera and variables were given for one scene, however it is named.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
-        return origin_of(same ? SceneSource{file, source.variables, source.camera, source.strict}
-                              : SceneSource{file, {}, {}, source.strict},
+        return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
                          threads);
     };
     options.panes = panes_of(command, words);

@@ -20,22 +20,21 @@ struct HelpGroup {
     std::vector<std::string> options; ///< in their order in the help
 };
 
-/// An option of several groups is of the first.
+/// Returns the groups in the order of the help. The first group that lists an option has it.
 const std::vector<HelpGroup>& help_groups() {
     static const std::vector<HelpGroup> groups = {
-        {"Essentials",
+        {"Everyday",
          {"-m", "--panes", "--recon", "--spp", "--time", "--quick", "--seeds", "--vary", "--size", "--max-depth",
-          "--tile", "--reference", "-o"}},
-        {"Scene", {"-D", "--camera", "--strict"}},
-        {"Method", render_option_names()},
-        {"Reconstruction", {"--alpha", "--spikes"}},
+          "-D", "--camera", "--reference", "-o"}},
+        {"Published settings", render_option_names()}, // the presets change these
+        {"Expert", {"--alpha", "--spikes", "--seed", "--threads", "--clock", "--stats", "--buffers", "--strict"}},
         {"Jobs that processes share",
          {"--list", "--job", "--report", "--any-build", "--machine", "--any-machine", "--silence"}},
     };
     return groups;
 }
 
-constexpr std::size_t many = 12; // options, from which on a list is not read to its end
+constexpr std::size_t many = 12; // commands with fewer options have no groups
 
 /// Lists the options of a group in its order.
 class OrderedHelp : public CLI::Formatter {
@@ -54,6 +53,7 @@ public:
     }
 };
 
+/// Assigns the options of a command to their groups.
 void group_options(CLI::App& command) {
     const auto is_optional = [](const CLI::Option* option) { return option->nonpositional(); };
     if (command.get_options(is_optional).size() < many)
@@ -66,7 +66,8 @@ void group_options(CLI::App& command) {
         const auto group = std::ranges::find_if(help_groups(), has);
         option->group(group == help_groups().end() ? "Other options" : group->name);
     }
-    command.get_help_ptr()->group(help_groups().front().name); // groups come in the order of their first options
+    command.get_help_ptr()->group(
+        help_groups().front().name); // CLI11 lists groups in the order of their first options
 }
 
 } // namespace

@@ -227,7 +227,6 @@ void add_picture_options(CLI::App& command, PictureWords words) {
     for (const Setting& setting : settings_of(words.settings))
         add_setting(command, setting);
     command.get_option("--max-depth")->default_str("the scene's");
-    add_alpha(command, words.reconstruction);
     add_spikes(command, words.reconstruction);
     add_setting(command, seed_setting(words.settings.seed));
     add_setting(command, threads_setting(words.threads));

@@ -78,7 +78,7 @@ struct PictureWords {
     int& threads;
 };
 
-/// An option for every render setting but the method, and --size, --alpha, --seed and --threads.
+/// Adds an option for every render setting but the method, and --size, --spikes, --seed and --threads.
 void add_picture_options(CLI::App& command, PictureWords words);
 
 } // namespace tessera

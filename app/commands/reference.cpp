@@ -35,6 +35,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     command.add_flag("--strict", words.strict,
                      "a texture or mesh whose file is not there ends the load, instead of being left out");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
+    add_alpha(command, recipe.reconstruction);
     command.get_option("--seed")->description("of the first half; the second has the next");
     add_method(command, recipe.settings.method);
     add_setting(command, spp_setting(recipe.spp, 2))

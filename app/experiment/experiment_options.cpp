@@ -74,6 +74,7 @@ void add_experiment(CLI::App& command, ExperimentWords& words) {
     forbid_empty(command.add_option("scenes", words.scenes, "Mitsuba scenes, XML"))->required()->take_all();
     add_picture_options(command, {options.settings.size, options.settings.render, options.settings.reconstruction,
                                   options.settings.threads});
+    add_alpha(command, options.settings.reconstruction);
     command.get_option("--size")->default_str(size_setting(options.settings.size).text());
     command.get_option("--max-depth")->default_str(std::to_string(options.settings.render.max_depth));
     command.get_option("--seed")->description("of the first render of each setup");

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -48,21 +49,30 @@ TEST_F(CommandLine, HelpOfScriptsKeepsColumnsApart) {
     EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference until it is loaded"));
 }
 
-TEST_F(CommandLine, HelpOfManyOptionsIsInGroupsTheEssentialOnesFirst) {
+TEST_F(CommandLine, HelpOfManyOptionsIsInGroupsTheEverydayOnesFirst) {
     for (const char* command : {"bench", "stability", "sweep", "render", "view", "reference"}) {
         const std::string help = run(folder_, std::string(command) + " --help").output;
-        const std::size_t essentials = help.find("\nEssentials:\n"), method = help.find("\nMethod:\n"),
+        const std::size_t everyday = help.find("\nEveryday:\n"), published = help.find("\nPublished settings:\n"),
                           tile = help.find("\n  --tile "), roulette = help.find("\n  --roulette ");
-        EXPECT_LT(essentials, help.find("\n  -m,--method")) << command;
-        EXPECT_LT(help.find("\n  -m,--method"), tile) << command;
-        EXPECT_LT(tile, method) << command;
-        EXPECT_LT(method, roulette) << command;
+        EXPECT_LT(everyday, help.find("\n  -m,--method")) << command;
+        EXPECT_LT(help.find("\n  -m,--method"), published) << command;
+        EXPECT_LT(published, tile) << command;
+        EXPECT_LT(tile, roulette) << command;
         EXPECT_NE(roulette, std::string::npos) << command;
-        EXPECT_LT(help.find("\nReconstruction:\n"), help.find("\n  --alpha ")) << command;
-        EXPECT_LT(help.find("\nOther options:\n"), help.find("\n  --threads ")) << command;
+        EXPECT_LT(help.find("\nExpert:\n"), help.find("\n  --threads ")) << command;
         EXPECT_NE(help.find("\n  --threads "), std::string::npos) << command;
     }
     EXPECT_THAT(run(folder_, "compare --help").output, testing::HasSubstr("\nOptions:\n")) << "a few need none";
+}
+
+TEST_F(CommandLine, OptionsOfRenderAreFewAndAllInGroups) {
+    const std::string help = run(folder_, "render --help").output;
+    EXPECT_THAT(help, testing::Not(testing::HasSubstr("Other options")));
+    std::istringstream lines(help);
+    int options = 0;
+    for (std::string line; std::getline(lines, line);)
+        options += line.starts_with("  -");
+    EXPECT_LE(options, 27); // with --help
 }
 
 TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {
@@ -93,7 +103,6 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--spp 0", "--spp"},
         {render + "--time nan", "--time: \"nan\" must be a number from 0.001"},
         {render + "--time inf", "--time"},
-        {render + "--alpha nan", "--alpha"},
         {render + "--rr-delta nan", "--rr-delta"},
         {render + "--seed 18446744073709551616", "--seed"},
         {render + "--seed -1", "--seed"},
@@ -113,7 +122,6 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         {render + "--rr-delta -1", "--rr-delta"},
         {render + "--rr-delta -1", "--rr-delta"},
         {render + "--max-depth 0", "--max-depth"},
-        {render + "--alpha 0", "--alpha"},
         {render + "--recon l3", "l3"},
         {render + "-D novalue", "novalue"},
         {render + "--threads -1", "--threads"},

@@ -62,12 +62,10 @@ protected:
 
 TEST_F(Reconstruct, OfSavedBuffersEqualsTheRendersOwn) {
     fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", file("box.xml"));
-    const Outcome render =
-        run(folder.path(), "render box.xml -m gpr --size 40x30 --spp 2 --recon l2,l1 --alpha 0.3 "
-                           "--buffers -o buffers.exr");
+    const Outcome render = run(folder.path(), "render box.xml -m gpr --size 40x30 --spp 2 --recon l2,l1 "
+                                              "--buffers -o buffers.exr");
     ASSERT_EQ(render.exit_code, 0) << render.output;
-    const Outcome o =
-        reconstruct("buffers.exr --recon l1,l2,none --alpha 0.3 --buffers -o out.exr --stats out.json");
+    const Outcome o = reconstruct("buffers.exr --recon l1,l2,none --buffers -o out.exr --stats out.json");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     const ExrFile expected = read_exr(file("buffers.exr")), found = read_exr(file("out.exr"));
     const auto difference = [&](const std::string& layer, const std::string& other) {
