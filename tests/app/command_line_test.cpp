@@ -72,7 +72,7 @@ TEST_F(CommandLine, OptionsOfRenderAreFewAndAllInGroups) {
     int options = 0;
     for (std::string line; std::getline(lines, line);)
         options += line.starts_with("  -");
-    EXPECT_LE(options, 27); // with --help
+    EXPECT_LE(options, 28); // with --help
 }
 
 TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {

@@ -105,7 +105,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     EXPECT_NE(status_text(state(), 1).find(error), std::string::npos) << status_text(state(), 1);
     const std::size_t weighted = errors(1).size();
     EXPECT_GE(weighted, 2u);
-    state().panes[1].settings.reconstruction = {Norm::l1, 0.3f, true};
+    state().panes[1].settings.reconstruction = {Norm::l1, 0.3f};
     wait_until([&] { return state().charts[1].curves.size() == 2; });
     state().pace.spp_limit = 16;
     wait_for_errors(1, 16);
