@@ -76,13 +76,19 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     limit_to_seconds(command.add_option("--time", words.time, "seconds of rendering, without loading"));
     add_clock(command, words.clock);
     add_norms(command, words.norms, "or several: one layer each (default guided with gradients)");
-    command.add_option("-o,--output", options.output, "file to write: EXR with all that is known, or PNG")
+    command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
     command.add_flag(
         "--buffers", options.layers.buffers,
-        "primal, dx, dy, direct, the variances, and shares of what was reused, of each outcome of the "
-        "shifts and of survival in the roulette, and what the plan has chosen, as layers of the EXR file, too");
+        "also write to the EXR file: gradients, variances and what else `tessera reconstruct` reads; the feature "
+        "buffers albedo, N, Z and roughness; with path reuse, maps of reused paths, shift outcomes, Russian "
+        "roulette and samples");
+    command.footer(
+        "An EXR file has the reconstruction as plain RGB and the radiance as sampled, directly visible "
+        "emission included, as the layer primal, unless the two are equal. The attribute "
+        "tessera:redistributed says which fraction of the radiance each reconstruction redistributed from "
+        "fireflies, if any.");
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

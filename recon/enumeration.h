@@ -28,7 +28,8 @@ inline constexpr std::size_t enumerator_count = count_enumerators<Enum>();
 
 /// The entry that a table by position has for a value. Only for tables that have one for each.
 template <class Enum, class T, std::size_t size>
-requires(size == enumerator_count<Enum>) constexpr const T& entry_of(const T (&table)[size], Enum value) {
+    requires(size == enumerator_count<Enum>)
+constexpr const T& entry_of(const T (&table)[size], Enum value) {
     return table[static_cast<std::size_t>(value)];
 }
 

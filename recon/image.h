@@ -180,7 +180,7 @@ struct Demodulation {
 /// Part l of a coefficient, by a function of the directions that light comes from [Fang 2024]: e is the sum of
 /// projection times part, and each part is smoother than e where normals or roughness change. All images of one
 /// size.
-struct CoefficientPart {
+struct BasisComponent {
     Image<float> projection; ///< s^l of each pixel
     RgbImage primal, dx, dy; ///< e^l, and its forward differences
     /// Variances of these means, summed over the channels; empty if they are unknown.
@@ -190,7 +190,7 @@ struct CoefficientPart {
 };
 
 /// Of each pixel the sample that brought most, in primal or gradients: what the others are to be judged without
-/// (recon/picture/spikes.h). All images of one size, or all empty.
+/// (recon/guided/fireflies.h). All images of one size, or all empty.
 struct BrightestSamples {
     RgbImage primal, dx, dy; ///< of GradientImages; dx and dy empty where these are
     RgbImage albedo;         ///< what its primal was divided by; empty without Demodulation
@@ -203,13 +203,13 @@ struct BrightestSamples {
 
 /// What a pixel shows first that is not a mere mirror or clear glass, followed through these: pixels that look
 /// alike in it have about the same light.
-struct Guide {
+struct SurfaceFeatures {
     Rgb albedo{0};       ///< of what is seen, times what mirrors and glass on the way leave; 1: nothing is met
     glm::vec3 normal{0}; ///< of shading, unit, in the world; 0: nothing is met
     float nearness = 0;  ///< inverse length of the way, in units of the scene; 0: nothing is met
     float roughness = 0; ///< of what is seen (Bsdf::roughness): 0 as a mirror, 1 diffuse; 0: nothing is met
 
-    void operator+=(const Guide& other) {
+    void operator+=(const SurfaceFeatures& other) {
         albedo += other.albedo;
         normal += other.normal;
         nearness += other.nearness;
@@ -217,8 +217,8 @@ struct Guide {
     }
 };
 
-/// Means of guides over the points of each pixel. All images of one size, or all empty: unknown.
-struct GuideImages {
+/// Means of features over the points of each pixel. All images of one size, or all empty: unknown.
+struct FeatureImages {
     RgbImage albedo;
     Image<glm::vec3> normal;
     Image<float> nearness, roughness;
@@ -249,13 +249,10 @@ struct GradientImages {
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
     Demodulation demodulation{};
-    std::vector<CoefficientPart> parts{}; ///< none: the coefficient is reconstructed as a whole
-    BrightestSamples brightest{};         ///< empty: unknown
+    std::vector<BasisComponent> parts{}; ///< none: the coefficient is reconstructed as a whole
+    BrightestSamples brightest{};        ///< empty: unknown
     HalfDifferences halves{};
-    GuideImages guides{};
-    /// Radiance of each pixel's own paths alone, without very direct light: noise of its own, which denoisers
-    /// know. Empty: unknown; without gradients.
-    RgbImage own{};
+    FeatureImages features{};
 
     /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
     /// it; >= 1, where 1 means that every pixel has its own.

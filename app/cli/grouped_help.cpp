@@ -27,7 +27,7 @@ const std::vector<HelpGroup>& help_groups() {
          {"-m", "--panes", "--recon", "--spp", "--time", "--quick", "--seeds", "--vary", "--size", "--max-depth",
           "-D", "--camera", "--reference", "-o"}},
         {"Published settings", render_option_names()}, // the presets change these
-        {"Expert", {"--alpha", "--spikes", "--seed", "--threads", "--clock", "--stats", "--buffers", "--strict"}},
+        {"Expert", {"--alpha", "--seed", "--threads", "--clock", "--stats", "--buffers", "--strict"}},
         {"Jobs that processes share",
          {"--list", "--job", "--report", "--any-build", "--machine", "--any-machine", "--silence"}},
     };

@@ -181,16 +181,17 @@ CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::str
                               fmt::format("{} {}", ids_of(method_choices()), rest));
 }
 
+CLI::Option* add_norm(CLI::App& command, ReconstructionSettings& settings) {
+    const Setting setting = setting_named(settings_of(settings), "norm");
+    return add_choice(command, "--recon", setting)->default_str(setting.text());
+}
+
 CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest) {
     return command.add_option("--recon", norms, fmt::format("{} {}", ids_of(norm_choices()), rest));
 }
 
 CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings) {
     return add_setting(command, setting_named(settings_of(settings), "alpha"));
-}
-
-CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings) {
-    return add_setting(command, setting_named(settings_of(settings), "spikes"));
 }
 
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
@@ -227,7 +228,6 @@ void add_picture_options(CLI::App& command, PictureWords words) {
     for (const Setting& setting : settings_of(words.settings))
         add_setting(command, setting);
     command.get_option("--max-depth")->default_str("the scene's");
-    add_spikes(command, words.reconstruction);
     add_setting(command, seed_setting(words.settings.seed));
     add_setting(command, threads_setting(words.threads));
 }

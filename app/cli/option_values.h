@@ -54,12 +54,12 @@ CLI::Option* add_setting(CLI::App& command, const Setting& setting);
 CLI::Option* add_method(CLI::App& command, Method& method);
 /// -m of several, whose text is for parse_methods. `rest` follows their names in the help.
 CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::string& rest);
-/// --recon, whose text is for parse_norms. `rest` follows their names in the help.
+/// --recon of one reconstruction.
+CLI::Option* add_norm(CLI::App& command, ReconstructionSettings& settings);
+/// --recon of several, whose text is for parse_norms. `rest` follows their names in the help.
 CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest);
 /// --alpha.
 CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings);
-/// --spikes.
-CLI::Option* add_spikes(CLI::App& command, ReconstructionSettings& settings);
 /// --clock, "cpu" or "wall": what --time counts.
 CLI::Option* add_clock(CLI::App& command, std::string& clock);
 
@@ -78,7 +78,7 @@ struct PictureWords {
     int& threads;
 };
 
-/// Adds an option for every render setting but the method, and --size, --spikes, --seed and --threads.
+/// Adds an option for every render setting but the method, and --size, --seed and --threads.
 void add_picture_options(CLI::App& command, PictureWords words);
 
 } // namespace tessera

@@ -1,11 +1,11 @@
 #include "app/cli/picture_layers.h"
 
 #include "app/cli/terminal.h"
-#include "recon/picture/demodulation.h"
-#include "recon/picture/spikes.h"
+#include "recon/guided/demodulation.h"
 #include "render/estimator/basis.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
+#include "render/io/json_text.h"
 #include "render/io/plain_images.h"
 #include "render/run/fitting_reconstruction.h"
 
@@ -15,69 +15,113 @@
 
 #include <fmt/core.h>
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 
 namespace tessera {
 
 namespace {
 
-/// Adds the image as a layer, if there is one.
-void add_layer(ExrFile& file, std::string name, RgbImage image) {
+/// Adds the image as a layer, unless it is empty.
+void add_layer(ExrFile& file, std::string name, RgbImage image, ExrChannels channels = ExrChannels::rgb) {
     if (!image.empty())
-        file.layers.push_back({std::move(name), std::move(image)});
+        file.layers.push_back({std::move(name), std::move(image), channels});
 }
 
+/// Adds the numbers as a layer of one channel, unless there are none.
+void add_numbers(ExrFile& file, std::string name, const Image<float>& numbers) {
+    if (!numbers.empty())
+        add_layer(file, std::move(name), grey(numbers), ExrChannels::single);
+}
+
+/// Returns the radiance as sampled, directly visible emission included. Takes it from `images`, or copies it where
+/// they are `kept`.
+RgbImage raw_primal(GradientImages& images, bool kept) {
+    RgbImage& radiance = images.demodulation.empty() ? images.primal : images.demodulation.value;
+    RgbImage sum = kept ? radiance : std::move(radiance);
+    for (std::size_t i = 0; i < images.very_direct.size(); ++i)
+        sum.data()[i] += images.very_direct.data()[i];
+    return sum;
+}
+
+/// Returns the depths of mean inverse distances.
+Image<float> depth_of(const Image<float>& nearness) {
+    Image<float> depth(nearness.width(), nearness.height());
+    std::transform(nearness.begin(), nearness.end(), depth.begin(),
+                   [](float inverse) { return inverse > 1 / no_depth ? 1 / inverse : no_depth; });
+    return depth;
+}
+
+void add_features(ExrFile& file, FeatureImages&& features) {
+    if (features.empty())
+        return;
+    add_layer(file, albedo_layer, std::move(features.albedo));
+    add_layer(file, normal_layer, std::move(features.normal), ExrChannels::xyz);
+    add_numbers(file, depth_layer, depth_of(features.nearness));
+    add_numbers(file, nearness_layer, features.nearness);
+    add_numbers(file, roughness_layer, features.roughness);
+}
+
+void add_brightest(ExrFile& file, BrightestSamples&& b) {
+    if (b.empty())
+        return;
+    add_layer(file, "brightest_primal", std::move(b.primal));
+    add_layer(file, "brightest_dx", std::move(b.dx));
+    add_layer(file, "brightest_dy", std::move(b.dy));
+    add_layer(file, "brightest_albedo", std::move(b.albedo));
+    add_numbers(file, "brightest_half", b.half);
+    file.attributes[samples_attribute] = fmt::format("{}", b.samples);
+}
+
+void add_demodulation(ExrFile& file, Demodulation&& d) {
+    add_layer(file, "mean_albedo", std::move(d.albedo));
+    add_layer(file, "sampled_albedo", std::move(d.sampled_albedo));
+    add_numbers(file, "albedo_variance", d.albedo_variance);
+    add_numbers(file, "sampled_share", d.sampled_share);
+    add_layer(file, "sampled_variance", std::move(d.sampled_variance));
+    add_layer(file, "value_covariance", std::move(d.value_covariance));
+    add_numbers(file, "unexplained_variance", d.unexplained_variance);
+}
+
+void add_parts(ExrFile& file, std::vector<BasisComponent>&& parts) {
+    for (std::size_t l = 0; l < parts.size(); ++l) {
+        BasisComponent& part = parts[l];
+        const auto named = [l](const char* name) { return part_layer(l, name); };
+        add_numbers(file, named("projection"), part.projection);
+        add_layer(file, named("primal"), std::move(part.primal));
+        add_layer(file, named("dx"), std::move(part.dx));
+        add_layer(file, named("dy"), std::move(part.dy));
+        add_numbers(file, named("primal_variance"), part.primal_variance);
+        add_numbers(file, named("dx_variance"), part.dx_variance);
+        add_numbers(file, named("dy_variance"), part.dy_variance);
+    }
+}
+
+/// Adds everything that `tessera reconstruct` reads (app/commands/gradient_input.cpp).
 void add_buffers(ExrFile& file, GradientImages&& images) {
-    Demodulation& d = images.demodulation;
-    const bool is_demodulated = !d.empty();
-    const auto add = [&](const char* name, RgbImage image) {
-        add_layer(file, is_demodulated ? coefficient_layer(name) : name, std::move(image));
-    };
-    add_layer(file, "primal", std::move(d.value)); // if there is one
-    add("primal", std::move(images.primal));
-    add("dx", std::move(images.dx));
-    add("dy", std::move(images.dy));
-    add_layer(file, "direct", std::move(images.very_direct));
-    add("primal_variance", grey(images.primal_variance));
-    add("dx_variance", grey(images.dx_variance));
-    add("dy_variance", grey(images.dy_variance));
+    const bool is_demodulated = !images.demodulation.empty();
+    const auto named = [&](const char* name) { return is_demodulated ? coefficient_layer(name) : name; };
+    if (is_demodulated)
+        add_layer(file, without_direct_layer, std::move(images.demodulation.value));
+    add_layer(file, is_demodulated ? coefficient_layer("primal") : without_direct_layer, std::move(images.primal));
+    add_layer(file, named("dx"), std::move(images.dx));
+    add_layer(file, named("dy"), std::move(images.dy));
+    add_layer(file, direct_layer, std::move(images.very_direct));
+    add_numbers(file, named("primal_variance"), images.primal_variance);
+    add_numbers(file, named("dx_variance"), images.dx_variance);
+    add_numbers(file, named("dy_variance"), images.dy_variance);
     file.attributes[patch_attribute] = fmt::format("{}", images.patch);
     add_layer(file, "half_primal", std::move(images.halves.primal));
     add_layer(file, "half_dx", std::move(images.halves.dx));
     add_layer(file, "half_dy", std::move(images.halves.dy));
-    add_layer(file, "own", std::move(images.own));
-    add_layer(file, "guide_albedo", std::move(images.guides.albedo));
-    add_layer(file, "guide_normal", std::move(images.guides.normal));
-    add_layer(file, "guide_nearness", grey(images.guides.nearness));
-    add_layer(file, "guide_roughness", grey(images.guides.roughness));
-    BrightestSamples& b = images.brightest;
-    if (!b.empty()) {
-        add_layer(file, "brightest_primal", std::move(b.primal));
-        add_layer(file, "brightest_dx", std::move(b.dx));
-        add_layer(file, "brightest_dy", std::move(b.dy));
-        add_layer(file, "brightest_albedo", std::move(b.albedo));
-        add_layer(file, "brightest_half", grey(b.half));
-        file.attributes[samples_attribute] = fmt::format("{}", b.samples);
-    }
-    if (!is_demodulated)
-        return;
-    add_layer(file, "mean_albedo", std::move(d.albedo));
-    add_layer(file, "sampled_albedo", std::move(d.sampled_albedo));
-    add_layer(file, "albedo_variance", grey(d.albedo_variance));
-    add_layer(file, "sampled_share", grey(d.sampled_share));
-    add_layer(file, "sampled_variance", std::move(d.sampled_variance));
-    add_layer(file, "value_covariance", std::move(d.value_covariance));
-    add_layer(file, "unexplained_variance", grey(d.unexplained_variance));
-    for (std::size_t l = 0; l < images.parts.size(); ++l) {
-        CoefficientPart& part = images.parts[l];
-        const auto named = [l](const char* name) { return part_layer(l, name); };
-        add_layer(file, named("projection"), grey(part.projection));
-        add_layer(file, named("primal"), std::move(part.primal));
-        add_layer(file, named("dx"), std::move(part.dx));
-        add_layer(file, named("dy"), std::move(part.dy));
-        add_layer(file, named("primal_variance"), grey(part.primal_variance));
-        add_layer(file, named("dx_variance"), grey(part.dx_variance));
-        add_layer(file, named("dy_variance"), grey(part.dy_variance));
-    }
+    add_features(file, std::move(images.features));
+    add_brightest(file, std::move(images.brightest));
+    add_demodulation(file, std::move(images.demodulation));
+    add_parts(file, std::move(images.parts));
+}
+
+/// Whether the images have the same pixels.
+bool are_equal(const RgbImage& a, const RgbImage& b) {
+    return a.width() == b.width() && std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 } // namespace
@@ -98,23 +142,20 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t images =
         pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
-                  GuideImages::bytes_a_pixel + (gradients ? 4 : 1) * sizeof(Rgb) +
+                  FeatureImages::bytes_a_pixel + (gradients ? 3 : 1) * sizeof(Rgb) +
                   (gradients ? 3 : 1) * sizeof(float) + (demodulated ? Demodulation::bytes_a_pixel : 0) +
-                  static_cast<std::size_t>(parts) * CoefficientPart::bytes_a_pixel);
-    const std::uint64_t remodulation = demodulated ? bytes_to_remodulate(size.x, size.y) : 0;
-    const bool is_limited = wanted.settings.spikes == Spikes::consistent;
-    const std::uint64_t limits = is_limited ? pixels * bytes_to_limit(gradients, demodulated) : 0;
+                  static_cast<std::size_t>(parts) * BasisComponent::bytes_a_pixel);
+    const ReconstructionSize picture{size.x, size.y, gradients, demodulated, parts, threads};
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
-        most = std::max(most, images + remodulation + limits + done +
-                                  Reconstructor().bytes_for(size.x, size.y, applied(norm, gradients), threads,
-                                                            parts, is_limited));
+        most = std::max(most, images + done + Reconstructor().bytes_for(picture, applied(norm, gradients)));
         done += pixels * sizeof(Rgb);
     }
-    return most;
+    // The layer "primal", and "Z" beside the nearness it is made of.
+    return std::max(most,
+                    images + done + pixels * (sizeof(Rgb) + (wanted.buffers ? sizeof(Rgb) + sizeof(float) : 0)));
 }
 
-// Nothing is kept that is not to be written: a picture takes more memory here than many a scene.
 ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats) {
     ExrFile file;
@@ -122,14 +163,17 @@ ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& 
     ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
         settings.norm = norm;
-        Reconstructor solver; // its memory goes before the next norm's comes
-        // The denoiser has threads of its own.
+        Reconstructor solver; // one a norm: only one solver's memory at a time
+        // Open Image Denoise has threads of its own.
         const auto cpu_seconds = [&] { return norm == Norm::oidn ? process_cpu_seconds() : pool.cpu_seconds(); };
         const double cpu = cpu_seconds();
         Reconstruction r = reconstruct_if_it_fits(solver, images, settings, parallel_for, pool.size());
-        stats.push_back({norm, r.seconds, cpu_seconds() - cpu, r.iterations, r.residual});
+        stats.push_back({norm, r.seconds, cpu_seconds() - cpu, r.iterations, r.residual, r.redistributed});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
+    RgbImage primal = raw_primal(images, wanted.buffers);
+    if (file.layers.empty() || !are_equal(file.layers.front().image, primal))
+        add_layer(file, primal_layer, std::move(primal));
     if (wanted.buffers)
         add_buffers(file, std::move(images));
     return file;
@@ -140,30 +184,38 @@ ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const Rec
     ExrFile file = reconstruct_layers(std::move(images), wanted, pool, stats);
     if (!wanted.buffers || maps.empty())
         return file;
-    add_layer(file, "reused", grey(maps.reused()));
-    add_layer(file, "failed", grey(maps.failed()));
+    add_numbers(file, "reused", maps.reused());
+    add_numbers(file, "failed", maps.failed());
     for (int i = 0; i < shift_outcome_count; ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
-        add_layer(file, fmt::format("shifts_{}", to_string(outcome)), grey(maps.share(outcome)));
+        add_numbers(file, fmt::format("shifts_{}", to_string(outcome)), maps.share(outcome));
     }
-    add_layer(file, "survival", grey(maps.survival()));
-    add_layer(file, "sharers", grey(maps.sharers));
-    add_layer(file, "gain", grey(maps.gain));
-    add_layer(file, "samples", grey(maps.paths));
+    add_numbers(file, "survival", maps.survival());
+    add_numbers(file, "reuse_set_size", maps.reuse_set_size);
+    add_numbers(file, "gain", maps.gain);
+    add_numbers(file, "samples", maps.paths);
     return file;
 }
 
 ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr) {
     ExrFile file;
-    if (is_exr && images.has_gradients()) {
+    const bool has_buffers = is_exr && images.has_gradients();
+    if (!has_buffers || is_memory_free(sizeof(Rgb) * images.primal.size()))
+        add_layer(file, "", raw_primal(images, has_buffers));
+    if (has_buffers)
         add_buffers(file, std::move(images));
-        return file;
-    }
-    RgbImage& radiance = images.demodulation.empty() ? images.primal : images.demodulation.value;
-    for (std::size_t i = 0; i < images.very_direct.size(); ++i)
-        radiance.data()[i] += images.very_direct.data()[i];
-    add_layer(file, "", std::move(radiance));
     return file;
+}
+
+void record_redistributed(ExrFile& file, const std::vector<ReconstructionStats>& stats) {
+    nlohmann::json fractions = nlohmann::json::object();
+    for (const ReconstructionStats& r : stats)
+        if (r.redistributed > 0)
+            fractions[std::string(to_string(r.norm))] = r.redistributed;
+    if (fractions.empty())
+        file.attributes.erase(redistributed_attribute);
+    else
+        file.attributes[redistributed_attribute] = to_text(fractions);
 }
 
 namespace {
@@ -175,7 +227,7 @@ void write_as(const std::filesystem::path& output, const std::string& extension,
         write_exr(output, file);
 }
 
-/// A name that no file in the temporary folder has.
+/// Returns a name that no file in the temporary folder has.
 std::filesystem::path free_temporary_name(const std::string& extension) {
     const std::filesystem::path folder = std::filesystem::temp_directory_path();
     for (int i = 1;; ++i)
@@ -183,7 +235,7 @@ std::filesystem::path free_temporary_name(const std::string& extension) {
             return path;
 }
 
-/// Keeps a picture that cannot be written where it was to be, and says where; nothing if there is no place either.
+/// Writes the picture to the temporary folder. Returns words that say where; empty if that fails, too.
 std::string keep_aside(const std::string& extension, const ExrFile& file) {
     try {
         const std::filesystem::path kept = free_temporary_name(extension);

@@ -18,10 +18,31 @@ namespace tessera {
 
 /// The EXR attribute with GradientImages::patch.
 inline constexpr const char* patch_attribute = "tessera:patch";
-/// BrightestSamples::samples of the layers "brightest_...".
+/// The EXR attribute with BrightestSamples::samples of the layers "brightest_...".
 inline constexpr const char* samples_attribute = "tessera:samples";
+/// The EXR attribute with the fraction of the radiance that each reconstruction redistributed, as JSON by norm.
+inline constexpr const char* redistributed_attribute = "tessera:redistributed";
 
-/// The layer with the coefficient's part that radiance has in layer `name`: "primal", "dx", "dx_variance".
+/// The layer with the radiance as sampled, directly visible emission included: the color input of a denoiser.
+inline constexpr const char* primal_layer = "primal";
+/// The layer with the radiance as sampled, without directly visible emission: what reconstructions start from.
+inline constexpr const char* without_direct_layer = "primal_without_direct";
+/// The layer with the directly visible emission.
+inline constexpr const char* direct_layer = "direct";
+
+// The layers of the feature buffers, under the names that other programs read.
+inline constexpr const char* albedo_layer = "albedo";
+inline constexpr const char* normal_layer = "N"; ///< channels X, Y, Z
+inline constexpr const char* depth_layer = "Z";  ///< one channel
+inline constexpr const char* roughness_layer = "roughness";
+/// The layer with FeatureImages::nearness, of which "Z" is the inverse, up to rounding.
+inline constexpr const char* nearness_layer = "nearness";
+
+/// The layer "Z" where the camera sees no surface, as Blender writes it; finite, so that programs can scale it.
+inline constexpr float no_depth = 1e10f;
+
+/// Returns the layer that holds of the coefficient what layer `name` holds of the radiance: "primal", "dx",
+/// "dx_variance".
 inline std::string coefficient_layer(const std::string& name) {
     return name.starts_with("primal") ? "coefficient" + name.substr(6) : "coefficient_" + name;
 }
@@ -31,48 +52,53 @@ inline std::string part_layer(std::size_t l, const std::string& name) {
     return "part" + std::to_string(l) + "_" + name;
 }
 
-/// The layers of a picture file that are made from gradients.
+/// The layers to make of a picture's images.
 struct ReconstructionLayers {
-    std::vector<Norm> norms;           ///< the first is the file's plain RGB; empty: none is made
-    ReconstructionSettings settings{}; ///< of each, but for its norm
-    bool buffers = false;              ///< primal, dx, dy, direct and variances, too
+    std::vector<Norm> norms;           ///< the first is the file's plain RGB; empty: no reconstruction
+    ReconstructionSettings settings{}; ///< of all reconstructions, except the norm
+    bool buffers = false;              ///< also everything that `tessera reconstruct` and denoisers need
 };
 
-/// What one reconstruction cost: wall seconds, and the CPU seconds of the threads that worked for it; not a number
-/// where they are not known.
+/// One reconstruction: its cost and what it did.
 struct ReconstructionStats {
     Norm norm;
-    double seconds, cpu_seconds;
+    double seconds, cpu_seconds; ///< wall time; CPU time of all its threads, not a number where it is not known
     int iterations;
     double residual;
+    double redistributed = 0; ///< Reconstruction::redistributed
 };
 
 /// Throws BadInput unless the name ends in .exr, or in .png with no more than one picture to hold.
 void check_picture_name(const std::filesystem::path& output, const ReconstructionLayers& wanted);
 
-/// The most memory that it takes to make the layers of a picture of that size on so many threads, the images they
-/// are made of included.
+/// Returns an upper bound of the bytes that picture_layers() takes for a picture of that size on `threads`
+/// threads, its input images included.
 std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, const ReconstructionLayers& wanted,
                                int threads);
 
-/// The layers wanted, named as their norms; of the buffers those that are not empty, which are taken from
-/// `images`. What each reconstruction cost is appended to `stats`. Throws OutOfMemory where there is no memory for
-/// one; `images` are then as they were. Nobody else may use the pool meanwhile.
+/// Makes the layers of a picture: the reconstructions, named after their norms but for the first, which is the
+/// plain RGB; the layer "primal", unless the plain RGB equals it; and the buffers, those that are not empty. Moves
+/// the buffers out of `images`. Appends the cost of each reconstruction to `stats`. Throws OutOfMemory if a
+/// reconstruction does not fit into memory; `images` are then unchanged. No other thread may use the pool.
 ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats);
 
-/// Those layers and, where pixels share paths, the maps of how that went. Throws likewise.
+/// Makes the same layers and, with path reuse and buffers, the maps of the reuse. Throws as reconstruct_layers().
 ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const ReconstructionLayers& wanted,
                        ThreadPool& pool, std::vector<ReconstructionStats>& stats);
 
-/// What there is to keep of a picture that there is no memory to reconstruct; takes little itself. Of gradients
-/// and for EXR that are the buffers, of which `tessera reconstruct` makes the picture elsewhere; else, the primal
-/// and very direct light.
+/// Makes the layers to keep of a picture that does not fit into memory to be reconstructed: the raw primal as
+/// plain RGB; with gradients, for EXR, also the buffers, from which `tessera reconstruct` makes the picture on
+/// another machine. With buffers the plain RGB is left out if even that image does not fit into memory.
 ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr);
 
-/// Writes the first layer as PNG where the name says so, or all as EXR: aside, and renamed. Where that fails, on a
-/// full disk, it is kept in the temporary folder: a render may have taken days. Throws std::runtime_error that
-/// names the file, and the one in which the picture is kept.
+/// Writes to the header which fraction of the radiance each reconstruction redistributed from fireflies; nothing
+/// if none did.
+void record_redistributed(ExrFile& file, const std::vector<ReconstructionStats>& stats);
+
+/// Writes the first layer as PNG or all layers as EXR, by the name's extension: to a temporary name, which it
+/// renames. If that fails, as on a full disk, it writes to the temporary folder: a render may have taken days.
+/// Throws std::runtime_error that names the file and the one that holds the picture instead.
 void write_picture(const std::filesystem::path& output, const ExrFile& file);
 
 } // namespace tessera

@@ -97,6 +97,14 @@ json counters_json(const Counters& c) {
             {"refused_samples", c.refused_samples}};
 }
 
+void print_redistributed(const std::filesystem::path& output,
+                         const std::vector<ReconstructionStats>& reconstructions) {
+    for (const ReconstructionStats& r : reconstructions)
+        if (r.redistributed > 0)
+            fmt::print(stderr, "{}: {}, fireflies: {:.2g} % of the radiance redistributed\n", output.string(),
+                       to_string(r.norm), 100 * r.redistributed);
+}
+
 json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions) {
     json recon = json::array();
     for (const ReconstructionStats& r : reconstructions)
@@ -104,7 +112,8 @@ json reconstructions_json(const std::vector<ReconstructionStats>& reconstruction
                          {"wall", r.seconds},
                          {"cpu", r.cpu_seconds},
                          {"iterations", r.iterations},
-                         {"residual", r.residual}});
+                         {"residual", r.residual},
+                         {"redistributed", r.redistributed}});
     return recon;
 }
 

@@ -6,6 +6,7 @@
 #include "render/run/picture_identity.h"
 #include "render/run/render.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@
 
 namespace tessera {
 
-// The first three functions tell of samples that were not finite and were left out of a render, the others what a
-// render was and cost.
+// The first three functions report invalid samples (NaN, infinite), which a render leaves out; the others report
+// what a render did and cost.
 
 /// The command that opens a sample of such a render in the viewer: what decides its bits and is not so by itself.
 /// Empty: the viewer has no pictures of that size.
@@ -27,7 +28,12 @@ void warn_of_refused(const SceneSource& source, const Render& render);
 /// Empty: there was none.
 nlohmann::json refused_json(const SceneSource& source, const Render& render);
 
-/// An array of what each reconstruction cost.
+/// Prints to stderr which fraction of the radiance each reconstruction redistributed from fireflies; nothing if
+/// none did.
+void print_redistributed(const std::filesystem::path& output,
+                         const std::vector<ReconstructionStats>& reconstructions);
+
+/// Returns an array with the cost and the redistributed fraction of each reconstruction.
 nlohmann::json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions);
 
 /// What was counted: rays, paths, shifts.

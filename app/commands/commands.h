@@ -109,7 +109,7 @@ int run_reference(const ReferenceOptions& options);
 
 /// The words of `tessera reference`, before they are given a meaning.
 struct ReferenceWords {
-    std::string scene, camera, norms, share;
+    std::string scene, camera, share;
     glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
     bool strict = false;
@@ -218,20 +218,19 @@ int run_sweep(const ExperimentOptions& options);
 /// scenes' own. Returns an ExitCode. Throws BadInput or another std::exception before anything was rendered.
 int run_stability(ExperimentOptions options);
 
-/// Gradients from files, ready to reconstruct from.
+/// The input of a reconstruction, read from files.
 struct GradientInput {
     GradientImages images;                         ///< all finite
-    std::map<std::string, std::string> attributes; ///< those that this program wrote into an EXR header
-    std::size_t repaired = 0;                      ///< values that were no numbers, now 0 or without trust
+    std::map<std::string, std::string> attributes; ///< those of the EXR header that Tessera wrote
+    std::size_t repaired = 0;                      ///< invalid values that became 0 or got no weight
 };
 
-/// Reads one EXR file with layers primal, dx, dy and perhaps direct, or three or four files, EXR (plain RGB) or
-/// PFM: primal, dx, dy and perhaps very direct. dx may lack the last column and dy the last row, which mean
-/// nothing in any case. The EXR file may also have the variances of the three, as layers primal_variance,
-/// dx_variance and dy_variance (sums over the channels, in R); where it has a layer coefficient, gradients and
-/// variances are of that (coefficient_layer), and what makes a picture of it is read, too. Throws BadInput or
-/// another std::exception that names the file: for sizes that do not fit, and for pixels that are not finite
-/// unless `repair` makes them 0.
+/// Reads one EXR file with layers, as reconstruct_layers() writes the buffers (app/cli/picture_layers.h), or three
+/// or four files, EXR (plain RGB) or PFM: primal, dx, dy and perhaps the directly visible emission. A file of
+/// another program needs the layers primal_without_direct (or primal, if there is no layer direct), dx and dy. The
+/// last column of dx and the last row of dy are ignored and may be missing. Throws BadInput or another
+/// std::exception that names the file: for sizes that do not fit, and for pixels that are not finite unless
+/// `repair` makes them 0.
 GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bool repair);
 
 /// The first pixel, row by row from the top left, that is not finite, as text: "pixel (3, 4) is (nan, 0, 1)".

@@ -43,7 +43,7 @@ int run_bench(const ExperimentOptions& options) {
 
 int run_sweep(const ExperimentOptions& options) {
     Experiment experiment(options);
-    const int code = run_jobs({&experiment}, options, [&] { write_sweep(options, experiment.results()); });
+    const int code = run_jobs({&experiment}, options, [&] { write_sweep(experiment, experiment.results()); });
     if (options.sharing.task != Sharing::Task::list)
         fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n",
                    options.output.string());
@@ -70,13 +70,13 @@ ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptio
     return options;
 }
 
-/// A bias that a method has in common with its judge cannot be seen: only PT, which reuses nothing, may be it.
+/// Throws BadInput for a reference that is not by PT: a bias that a method shares with its reference cannot show,
+/// and PT reuses no paths.
 void check_references(const MeasuredScene& scene) {
     for (const FolderReference* reference : scene.references()) {
         if (!reference->is_complete())
             continue;
-        const auto settings = parse_json(reference->image().settings);
-        if (!settings.is_object() || settings.value("method", "") != short_name(Method::pt))
+        if (origin_of(reference->image()).method != Method::pt)
             throw BadInput(fmt::format("{} was not made by PT, which alone can judge the others",
                                        reference->path().string()));
     }

@@ -26,13 +26,14 @@ struct NamedImage {
     RgbImage image;
 };
 
-/// The images in the order of the command line; very direct light may be missing.
+/// The images in the order of the command line; the directly visible emission may be missing.
 using Buffers = std::vector<NamedImage>;
 
 ExrFile read_layers(const std::filesystem::path& path) {
     if (extension_of(path) != ".exr")
-        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers primal, dx and dy; or give "
-                                   "three or four files: primal, dx, dy and very direct",
+        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers, as `tessera render "
+                                   "--buffers` writes it; or give three or four files: primal, dx, dy and the "
+                                   "directly visible emission",
                                    path.string()));
     return read_exr(path);
 }
@@ -70,12 +71,29 @@ bool is_demodulated(const ExrFile& file) {
     return find_layer(file, coefficient_layer("primal"));
 }
 
+/// Returns the layer with the radiance without directly visible emission. Other programs may write the layer
+/// "primal" alone, if there is no such emission. Throws BadInput for a layer "direct" beside it, as "primal" may
+/// contain that emission or not.
+const char* radiance_layer(const ExrFile& file, const std::filesystem::path& path) {
+    if (find_layer(file, without_direct_layer))
+        return without_direct_layer;
+    if (find_layer(file, direct_layer))
+        throw BadInput(fmt::format("{} has a layer \"{}\", but no layer \"{}\": an older version of Tessera or "
+                                   "another program wrote it. Render it again with `tessera render --buffers`, or "
+                                   "give primal, dx, dy and the directly visible emission as four files",
+                                   path.string(), direct_layer, without_direct_layer));
+    return primal_layer;
+}
+
 Buffers buffers_of(const ExrFile& file, const std::filesystem::path& path) {
+    const bool has_coefficient = is_demodulated(file);
+    const auto named = [&](const char* name) { return has_coefficient ? coefficient_layer(name) : name; };
+    const std::string radiance = radiance_layer(file, path);
     Buffers buffers;
-    for (const char* name : {"primal", "dx", "dy"})
-        buffers.push_back(named_layer(file, is_demodulated(file) ? coefficient_layer(name) : name, path));
-    if (find_layer(file, "direct"))
-        buffers.push_back(named_layer(file, "direct", path));
+    for (const std::string& name : {has_coefficient ? named("primal") : radiance, named("dx"), named("dy")})
+        buffers.push_back(named_layer(file, name, path));
+    if (find_layer(file, direct_layer))
+        buffers.push_back(named_layer(file, direct_layer, path));
     return buffers;
 }
 
@@ -161,10 +179,8 @@ struct LayerReader {
         repaired += make_finite(layer, repair);
         return std::move(layer.image);
     }
-    /// Numbers of any sign; empty: the file has none.
+    /// Reads numbers of any sign.
     Image<float> numbers(const std::string& name) const {
-        if (!find_layer(file, name))
-            return {};
         const RgbImage layer = image(name);
         Image<float> result(layer.width(), layer.height());
         std::transform(layer.begin(), layer.end(), result.begin(), [](Rgb value) { return value.r; });
@@ -179,55 +195,48 @@ struct LayerReader {
 
 constexpr float largest = std::numeric_limits<float>::max();
 
-/// What makes a picture of the coefficient's. Bad values are repaired as there: no light, no trust.
+/// Reads what turns a reconstructed coefficient into radiance. Bad values become zero radiance or zero weight.
 Demodulation read_demodulation(const LayerReader& reader) {
-    Demodulation d{reader.image("primal"),
-                   reader.image("mean_albedo"),
-                   reader.image("sampled_albedo"),
-                   reader.variances("albedo_variance", largest),
-                   reader.variances("sampled_share", 0),
-                   reader.image("sampled_variance"),
-                   reader.image("value_covariance"),
-                   reader.variances("unexplained_variance", largest)};
+    Demodulation d{reader.image(without_direct_layer),   reader.image("mean_albedo"),
+                   reader.image("sampled_albedo"),       reader.variances("albedo_variance", largest),
+                   reader.variances("sampled_share", 0), reader.image("sampled_variance"),
+                   reader.image("value_covariance"),     reader.variances("unexplained_variance", largest)};
     for (float& share : d.sampled_share)
         share = std::min(share, 1.0f);
     return d;
 }
 
-/// What the file has of each pixel's brightest sample.
+/// Reads each pixel's brightest sample; empty: the file has none.
 BrightestSamples read_brightest(const LayerReader& reader, bool has_coefficient, int samples) {
     if (!find_layer(reader.file, "brightest_primal"))
         return {};
-    return {reader.image("brightest_primal"),   reader.image("brightest_dx", 1, 0),
-            reader.image("brightest_dy", 0, 1), has_coefficient ? reader.image("brightest_albedo") : RgbImage(),
-            reader.numbers("brightest_half"),   samples};
+    return {reader.image("brightest_primal"),
+            reader.image("brightest_dx", 1, 0),
+            reader.image("brightest_dy", 0, 1),
+            has_coefficient ? reader.image("brightest_albedo") : RgbImage(),
+            find_layer(reader.file, "brightest_half") ? reader.numbers("brightest_half") : Image<float>(),
+            samples};
 }
 
-/// What it has of two halves of the samples, of pixels' own paths, and of what pixels look like.
-void read_guides(const LayerReader& reader, GradientImages& images) {
+/// Reads the half differences and the feature buffers, where the file has them. Without the layer "nearness" the
+/// features are another program's, and are ignored.
+void read_features(const LayerReader& reader, GradientImages& images) {
     if (find_layer(reader.file, "half_primal"))
         images.halves = {reader.image("half_primal"), reader.image("half_dx", 1, 0),
                          reader.image("half_dy", 0, 1)};
-    if (find_layer(reader.file, "own"))
-        images.own = reader.image("own");
-    if (!find_layer(reader.file, "guide_albedo"))
-        return;
-    images.guides = {reader.image("guide_albedo"), reader.image("guide_normal"), reader.numbers("guide_nearness"),
-                     reader.numbers("guide_roughness")};
-    if (images.guides.roughness.empty()) // older files: alike everywhere
-        images.guides.roughness = Image<float>(images.guides.albedo.width(), images.guides.albedo.height());
+    if (find_layer(reader.file, nearness_layer))
+        images.features = {reader.image(albedo_layer), reader.image(normal_layer), reader.numbers(nearness_layer),
+                         reader.numbers(roughness_layer)};
 }
 
-/// The parts of the coefficient that the file has. Their projections may be below 0.
-std::vector<CoefficientPart> read_parts(const LayerReader& reader, bool has_variances) {
-    std::vector<CoefficientPart> parts;
+/// Reads the components of the coefficient that the file has. Their projections may be negative.
+std::vector<BasisComponent> read_parts(const LayerReader& reader, bool has_variances) {
+    std::vector<BasisComponent> parts;
     for (std::size_t l = 0; find_layer(reader.file, part_layer(l, "primal")); ++l) {
         const auto named = [l](const char* name) { return part_layer(l, name); };
-        const RgbImage projection = reader.image(named("projection"));
-        CoefficientPart& part = parts.emplace_back(Image<float>(projection.width(), projection.height()),
-                                                   reader.image(named("primal")), reader.image(named("dx"), 1, 0),
-                                                   reader.image(named("dy"), 0, 1));
-        std::transform(projection.begin(), projection.end(), part.projection.begin(), [](Rgb s) { return s.r; });
+        BasisComponent& part =
+            parts.emplace_back(reader.numbers(named("projection")), reader.image(named("primal")),
+                               reader.image(named("dx"), 1, 0), reader.image(named("dy"), 0, 1));
         if (!has_variances)
             continue;
         part.primal_variance = reader.variances(named("primal_variance"), 0);
@@ -250,8 +259,8 @@ std::string text_of_bad_pixel(const RgbImage& image) {
 
 GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bool repair) {
     if (files.size() != 1 && files.size() != 3 && files.size() != 4)
-        throw BadInput(fmt::format("{} inputs were given: one EXR file with layers primal, dx and dy, or three or "
-                                   "four files are needed: primal, dx, dy and very direct",
+        throw BadInput(fmt::format("{} inputs were given: one EXR file with layers, or three or four files are "
+                                   "needed: primal, dx, dy and the directly visible emission",
                                    files.size()));
     GradientInput input;
     Buffers buffers;
@@ -281,9 +290,9 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     }
     input.images.brightest = read_brightest(
         reader, has_coefficient, number_of(input.attributes, samples_attribute, most_spp, files.front()));
-    read_guides(reader, input.images);
+    read_features(reader, input.images);
     if (has_variances) {
-        // Gradients are trusted least where they are noisy and the primal is not.
+        // Unknown variances: a gradient has the least weight if its variance is large and the primal's is 0.
         input.images.primal_variance = reader.variances(named("primal_variance"), 0);
         input.images.dx_variance = reader.variances(named("dx_variance"), largest, 1, 0);
         input.images.dy_variance = reader.variances(named("dy_variance"), largest, 0, 1);

@@ -22,12 +22,14 @@ void add_inputs(CLI::App& command, ReconstructWords& words) {
         command
             .add_option("inputs", words.inputs,
                         "an EXR file as `tessera render --buffers` writes it; or primal, dx, dy and, if there is "
-                        "any, very direct light: EXR or PFM files, in this order")
+                        "any, directly visible emission: EXR or PFM files, in this order")
             ->take_all();
-    CLI::Option* primal = command.add_option("--primal", words.primal, "the inputs by their names instead");
+    CLI::Option* primal = command.add_option("--primal", words.primal, "the inputs by name instead");
     CLI::Option* dx = command.add_option("--dx", words.dx, "differences to the right");
     CLI::Option* dy = command.add_option("--dy", words.dy, "differences downward");
-    CLI::Option* direct = command.add_option("--direct", words.direct, "very direct light, added after the solve");
+    CLI::Option* direct =
+        command.add_option("--direct", words.direct,
+                           "directly visible emission, which the primal does not contain; added to the result");
     primal->needs(dx)->needs(dy)->excludes(inputs);
     for (CLI::Option* option : {dx, dy, direct})
         option->needs(primal)->excludes(inputs);
@@ -37,22 +39,24 @@ void add_inputs(CLI::App& command, ReconstructWords& words) {
 
 void add_reconstruct(CLI::App& app, ReconstructWords& words) {
     CLI::App& command = *app.add_subcommand("reconstruct", "a picture from saved buffers, of any program");
-    command.footer("The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted "
-                   "downward; other programs may mean others. dx may be a column narrower than the primal, and dy "
-                   "a row lower: the last column of dx and the last row of dy count as 0 in any case.\n"
-                   "Of an EXR file with several layers, the plain RGB is a reconstruction, and is not used.");
+    command.footer(
+        "The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted "
+        "downward; other programs may mean others. dx may be a column narrower than the primal, and dy "
+        "a row lower: the last column of dx and the last row of dy count as 0 in any case.\n"
+        "One EXR file needs the layers primal_without_direct (radiance without directly visible "
+        "emission), dx and dy, or coefficient, coefficient_dx and coefficient_dy, and the layer direct if "
+        "there is such emission; without a layer direct, primal may stand for primal_without_direct. Its "
+        "plain RGB is a reconstruction and is not used.");
     ReconstructOptions& options = words.options;
     add_inputs(command, words);
     add_norms(command, words.norms, "or several: one layer each")->capture_default_str();
     add_alpha(command, options.layers.settings);
-    add_spikes(command, options.layers.settings);
     add_setting(command, threads_setting(options.threads));
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times and residuals");
-    command.add_flag("--buffers", options.layers.buffers,
-                     "primal, dx, dy, direct and the variances as layers of the EXR file, too");
-    command.add_flag("--repair", options.repair, "take pixels that are not finite as 0, and say how many");
+    command.add_flag("--buffers", options.layers.buffers, "also write the input's buffers to the EXR file");
+    command.add_flag("--repair", options.repair, "set pixels that are not finite to 0, and print how many");
 }
 
 ReconstructOptions parse_reconstruct(const ReconstructWords& words) {
@@ -83,7 +87,6 @@ json reconstruction_json(const ReconstructOptions& options, const GradientInput&
             {"height", input.images.primal.height()},
             {"norms", norms},
             {"alpha", options.layers.settings.alpha},
-            {"spikes", to_string(options.layers.settings.spikes)},
             {"repaired_pixels", input.repaired}};
 }
 
@@ -118,7 +121,9 @@ int run_reconstruct(const ReconstructOptions& options) {
     std::vector<ReconstructionStats> recon;
     ExrFile file = reconstruct_layers(std::move(input.images), options.layers, pool, recon);
     check_finite(file, options.inputs.front());
-    file.attributes = std::move(input.attributes);
+    for (const auto& [name, text] : input.attributes)
+        file.attributes[name] = text;
+    record_redistributed(file, recon);
     file.attributes["tessera:reconstruction"] = to_text(settings);
     write_picture(options.output, file);
     if (!options.stats.empty()) {
@@ -133,6 +138,7 @@ int run_reconstruct(const ReconstructOptions& options) {
     for (const ReconstructionStats& r : recon)
         fmt::print(stderr, "{}: {} in {:.3f} s ({:.3f} CPU s)\n", options.output.string(), to_string(r.norm),
                    r.seconds, r.cpu_seconds);
+    print_redistributed(options.output, recon);
     return exit_ok;
 }
 

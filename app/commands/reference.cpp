@@ -18,16 +18,22 @@ namespace tessera {
 void add_reference(CLI::App& app, ReferenceWords& words) {
     CLI::App& command = *app.add_subcommand("reference", "a reference for others to be compared with");
     command.footer(
-        "A reference is two independent renders of the scene, with two seeds, which become the layers half1 and "
-        "half2, and their mean, the plain RGB. From the difference of the halves its own error is known: that of "
-        "the picture is printed and written to the header, each pixel's variance is the layer variance. What a "
-        "biased reconstruction (l1, mixed, weighted) does to both halves alike is not in it. The layer doubt says "
-        "how far each pixel is to be trusted: its relative standard error, or 1 where a single sample makes more "
-        "than a quarter of it, or none found light. The header has the scene's checksums, too, by which others "
-        "refuse it for another "
-        "scene.\n"
-        "OUTPUT.checkpoint is kept while it renders: after an interrupt or a kill the same command goes on from "
-        "there, to the same bits.");
+        "A reference consists of two independent renders of the scene with two seeds, the layers half1 and half2, "
+        "and of their mean, the plain RGB. The difference of the halves gives the reference's own error, which is "
+        "printed and written to the header, and each pixel's variance, the layer variance. That error does not "
+        "contain the bias of a biased reconstruction (all but none, l2 and uniform), which is the same in both "
+        "halves. The "
+        "layer doubt is each pixel's relative standard error, or 1 where a single sample makes more than a "
+        "quarter "
+        "of the pixel or no sample found radiance.\n"
+        "The method (-m, by default G-PR) and the reconstruction (--recon, by default l2, which is linear and "
+        "unbiased; none for methods without gradients) are printed and in the header. They do not depend on what "
+        "is "
+        "rendered. A bias of the judged method cannot show against a reference by the same method: use -m pt to "
+        "judge whether G-PR is unbiased.\n"
+        "The header also has checksums of the scene; other commands refuse the reference for another scene.\n"
+        "OUTPUT.checkpoint exists while the reference renders: after an interrupt or a kill the same command "
+        "continues from there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
@@ -40,8 +46,7 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
     add_method(command, recipe.settings.method);
     add_setting(command, spp_setting(recipe.spp, 2))
         ->description("samples a pixel, of both halves together; one more if odd");
-    add_norms(command, words.norms, "where there are gradients; of several, the one whose halves differ least")
-        ->default_str("l2,none");
+    add_norm(command, recipe.reconstruction);
     limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
           most_seconds)
         ->capture_default_str();
@@ -71,8 +76,6 @@ ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& 
         options.max_depth = options.recipe.settings.max_depth;
     if (command.count("--size"))
         options.size = words.size;
-    if (!words.norms.empty())
-        options.recipe.norms = parse_norms(words.norms);
     if (!words.share.empty()) {
         options.is_share = true;
         options.recipe.share = parse_share(words.share);
@@ -84,19 +87,20 @@ namespace {
 
 void print_error(const std::filesystem::path& output, const ReferenceImage& reference) {
     const FloorFreeError error = error_of(reference);
-    fmt::print("{}: relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(), error.relative_mse,
-               error.standard_error);
-    if (const double share = untrusted_share(reference.doubt); share > 0)
-        fmt::print("{:.2g} % of its pixels are not to be trusted yet: their error is above {:g} %, one sample "
-                   "makes more than a quarter of them, or none found light (layer doubt)\n",
-                   100 * share, 100 * most_doubt);
+    fmt::print("{}: by {}; relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(),
+               to_string(origin_of(reference)), error.relative_mse, error.standard_error);
+    if (const double fraction = untrusted_share(reference.doubt); fraction > 0)
+        fmt::print(
+            "{:.2g} % of its pixels are unreliable: their error is above {:g} %, a single sample makes more "
+            "than a quarter of them, or no sample found radiance (layer doubt)\n",
+            100 * fraction, 100 * most_doubt);
 }
 
 } // namespace
 
 int run_reference(const ReferenceOptions& options) {
     check(options.recipe.settings);
-    check_available(options.recipe.norms);
+    check_available({reconstruction_of(options.recipe).norm});
     const char* const extension = options.is_share ? ".share" : ".exr";
     if (extension_of(options.output) != extension)
         throw BadInput(fmt::format("{}: the name must end in {}", options.output.string(), extension));

@@ -129,6 +129,7 @@ int run_render(const RenderOptions& options) {
         settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
+    record_redistributed(file, recon);
     write_picture(options.output, file);
     const bool is_finite = warn_of_bad_pixels(file);
     if (!options.stats.empty()) {
@@ -138,6 +139,7 @@ int run_render(const RenderOptions& options) {
     }
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
+    print_redistributed(options.output, recon);
     if (!failure.empty())
         throw OutOfMemory(
             fmt::format("{}: {}; the picture is not reconstructed", options.output.string(), failure));

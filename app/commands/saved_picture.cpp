@@ -6,7 +6,7 @@
 #include "render/run/first_hits.h"
 #include "render/scene/camera.h"
 #include "ui/state/buffer.h"
-#include "ui/viewer/viewer.h"
+#include "ui/viewer/viewer_options.h"
 
 #include <limits>
 #include <string>
@@ -45,8 +45,8 @@ const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
                                                                                    : nullptr;
 }
 
-/// The layers of `tessera render --buffers`. What the reconstruction cost is added to `stats`: of one that is
-/// taken over, the CPU seconds are not known.
+/// Makes the layers of `tessera render --buffers`. Appends the cost of the reconstruction to `stats`; the CPU
+/// seconds of one that the viewer made are not known.
 ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
     const Snapshot& snapshot = *picture.snapshot;
     const Reconstruction* finished = finished_reconstruction(picture);
@@ -59,12 +59,12 @@ ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<Recons
     if (finished) {
         exr.layers.insert(exr.layers.begin(), {"", finished->image});
         stats.push_back({norm, finished->seconds, std::numeric_limits<double>::quiet_NaN(), finished->iterations,
-                         finished->residual});
+                         finished->residual, finished->redistributed});
     }
     return exr;
 }
 
-/// First hits, and errors of the picture that is the first layer.
+/// Adds first hits, "first_hit_...", and errors of the first layer, "error_...".
 void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
     Snapshot snapshot = *saved.snapshot;
     const RgbImage& image = exr.layers.front().image;
@@ -81,7 +81,7 @@ void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
         const RgbImage& layer = picture(snapshot, buffer, scratch, companions);
         if (layer.empty())
             continue;
-        exr.layers.push_back({(is_error ? "error_" : "") + std::string(short_name(buffer)), layer});
+        exr.layers.push_back({(is_error ? "error_" : "first_hit_") + std::string(short_name(buffer)), layer});
         if (is_error)
             exr.attributes["tessera:errors_to"] = saved.reference->name;
     }
@@ -99,6 +99,7 @@ void write_saved_picture(const std::filesystem::path& file, const SavedPicture& 
     add_companion_layers(exr, picture);
     exr.attributes["tessera:version"] = TESSERA_VERSION;
     exr.attributes["tessera:settings"] = to_text(settings_of(picture, norm));
+    record_redistributed(exr, stats);
     exr.attributes["tessera:stats"] = to_text(stats_of(snapshot, stats));
     exr.attributes["tessera:camera"] = camera_json(snapshot.camera);
     write_picture(file, exr);

@@ -44,7 +44,7 @@ public:
     bool after_frame() {
         log_times();
         set_title();
-        if (saver_.after_frame(viewer_, surface_.pixels()))
+        if (saver_.after_frame(viewer_.state(), viewer_.saver(), surface_.pixels()))
             surface_.wake();
         return options_.screenshot.empty() || take_screenshot();
     }
@@ -67,9 +67,9 @@ private:
     }
 
     void set_title() {
-        if (viewer_.state().scene_name == titled_)
+        if (viewer_.state().scene_info.name == titled_)
             return;
-        titled_ = viewer_.state().scene_name;
+        titled_ = viewer_.state().scene_info.name;
         surface_.set_title(title(titled_));
     }
 
@@ -78,7 +78,8 @@ private:
             if (message.kind == Message::Kind::error)
                 return fail(message.text);
         }
-        if (!viewer_.settled(viewer_.state().pace.spp_limit) || viewer_.inspecting() || !viewer_.all_drawn())
+        if (!viewer_.settled(viewer_.state().rendering.pace.spp_limit) || viewer_.inspecting() ||
+            !viewer_.all_drawn())
             return true;
         try {
             const ScreenPixels screen = read_screen(surface_.pixels());

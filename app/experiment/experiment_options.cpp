@@ -24,6 +24,9 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
     Setting spp = spp_setting(options.recipe.spp, 2);
     spp.id = "reference_spp";
     add_setting(command, spp)->description("samples a pixel of references that are missing");
+    Setting method = method_setting(options.recipe.settings.method);
+    method.id = "reference_method";
+    add_setting(command, method)->description("method of references that are missing");
 }
 
 void add_quick(CLI::App& command, ExperimentWords& words) {
@@ -105,8 +108,9 @@ constexpr const char* common_footer =
     "(CLUSTER.md). What is done is in OUTPUT/jobs: after an interrupt or a kill the same command goes on from "
     "there. "
     "Another build (but see --any-build), scene file, reference or setting begins anew.\n"
-    "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them; missing ones are rendered "
-    "first, and those that remember another scene are refused.";
+    "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them. Missing ones are rendered "
+    "first, references of another scene are refused. The reports say by which method and reconstruction each "
+    "reference was made.";
 
 } // namespace
 
@@ -156,14 +160,15 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
         std::string("Writes stability.html, which needs no other file, stability.md, stability.csv and SCENE.png "
                     "to the output "
                     "folder, anew now and then. "
-                    "References are by PT, whatever else there is: it alone shares no bias with the others.\n") +
+                    "References are by PT, which reuses no paths: a bias that a method shares with its reference "
+                    "cannot show.\n") +
         common_footer);
     add_experiment(command, words);
     command.get_option("scenes")->required(false)->description(
         "Mitsuba scenes, XML (default: assets/stability), with <!-- fails: what and why --> and <!-- vary: NAME = "
         "VALUE, VALUE -->");
     command.get_option("--output")->required(false)->default_str("report");
-    for (const char* other : {"--max-depth", "--vary"})
+    for (const char* other : {"--max-depth", "--vary", "--reference-method"})
         command.remove_option(command.get_option(other));
 }
 

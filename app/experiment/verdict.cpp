@@ -39,11 +39,8 @@ struct Tolerance {
 
 Tolerance tolerance_of(const Setup& setup) {
     constexpr Tolerance linear{1e-4, 1e-4}, smoothing{0.02, 0.1};
-    const RenderSettings& s = setup.settings.render;
-    const ReconstructionSettings& r = setup.settings.reconstruction;
-    const bool is_smoothed =
-        r.spikes == Spikes::consistent || (!has_gradients(s.method) && is_demodulated(s)); // PR's picture
-    return is_linear(r.norm) && !is_smoothed ? linear : smoothing;
+    const bool is_linear = guarantee_of(setup.settings.reconstruction.norm).convergence == Convergence::unbiased;
+    return is_linear ? linear : smoothing;
 }
 
 /// The squared bias of the pieces. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the

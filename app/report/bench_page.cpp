@@ -63,28 +63,19 @@ std::string figures_table(const ExperimentOptions& options, const SceneCurves& s
     return html + "</table>\n";
 }
 
-std::string reference_text(const Experiment& experiment, const std::string& scene) {
-    std::string html;
-    for (const MeasuredScene& measured : experiment.scenes()) {
-        if (measured.name() != scene)
-            continue;
-        html += fmt::format("<p class=\"note\">{}", escaped(measured.source().file.string()));
-        for (const FolderReference* reference : measured.references()) {
-            if (!reference->is_complete())
-                continue;
-            const FloorFreeError error = error_of(reference->image());
-            html += fmt::format("; reference <code>{}</code>, itself at relMSE {:.2g}",
-                                escaped(reference->path().filename().string()), error.relative_mse);
-        }
-        html += "</p>\n";
-    }
-    return html;
+/// The scene's file and its references.
+std::string reference_text(const Experiment& experiment, const SceneCurves& scene) {
+    std::vector<Result> results;
+    for (const Curve& curve : scene.curves)
+        results.push_back(last_of(curve));
+    const Result& first = results.front();
+    return fmt::format("<p class=\"note\">{}. {}</p>\n", escaped(first.file.string()),
+                       escaped(reference_words(experiment, first.scene, results)));
 }
 
 std::string scene_section(const Experiment& experiment, const SceneCurves& scene) {
     const ExperimentOptions& options = experiment.options();
-    return fmt::format("<h2>{}</h2>\n{}{}{}{}{}", escaped(scene.name),
-                       reference_text(experiment, last_of(scene.curves.front()).scene),
+    return fmt::format("<h2>{}</h2>\n{}{}{}{}{}", escaped(scene.name), reference_text(experiment, scene),
                        to_svg(bench_chart(options, scene)), to_svg(seen_chart(options, scene)),
                        figures_table(options, scene), crops_section(experiment, scene));
 }
@@ -124,12 +115,12 @@ std::string settings_section(const Experiment& experiment) {
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes) {
     std::string html = not_complete();
     html +=
-        "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the two halves of a "
-        "reference, so that their noise does not count. After ± stands its uncertainty; an error below that is "
-        "given as &lt; and is in no chart. FLIP is how much an observer who flips between picture and reference "
-        "sees them "
-        "differ, from 0 to 1, in the mean. Times are of rendering and one reconstruction. “Tiles” is how much the "
-        "grid of tiles shows in the error, as a ratio of spectral power; 1: it does not.</p>\n";
+        "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the pixels, where r₁ and r₂ "
+        "are the two independent halves of a reference and r is their mean: their noise does not enter the "
+        "expectation. The number after ± is its standard error; an error below that is given as &lt; and is in no "
+        "chart. FLIP is the mean difference that an observer sees who flips between picture and reference, from 0 "
+        "to 1. Times are of rendering and one reconstruction. “Tiles” is how much the grid of tiles shows in the "
+        "error, as a ratio of spectral power; 1: it does not show.</p>\n";
     html += speed_up_section(scenes);
     if (scenes.size() > 1)
         html += to_svg(triangle_chart(experiment.options(), scenes));

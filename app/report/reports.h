@@ -108,8 +108,13 @@ std::string speed_up_csv(const ExperimentOptions& options, const std::vector<Sce
 /// cannot be read are left out.
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes);
 
+/// Describes a scene's complete references in plain text: file, method, reconstruction and own error. Explains a
+/// reference by a method that `results`, those of the scene, judge. Empty: no reference is complete.
+std::string reference_words(const Experiment& experiment, const std::string& scene,
+                            const std::vector<Result>& results);
+
 /// Writes sweep.csv, sweep.json, sweep.md, and a chart of each scene, sweep-SCENE.svg, to the sweep's folder.
-void write_sweep(const ExperimentOptions& options, const std::vector<Result>& results);
+void write_sweep(const Experiment& experiment, const std::vector<Result>& results);
 
 // The stability suite.
 

@@ -19,7 +19,7 @@ namespace tessera {
 namespace {
 
 /// The names in the cells, each once, in the order in which they come.
-std::vector<std::string> names(const std::vector<OverviewCell>& cells, std::string OverviewCell::*member) {
+std::vector<std::string> names(const std::vector<OverviewCell>& cells, std::string OverviewCell::* member) {
     std::vector<std::string> names;
     for (const OverviewCell& cell : cells)
         if (std::find(names.begin(), names.end(), cell.*member) == names.end())
@@ -162,12 +162,13 @@ ReportTable table_of(const std::vector<StabilityRow>& rows) {
     return table;
 }
 
-/// "96x72 pixels, 1 CPU s, 20 seeds. Reference: ...".
+/// Returns "96x72 pixels, 1 CPU s, 20 seeds. Reference: ...".
 std::string conditions(const StabilityCase& c) {
     const FloorFreeError error = error_of(reference_of(c));
     const glm::ivec2 size = c.options->settings.size;
-    return fmt::format("{}x{} pixels, {}, {} seeds. Reference: relMSE of its own {:.2g} ± {:.1g}.", size.x, size.y,
-                       to_string(c.options->effort), c.options->seeds, error.relative_mse, error.standard_error);
+    return fmt::format("{}x{} pixels, {}, {} seeds. Reference: by {}, relMSE of its own {:.2g} ± {:.1g}.", size.x,
+                       size.y, to_string(c.options->effort), c.options->seeds,
+                       to_string(origin_of(reference_of(c))), error.relative_mse, error.standard_error);
 }
 
 std::string failure(const StabilityCase& c) {
@@ -210,7 +211,7 @@ Introduction introduction(const ExperimentOptions& suite, double level) {
     const glm::ivec2 size = suite.settings.size;
     return {fmt::format(
                 "{}x{} pixels, {} each, {} seeds, unless a scene says what it needs; {}. References are by path "
-                "tracing.",
+                "tracing, which reuses no paths, with other seeds than the pictures.",
                 size.x, size.y, to_string(suite.effort), suite.seeds, cpu_model()),
             {{"fails",
               fmt::format(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <fmt/core.h>
@@ -118,16 +119,32 @@ std::string tile_table(const ExperimentOptions& options, const Results& results)
     return text;
 }
 
-std::string markdown(const ExperimentOptions& options, const Results& results) {
+/// A line for each scene with its references.
+std::string reference_list(const Experiment& experiment, const Results& results) {
+    std::string text;
+    for (const MeasuredScene& scene : experiment.scenes()) {
+        Results of_scene;
+        std::ranges::copy_if(results, std::back_inserter(of_scene),
+                             [&](const Result& r) { return r.scene == scene.name(); });
+        if (const std::string words = reference_words(experiment, scene.name(), of_scene); !words.empty())
+            text += fmt::format("- {}: {}\n", scene.name(), words);
+    }
+    return text;
+}
+
+std::string markdown(const Experiment& experiment, const Results& results) {
+    const ExperimentOptions& options = experiment.options();
     const glm::ivec2 size = options.settings.size;
     return fmt::format(
         "# Sweep\n\n"
         "{}x{} pixels, {}, {} seed{}.\n\n"
         "## Error, time and efficiency\n\n"
-        "relMSE without the references' noise, with its uncertainty (of one render, from how its pieces differ, "
-        "or "
-        "of the mean over the seeds, if that is larger), CPU seconds of rendering and reconstruction, means over "
-        "the seeds and their standard deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"
+        "relMSE against two independent halves of a reference, whose noise does not enter the expectation; its "
+        "uncertainty (of one render, from how its pieces differ, or the standard error of the mean over the "
+        "seeds, "
+        "if that is larger); CPU seconds of rendering and reconstruction; means over the seeds and their standard "
+        "deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"
+        "## References\n\n{}\n"
         "## Base paths skipped by the roulette / reused\n\n"
         "In per cent of the base paths that a gradient could have from its tile; the rest carry "
         "nothing that could be reused.\n\n{}\n"
@@ -137,15 +154,17 @@ std::string markdown(const ExperimentOptions& options, const Results& results) {
         "from pixel to pixel (means over columns and rows); and squared steps where tiles meet over those "
         "elsewhere. 1: the grid does not show.\n\n{}",
         size.x, size.y, to_string(options.effort), options.seeds, options.seeds > 1 ? "s" : "",
-        error_table(options, results), reuse_table(options, results), tile_table(options, results));
+        error_table(options, results), reference_list(experiment, results), reuse_table(options, results),
+        tile_table(options, results));
 }
 
 } // namespace
 
-void write_sweep(const ExperimentOptions& options, const Results& results) {
+void write_sweep(const Experiment& experiment, const Results& results) {
+    const ExperimentOptions& options = experiment.options();
     write_text(options.output / "sweep.csv", to_csv(options, results));
     write_text(options.output / "sweep.json", to_json(options, results));
-    write_text(options.output / "sweep.md", markdown(options, results));
+    write_text(options.output / "sweep.md", markdown(experiment, results));
     std::map<std::string, Results> scenes;
     for (const Result& result : results)
         scenes[result.title()].push_back(result);

@@ -1,6 +1,6 @@
 #include "recon/metrics/halo.h"
 
-#include "recon/picture/spikes.h"
+#include "recon/guided/fireflies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ GradientImages without_brightest(const GradientImages& images, PixelRect square)
 
 std::optional<Halo> measure_halo(const GradientImages& images, const ReconstructionSettings& settings,
                                  const ParallelFor& parallel_for) {
-    if (!can_limit(images))
+    if (!can_clamp(images))
         return {};
     std::size_t brightest = 0;
     for (std::size_t i = 1; i < images.primal.size(); ++i)

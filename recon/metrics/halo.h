@@ -19,7 +19,7 @@ struct Halo {
 /// Reconstructs the images as they are, and with the mean of the others in the place of the brightest sample of
 /// all pixels that may share the spike's: those of the square of edge 2 patch - 1 around it, or 2 patch + 1 with
 /// gradients, whose sets reach a pixel further. What differs outside of that square is what the spike put there,
-/// be it by the solver or as light that is held back and spread (recon/picture/spikes.h), which has an energy of
+/// be it by the solver or as clamped energy that is redistributed (recon/guided/fireflies.h), which has an energy of
 /// about 1, and a small peak. Empty: nothing is known of brightest samples, no sample is above the others, the
 /// square has the whole picture, or that is black without the spike.
 std::optional<Halo> measure_halo(const GradientImages& images, const ReconstructionSettings& settings,

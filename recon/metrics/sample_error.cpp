@@ -1,7 +1,7 @@
 #include "recon/metrics/sample_error.h"
 
 #include "recon/parallel.h"
-#include "recon/picture/demodulation.h"
+#include "recon/guided/demodulation.h"
 #include "recon/square_means.h"
 
 #include <algorithm>

@@ -171,7 +171,7 @@ Norm possible(Norm norm) {
     return norm == Norm::oidn && !oidn_problem().empty() ? Norm::guided : norm;
 }
 
-RgbImage denoised_by_oidn(const RgbImage& image, const GuideImages& guides) {
+RgbImage denoised_by_oidn(const RgbImage& image, const FeatureImages& features) {
     if (!oidn_problem().empty())
         throw std::runtime_error(oidn_problem());
     const Library& oidn = library();
@@ -187,10 +187,10 @@ RgbImage denoised_by_oidn(const RgbImage& image, const GuideImages& guides) {
     check(device.get());
     if (!filter)
         throw std::runtime_error("Open Image Denoise: it has no filter RT");
-    SharedImage colour{image}, albedo{guides.albedo}, normal{guides.normal},
+    SharedImage colour{image}, albedo{features.albedo}, normal{features.normal},
         output{RgbImage(image.width(), image.height())};
     colour.give(filter.get(), "color");
-    if (!guides.empty()) {
+    if (!features.empty()) {
         for (Rgb& a : albedo.image)
             a = glm::clamp(a, Rgb(0), Rgb(1));
         albedo.give(filter.get(), "albedo");

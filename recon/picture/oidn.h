@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "recon/picture/norm.h"
+#include "recon/norm.h"
 
 #include <cstdint>
 #include <string>
@@ -19,10 +19,10 @@ const std::string& oidn_problem();
 /// The norm, or guided in place of oidn where the denoiser cannot be used.
 Norm possible(Norm norm);
 
-/// What the denoiser makes of radiance without very direct light, by the guides' albedo and normals; empty guides:
-/// by the picture alone. In the calling thread. Throws std::runtime_error with oidn_problem() or what the library
-/// says.
-RgbImage denoised_by_oidn(const RgbImage& image, const GuideImages& guides);
+/// What the denoiser makes of radiance without very direct light, by the features' albedo and normals; empty
+/// features: by the picture alone. In the calling thread. Throws std::runtime_error with oidn_problem() or what
+/// the library says.
+RgbImage denoised_by_oidn(const RgbImage& image, const FeatureImages& features);
 
 /// About the memory that it takes, as measured with version 2.5.
 std::uint64_t bytes_of_oidn(int width, int height);

@@ -1,95 +1,92 @@
 #pragma once
 
 #include "recon/image.h"
+#include "recon/norm.h"
 #include "recon/parallel.h"
-#include "recon/picture/norm.h"
-#include "recon/poisson_problem.h"
+#include "recon/parameters.h"
+#include "recon/solvers/poisson_problem.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string_view>
 
 namespace tessera {
 
 struct ReconstructionSettings {
-    Norm norm = Norm::guided;
+    Norm norm = Norm::guided; ///< as applied(): without gradients, the raw primal
     float alpha = 0.2f;       ///< weight of the primal image against its gradients, > 0
-    Spikes spikes = Spikes::consistent;
 
     bool operator==(const ReconstructionSettings&) const = default;
 };
 
-/// Whether single samples are held back (recon/picture/spikes.h) where the images are reconstructed so.
-bool holds_back(const GradientImages& images, const ReconstructionSettings& settings);
-
 struct Reconstruction {
-    RgbImage image;      ///< radiance, very direct light included; empty when stopped
+    RgbImage image;      ///< radiance, directly visible emission included; empty when stopped
     double residual = 0; ///< relative residual of the normal equations (L2)
-    int iterations = 0;  ///< inner solves, steps of weighted, or sweeps of uniform; 1 for L2, 0 for none
+    int iterations = 0;  ///< inner solves, steps of weighted, or sweeps of uniform; 1 for L2, 0 without solver
     double seconds = 0;  ///< wall time
-    /// Of the light, without very direct light, what was held back and spread (recon/picture/spikes.h).
-    double held_share = 0;
-    bool goes_on = false; ///< it was made with what was found about one before: anew it would differ by little
+    double redistributed = 0; ///< fraction of the energy that was clamped from fireflies and redistributed
+    bool goes_on = false;     ///< it was made with what was found about an earlier picture (incremental)
+};
+
+/// What the memory of a reconstruction depends on.
+struct ReconstructionSize {
+    int width, height;
+    bool has_gradients, is_demodulated; ///< as GradientImages are
+    int parts = 0;                      ///< components of the basis
+    int threads = 1;
 };
 
 class PictureSolvers;
+struct GuidedFit;
 
-/// Reconstructs one image after the other, and keeps what the next can use: prepared transforms, memory, where its
-/// solvers stood, and what was found about the picture. One call at a time.
+/// Reconstructs one picture after the other, and keeps what the next can use: prepared transforms, memory, the
+/// last solutions, and what `guided` and `smoothed` found about the picture. One call at a time.
 class Reconstructor {
 public:
     Reconstructor();
     ~Reconstructor();
 
-    /// Does what the function below does, but goes on from the last image, if that was of this size (a warm
-    /// start), which is right if it had the same scene and view and a few samples less. L1, mixed and weighted
-    /// start from where they last ended. From the second image on, what was found about it beside its light is
-    /// kept: which pixels look alike, and how far gradients, bright pixels and fine differences are to be trusted.
-    /// With the same settings, images of less than a quarter more samples (GradientImages::brightest says how
-    /// many) are made with that, in half of the time or less. Parts begin anew, and `oidn` keeps nothing.
+    /// Makes the picture that the function reconstruct() makes, but starts from the last one, which must be of the
+    /// same scene and view. L1, mixed and weighted solvers start from their last solution. `guided` and `smoothed`
+    /// keep what they find from the second picture on: pictures with the same settings and less than a quarter
+    /// more samples (GradientImages::brightest says how many) take half of the time or less.
     Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                                const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
-    /// The next image starts from nothing.
+    /// The next picture starts from nothing.
     void forget();
 
-    /// Whether what was found is kept, which takes memory from one image to the next.
+    /// Whether what was found is kept, which takes memory from one picture to the next.
     void set_keeps(bool keeps);
 
-    /// The most memory that reconstruct() takes beside its images, on so many threads: for the picture, and for
-    /// what its solver does not have already from images before.
-    /// @param parts       GradientImages::parts
-    /// @param is_limited  whether what bytes_to_limit() says (recon/picture/spikes.h) is asked for beside it
-    std::uint64_t bytes_for(int width, int height, Norm norm, int threads = 1, int parts = 0,
-                            bool is_limited = false) const;
+    /// Other constants and stages, for tests and benches.
+    void set_parameters(const GuidedParameters& parameters);
 
-    /// The memory that it takes beside these to keep what it finds.
+    /// The most bytes that reconstruct() takes beside its images: for the picture, and for solvers that it does
+    /// not have yet.
+    std::uint64_t bytes_for(const ReconstructionSize& size, Norm norm) const;
+
+    /// Bytes that it takes beside these to keep what it finds.
     static std::uint64_t bytes_to_keep(int width, int height);
 
-    /// The memory of what it has kept: the next image has it, or it goes before that is begun.
+    /// Bytes of what it has kept: the next picture uses it, or frees it before anything else.
     std::uint64_t bytes_kept() const;
 
 private:
-    struct Fit;
-    struct Task;
-    Reconstruction picture_of(const Task& task);
-    static void spread_held(const Task& task, RgbImage& image);
-    RgbImage noise_of(const Task& task);
-    RgbImage smooth(const Task& task, RgbImage& picture);
-    void finish(const Task& task, RgbImage& picture);
+    struct KeptFit;
+    Reconstruction denoise(const GradientImages& images, const ReconstructionSettings& settings,
+                           const ParallelFor& parallel_for, const SolveWatch& watch);
+    Reconstruction publish(const GradientImages& images, const ReconstructionSettings& settings,
+                           const ParallelFor& parallel_for, const SolveWatch& watch);
 
-    std::unique_ptr<PictureSolvers> solvers_; ///< for the size of the last image
-    std::unique_ptr<Fit> fit_;                ///< of an image before; null: there is none
+    std::unique_ptr<PictureSolvers> solvers_; ///< for the size of the last picture
+    std::unique_ptr<KeptFit> kept_;           ///< of an earlier picture; null: there is none
+    GuidedParameters parameters_;
     bool keeps_ = true;
-    bool has_variances_ = false; ///< the last image that was weighted
-    bool has_solved_ = false;    ///< an image of the same scene and view
+    bool has_solved_ = false; ///< a picture of the same scene and view
 };
 
-/// The image whose gradients are (dx, dy) and whose values are the primal's, as nearly as the norm and alpha
-/// allow (screened Poisson), plus very direct light. Without gradients, or with Norm::none, it is the primal
-/// plus very direct light.
+/// The picture that the settings make of raw primal, gradients and features, plus directly visible emission.
+/// Throws std::invalid_argument where images differ in size or alpha is not above 0.
 Reconstruction reconstruct(const GradientImages& images, const ReconstructionSettings& settings,
                            const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 

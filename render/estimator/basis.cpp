@@ -130,8 +130,7 @@ void ArrivingLight::reset(Basis basis, std::span<const Rgb> albedos) {
     while (light_.size() < static_cast<std::size_t>(parts_))
         light_.push_back(std::make_unique<Vec3Lanes>());
     for (int m = 0; m < padded(count_); ++m)
-        least_f_cos_.set(m, m < count_ ? glm::max(least_of_albedo * albedos[static_cast<std::size_t>(m)], 1e-20f)
-                                       : Rgb(1));
+        least_f_cos_.set(m, m < count_ ? glm::max(least_of_albedo * albedos[m], 1e-20f) : Rgb(1));
     for (int l = 0; l < parts_; ++l)
         for (int m = 0; m < padded(count_); ++m)
             part(l).set(m, Rgb(0));

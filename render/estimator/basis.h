@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/estimator/base_path.h"
-#include "render/estimator/offsets.h"
+#include "render/paths/base_path.h"
+#include "render/paths/offsets.h"
 #include "render/settings/settings.h"
 
 #include <memory>
@@ -74,8 +74,8 @@ public:
 
 private:
     void add_eight(int first, const FirstScatter& scatter, const Vec3Lanes& carried);
-    const Vec3Lanes& part(int l) const { return *light_[static_cast<std::size_t>(l)]; }
-    Vec3Lanes& part(int l) { return *light_[static_cast<std::size_t>(l)]; }
+    const Vec3Lanes& part(int l) const { return *light_[l]; }
+    Vec3Lanes& part(int l) { return *light_[l]; }
 
     Basis basis_ = Basis::none;
     int parts_ = 0, count_ = 0;

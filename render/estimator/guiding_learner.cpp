@@ -178,7 +178,7 @@ std::size_t GuidingLearner::Sums::best_tried() const {
     return pays ? static_cast<std::size_t>(best - squares.begin()) : 0;
 }
 
-float GuidingLearner::share_of_paths(int pixels, int index, bool draws) {
+float GuidingLearner::fraction_of_paths(int pixels, int index, bool draws) {
     const auto share = [pixels](int paths) {
         return std::min(1.0f, static_cast<float>(paths) / static_cast<float>(pixels));
     };
@@ -258,7 +258,7 @@ void GuidingLearner::learn_by_halves(std::span<const std::vector<FoundLight>> fo
 }
 
 void GuidingLearner::add(const FoundLight& f, const PathGuiding* drawn_with) {
-    std::unique_ptr<Sums>& sums = cells_[static_cast<std::size_t>(grid_.cell_of(f.position, f.normal))];
+    std::unique_ptr<Sums>& sums = cells_[grid_.cell_of(f.position, f.normal)];
     if (!sums)
         sums = std::make_unique<Sums>();
     sums->add(f, drawn_with ? drawn_with->known_at(f.position, f.normal) : nullptr);
@@ -275,8 +275,8 @@ GuidingLearner::Cells GuidingLearner::merged(int times) const {
     const GuidingGrid grid = coarser(times);
     Cells cells(static_cast<std::size_t>(grid.count()));
     for_each_cell(grid_, [&](glm::ivec3 cell, int side) {
-        const std::unique_ptr<Sums>& from = cells_[static_cast<std::size_t>(grid_.index(cell, side))];
-        std::unique_ptr<Sums>& to = cells[static_cast<std::size_t>(grid.index(cell >> times, side))];
+        const std::unique_ptr<Sums>& from = cells_[grid_.index(cell, side)];
+        std::unique_ptr<Sums>& to = cells[grid.index(cell >> times, side)];
         if (from && !to)
             to = std::make_unique<Sums>();
         if (from)
@@ -288,7 +288,7 @@ GuidingLearner::Cells GuidingLearner::merged(int times) const {
 DirectionGuide GuidingLearner::guide_of(const Sums& sums, const DirectionGuide* prior) {
     DirectionMap::Shares expected;
     for (int b = 0; b < DirectionMap::bins; ++b)
-        expected[static_cast<std::size_t>(b)] = prior ? prior->map.share(b) : 1.0f / DirectionMap::bins;
+        expected[b] = prior ? prior->map.share(b) : 1.0f / DirectionMap::bins;
     const DirectionMap::Shares shares =
         share_out(Squares::sums_of(sums.first), Squares::sums_of(sums.second), Squares::sums_of(expected));
     const float unknown = prior ? prior->share : first_share;
@@ -317,12 +317,12 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
         for_each_cell(grid, [&](glm::ivec3 cell, int side) {
             const auto i = static_cast<std::size_t>(grid.index(cell, side));
             if (!above.empty())
-                guide_of_cell[i] = above[static_cast<std::size_t>(coarse.index(cell >> 1, side))];
+                guide_of_cell[i] = above[coarse.index(cell >> 1, side)];
             const double samples = cells[i] ? cells[i]->samples() : 0;
             if (!(samples >= least_samples)) // nor where sums have become too large for floats
                 return;
             const int prior = std::exchange(guide_of_cell[i], static_cast<int>(guides.size()));
-            guides.push_back(guide_of(*cells[i], prior < 0 ? nullptr : &guides[static_cast<std::size_t>(prior)]));
+            guides.push_back(guide_of(*cells[i], prior < 0 ? nullptr : &guides[prior]));
         });
         above = std::move(guide_of_cell);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/path_guiding.h"
+#include "render/paths/path_guiding.h"
 #include "render/settings/settings.h"
 
 #include <array>
@@ -23,12 +23,12 @@ public:
     /// samples go on telling, and nothing drawn from it.
     std::shared_ptr<const PathGuiding> make_guiding(Guiding when);
 
-    /// Of base paths in pass `index` (from 0) of so many pixels, the share that is to be learnt from: of the first
-    /// pass 64 thousand paths; then as many as there are in one pass, but at most a quarter of a million, until
-    /// there are twice as many passes, and a thousand of each pass; a quarter of that while nothing is drawn. Of
-    /// all paths, no more is learnt that helps.
-    /// @param draws  guides are drawn from in this pass
-    static float share_of_paths(int pixels, int index, bool draws);
+    /// Returns the fraction of guiding paths: of the base paths of pass `index` (from 0), those from which later
+    /// passes learn. Pass 0 of an image of N pixels has min(N, 2^16) guiding paths. Pass p has min(N, 2^18) / P,
+    /// and at least min(N, 2^10), where P is the largest power of two up to p; a quarter of that while no
+    /// direction is drawn from guides. More guiding paths do not lower the variance.
+    /// @param draws  this pass draws directions from guides
+    static float fraction_of_paths(int pixels, int index, bool draws);
 
     /// About the memory that it takes to guide paths: for what a pass finds, until that is learnt,
     static std::uint64_t bytes_of_found(int pixels);

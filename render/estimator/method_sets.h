@@ -1,23 +1,24 @@
 #pragma once
 
 #include "render/estimator/pass.h"
+#include "render/estimator/sampling_set.h"
 
 #include <glm/vec2.hpp>
 
 namespace tessera {
 
-// The sampling sets T of each method: what makes it that method. Each function puts the pixels of one set after
-// the other into `set`, and has it visited. (PT's is the pixel alone.)
+// The sampling sets T of each method, which define the method. Each function stores the pixels of one set after
+// the other in `set`, and calls `visit`. PT's set is the pixel alone.
 
-/// How sets of the method decide on which base paths are shared: G-PT's few share all.
+/// Returns the Russian roulette on reuse of a method: none for G-PT, whose sets have two pixels.
 inline RouletteKind roulette_of(const RenderSettings& settings) {
     return reuses_paths(settings.method) ? settings.roulette : RouletteKind::none;
 }
 
-/// PR: T is a tile, or what the plan cuts it into [Bekaert 2002]. Calls `visit(inner)`.
+/// PR: T is a tile, or a tile split [Bekaert 2002]. Calls `visit(inner)`.
 template <class Visit>
 void for_each_tile_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner, int) {
+    pass.grid.for_each_split(block, [&](PixelRect inner, int) {
         set.assign(inner);
         visit(inner);
     });
@@ -38,7 +39,7 @@ void for_each_rooks_set(const Pass& pass, PixelRect block, SamplingSet& set, Vis
     });
 }
 
-/// PR with the pattern of its settings.
+/// PR with the pattern of the settings.
 template <class Visit>
 void for_each_pr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
     if (pass.settings.pattern == Pattern::rooks)
@@ -60,10 +61,10 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
 
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
 /// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all, paths_alone)`;
-/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (ReusePlan::paths_alone).
+/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (LearnedReuse::paths_alone).
 template <class Visit>
 void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_part(block, [&](PixelRect inner, int paths_alone) {
+    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_alone) {
         const PixelRect all = inner.with_halo(pass.size);
         set.assign(all);
         visit(inner, all, paths_alone);
@@ -102,8 +103,8 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
     }
 }
 
-/// Likewise the sets that a pixel has its light from: of G-PR all of its block that it is in, those of tiles above
-/// and on the left among them. The path inspector goes this way.
+/// Does the same for the sets that contribute to a pixel: for G-PR all sets of its block that contain it,
+/// including those of the tiles above and on the left. The path inspector uses them.
 template <class Visit>
 void for_each_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     if (pass.settings.method != Method::gpr || pass.grid.paths_alone_at(p) > 0)

@@ -1,16 +1,33 @@
+#include "render/estimator/methods.h"
+
 #include "render/estimator/method_sets.h"
-#include "render/estimator/pass.h"
+#include "render/estimator/set_reuse.h"
 
 #include <glm/vec2.hpp>
 
-// The four methods side by side. Each traces the base paths of a block, lets every sampling set share its light
-// (share_light), and adds what the pixels got; what T is, and so what makes it this method, is in method_sets.h.
+// The four methods side by side. Each traces the base paths of a block, reuses them within each sampling set T
+// (reuse_paths), and adds the results to the film. method_sets.h defines T, which is what distinguishes the
+// methods.
 
 namespace tessera {
 
 namespace {
 
-/// The parts of what pixel (x, y) gets from its own base path alone; none without such a basis.
+/// Adds a sample to the film. At the edges of directly visible emitters, several camera rays replace its directly
+/// visible emission (Pass::very_direct): such rays are cheap, and no other pixel reuses their result. The pre-pass
+/// finds these edges, because edges that samples find would bias pixels with a small emitter upward.
+void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
+    if (film.has_lamp_edge(x, y))
+        sample.very_direct = pass.very_direct(worker.tracer, x, y);
+    for (int more = film.features().wanted(x, y); more > 0; --more)
+        film.add_feature_sample(x, y, pass.index,
+                                pass.feature_sample(worker.tracer, x, y, film.features().count(x, y)),
+                                worker.counters);
+    film.add(x, y, pass.index, sample, worker.counters);
+}
+
+/// Returns the basis components of the radiance of pixel (x, y) from its own base path; empty without such a
+/// basis.
 std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
                                const Film& film) {
     if (!is_expanded(pass.settings))
@@ -29,21 +46,21 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
-            note_light(pass, worker.path, worker.found);
+            record_light(pass, worker.path, worker.found);
             const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
             add_sample(pass, x, y, sample, worker, film);
         }
 }
 
-/// Traces the base paths of the pixels of a block, and of others whose light they get.
+/// Traces the base paths of the pixels of a block and of its border.
 void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, Worker& worker) {
     worker.base.trace(pass, worker.tracer, with_others, {area.x0, area.y0});
-    for_each_square(area, 1, [&](PixelRect p) { note_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
+    for_each_square(area, 1, [&](PixelRect p) { record_light(pass, worker.base.at(p.x0, p.y0), worker.found); });
 }
 
-/// Adds the light of a pixel from all sets of the block that contain it. A pixel without a set, as in an image of
-/// one pixel, has the light of its own base path.
-void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
+/// Adds the estimate of a pixel from all sets of the block that contain it. A pixel without a set, as in an image
+/// of one pixel, has the radiance of its own base path.
+void add_reused(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     const BasePath& path = worker.base.at(x, y);
     const Rgb albedo = pass.albedo_of(path);
     PixelSample sample{coefficient(path.radiance(), albedo),
@@ -53,7 +70,6 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
                        albedo,
                        worker.set_means.reuse(x, y),
                        worker.reuse.arriving_luminance(path)};
-    sample.own = path.radiance();
     if (worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
@@ -62,26 +78,26 @@ void add_shared(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     add_sample(pass, x, y, sample, worker, film);
 }
 
-/// Lets the pixels of worker.set share at one of the positions from which it is seen, if it is from so many.
-/// @param all  the rectangle that T is; empty: it is none, and has no gradients
-void share_in_set(const Pass& pass, PixelRect all, int position, Worker& worker, const Film& film) {
+/// Reuses the paths of worker.set at one of its positions; does nothing if it has fewer positions.
+/// @param all  rectangle of the pixels of T; empty: T is no rectangle, and has no gradients
+void reuse_in_set(const Pass& pass, PixelRect all, int position, Worker& worker, const Film& film) {
     SamplingSet& set = worker.set;
     set.positions = pass.positions_of(set.pixels);
     set.position = position;
     if (position >= set.positions)
         return;
-    share_light(pass, roulette_of(pass.settings), worker);
+    reuse_paths(pass, roulette_of(pass.settings), worker);
     set.expand(film);
     worker.set_means.add(set, all);
 }
 
-/// Sees worker.base, the base paths of a block, from all positions in turn, and calls `visit(position)`; from one
-/// unless any of its pixels is mixed, and any of them shares.
+/// Traces what the pixels of worker.base see from each position, and calls `visit(position)`. There is one
+/// position unless a pixel is mixed and a pixel reuses paths.
 template <class Visit>
 void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&& visit) {
-    bool shares = false;
-    pass.grid.for_each_part(block, [&](PixelRect, int paths_alone) { shares = shares || paths_alone == 0; });
-    if (!shares || !worker.base.is_mixed())
+    bool reuses = false;
+    pass.grid.for_each_split(block, [&](PixelRect, int paths_alone) { reuses = reuses || paths_alone == 0; });
+    if (!reuses || !worker.base.is_mixed())
         return visit(0);
     for (int position = 0; position < camera_positions(pass.settings); ++position) {
         worker.base.see_from(pass, worker.tracer, position);
@@ -96,30 +112,29 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     trace_base_paths(pass, area, area, worker);
     worker.set_means.begin(area, 0);
     for_each_position(pass, block, worker, [&](int position) {
-        for_each_pr_set(pass, block, worker.set, [&](PixelRect) {
-            share_in_set(pass, {0, 0, 0, 0}, position, worker, film);
-        });
+        for_each_pr_set(pass, block, worker.set,
+                        [&](PixelRect) { reuse_in_set(pass, {0, 0, 0, 0}, position, worker, film); });
     });
-    for_each_square(area, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
+    for_each_square(area, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
 }
 
-/// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that share the
-/// light of their base paths; the primal is the mean of what the pixel got in all sets that it is in, with each of
-/// its neighbours, or path tracing's. Of the shifts, those to the pixel itself are counted.
+/// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that reuse each
+/// other's base paths. The primal is the mean over the sets of the pixel with each of its neighbours; a pixel
+/// without neighbours has that of path tracing. A pixel's counters cover the shifts to it.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
-    // One more column and row, as the gradients of the last pixels need their neighbours' base paths.
+    // The gradients of the last pixels need the base paths of one more column and row.
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
     worker.set_means.begin(area, part_count(pass.settings));
     for_each_square(area, 1, [&](PixelRect pixel) {
         for_each_gpt_set(pass, {pixel.x0, pixel.y0}, worker.set,
-                         [&](PixelRect all) { share_in_set(pass, all, 0, worker, film); });
+                         [&](PixelRect all) { reuse_in_set(pass, all, 0, worker, film); });
     });
-    for_each_square(area, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
+    for_each_square(area, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
 }
 
-/// Where the pixels of worker.set share nothing: finds the means of `count` base paths of each. Beyond the set,
-/// what the neighbours' first paths bring, until they have a mean of their own: sets that follow write over it.
+/// Computes the means of `count` base paths for each pixel of worker.set, which reuses no paths. Pixels of the
+/// border get the radiance of their first path; if they are in a later set without reuse, that set overwrites it.
 void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     for (glm::ivec2 p : worker.set.pixels) {
         MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
@@ -133,30 +148,27 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     }
 }
 
-/// Adds pixels that share nothing. Their gradients are mere differences of their means: then the means are all
-/// that a reconstruction finds. Only across the block's border, and to pixels that share, they are not quite.
+/// Adds pixels that reuse no paths. Their gradients are plain differences of their means, so a reconstruction
+/// returns these means. Gradients across the block's border and to pixels with reuse differ slightly.
 void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
             const MeanOfPaths& here = worker.base.mean(x, y);
-            PixelSample sample{here.coefficient, Rgb(0), Rgb(0), here.very_direct, here.albedo};
-            sample.beside = here.radiance - here.coefficient * here.albedo;
+            PixelSample sample{here.coefficient, Rgb(0), Rgb(0), here.very_direct};
+            sample.set_albedo(here.moments);
             if (x + 1 < all.x1)
                 sample.dx = worker.base.mean(x + 1, y).coefficient - here.coefficient;
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
-            sample.albedo_spread = here.albedo_squares - here.albedo * here.albedo;
-            sample.value_spread = here.albedo_values - here.albedo * here.radiance;
             sample.paths = count;
-            sample.own = here.radiance;
             sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
             add_sample(pass, x, y, sample, worker, film);
         }
 }
 
-/// Gradient-domain path reusing [Bauszat 2017]. As every pixel of T gets its share of every light path of T, the
-/// gradients are the differences of these shares: sum of (c_n - c_m) / R; or of them over the albedos, sum of
-/// (c_n / a_n - c_m / a_m) / R, as what a pixel got from all paths is divided by one albedo.
+/// Gradient-domain path reusing [Bauszat 2017]. Each pixel m of T receives c_m / R from every light path of T, so
+/// a gradient is the sum of (c_n - c_m) / R; with albedo demodulation, the sum of (c_n / a_n - c_m / a_m) / R,
+/// because one albedo divides all radiance of a pixel.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
@@ -164,16 +176,16 @@ void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for_each_position(pass, block, worker, [&](int position) {
         for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
             if (paths_alone == 0)
-                share_in_set(pass, all, position, worker, film);
+                reuse_in_set(pass, all, position, worker, film);
             else if (position == 0)
                 take_means(pass, inner, paths_alone, worker);
         });
     });
-    pass.grid.for_each_part(block, [&](PixelRect inner, int paths_alone) {
+    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_alone) {
         if (paths_alone > 0)
             add_alone(pass, inner, inner.with_halo(pass.size), paths_alone, worker, film);
         else
-            for_each_square(inner, 1, [&](PixelRect p) { add_shared(pass, p.x0, p.y0, worker, film); });
+            for_each_square(inner, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
     });
 }
 
@@ -193,14 +205,14 @@ void render_block(const Pass& pass, PixelRect block, Worker& worker, Film& film)
     }
 }
 
-Image<float> sharers_of(const Pass& pass) {
-    Image<float> sharers(pass.size.x, pass.size.y, 1);
+Image<float> reuse_set_sizes(const Pass& pass) {
+    Image<float> sizes(pass.size.x, pass.size.y, 1);
     SamplingSet set;
     for (const PixelRect& block : blocks_of(pass)) {
-        const auto note = [&](PixelRect inner, bool shares = true) {
+        const auto note = [&](PixelRect inner, bool reuses = true) {
             for (glm::ivec2 p : set.pixels)
-                if (inner.contains(p) && shares)
-                    sharers(p.x, p.y) = static_cast<float>(set.size());
+                if (inner.contains(p) && reuses)
+                    sizes(p.x, p.y) = static_cast<float>(set.size());
         };
         if (pass.settings.method == Method::gpr)
             for_each_gpr_set(pass, block, set,
@@ -208,7 +220,7 @@ Image<float> sharers_of(const Pass& pass) {
         else
             for_each_pr_set(pass, block, set, [&](PixelRect inner) { note(inner); });
     }
-    return sharers;
+    return sizes;
 }
 
 } // namespace tessera

@@ -21,12 +21,12 @@ void PathReuse::begin(std::span<const BasePath* const> set, std::span<const floa
 }
 
 void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving) {
-    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    const BasePath& path = *set_[base];
     base_ = base;
     tried_ = false;
     if (path.empty())
         return;
-    radiance[static_cast<std::size_t>(base)] += kept_light(path);
+    radiance[base] += kept_light(path);
     if (scale == 0 && !arriving)
         return;
     light_.reset(path, settings_);
@@ -52,12 +52,12 @@ void PathReuse::keep(const BasePath& path, int lane, ArrivingLight& arriving) {
 }
 
 void PathReuse::shift_to_all(int base) {
-    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    const BasePath& path = *set_[base];
     const int count = static_cast<int>(set_.size());
     if (primary_.count() == 0) {
         primary_.reset(count);
         for (int m = 0; m < count; ++m)
-            if (const BasePath& offset = *set_[static_cast<std::size_t>(m)]; !offset.empty())
+            if (const BasePath& offset = *set_[m]; !offset.empty())
                 primary_.set_pixel(m, offset);
     }
     edges_.reset(count);
@@ -70,14 +70,14 @@ void PathReuse::shift_to_all(int base) {
 /// with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has ratio 0, for base and offset
 /// alike.
 void PathReuse::replay_to_all(int base) {
-    const BasePath& path = *set_[static_cast<std::size_t>(base)];
+    const BasePath& path = *set_[base];
     replayed_scatters_.clear();
     if (paths_.keeps_scatters()) {
         replayed_scatters_.push_back(&paths_.add_first_scatter(light_.emitter_slot(0), light_.hit_slot(0)));
         replayed_scatters_.push_back(&paths_.add_first_scatter(light_.hit_slot(0), light_.slot_count()));
     }
     for (int m = 0; m < paths_.offsets(); ++m) {
-        const BasePath& offset = *set_[static_cast<std::size_t>(m)];
+        const BasePath& offset = *set_[m];
         outcomes_[m] = offset.empty() ? ShiftOutcome::outside : ShiftOutcome::ok;
         lost_[m] = 0;
         if (m == base || offset.empty())
@@ -153,9 +153,9 @@ void PathReuse::judge(int base) {
 
 float PathReuse::ratio_sum(int slot) const {
     const OffsetRow& row = paths_.row(slot);
-    float sum = counts_[static_cast<std::size_t>(base_)]; // the base itself: its ratio is one by definition
+    float sum = counts_[base_]; // the base itself: its ratio is one by definition
     for (int m = 0; m < paths_.offsets(); ++m)
-        sum += counts_[static_cast<std::size_t>(m)] * row.ratio[m];
+        sum += counts_[m] * row.ratio[m];
     return sum;
 }
 
@@ -164,10 +164,10 @@ void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
         if (!light_.is_alive(slot))
             continue;
         const float factor = weight(slot, scale);
-        radiance[static_cast<std::size_t>(base)] += light_.carried(slot) * factor;
+        radiance[base] += light_.carried(slot) * factor;
         const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < paths_.offsets(); ++m)
-            radiance[static_cast<std::size_t>(m)] += row.value[m] * factor;
+            radiance[m] += row.value[m] * factor;
     }
 }
 
@@ -201,7 +201,7 @@ void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
         if (!light_.is_alive(slot))
             continue;
         const float factor = weight(slot, scale);
-        add_own(*set_[static_cast<std::size_t>(base)], slot, factor, base, arriving);
+        add_own(*set_[base], slot, factor, base, arriving);
         if (paths_.scatter_index(slot) != index)
             flush(paths_.scatter_index(slot));
         if (index < 0)

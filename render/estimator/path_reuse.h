@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/estimator/basis.h"
-#include "render/estimator/shift.h"
+#include "render/paths/shift.h"
 
 #include <algorithm>
 #include <limits>
@@ -59,7 +59,7 @@ public:
     const OffsetPaths& offset_paths() const { return paths_; }
     /// Returns g/R of a light path times `scale`, or 0 if the path carries no light.
     float weight(int slot, float scale) const {
-        const float count = counts_[static_cast<std::size_t>(base_)];
+        const float count = counts_[base_];
         return light_.is_alive(slot) ? scale * count / ratio_sum(slot) : 0;
     }
     /// @param onlooker  is told of all that the next share() do; null: nobody is

@@ -1,6 +1,7 @@
 #include "render/estimator/pilot.h"
 
 #include "render/estimator/method_sets.h"
+#include "render/estimator/set_reuse.h"
 #include "render/estimator/tile_grid.h"
 
 #include <algorithm>
@@ -16,15 +17,15 @@ namespace {
 
 constexpr int set_edge = 3, set_distance = 4; // pixels
 
-/// What one sample of a set brought its pixels, with sharing and without.
+/// Coefficients of the pixels of a set from one sample, with path reuse and without.
 struct Trial {
     std::vector<glm::dvec3> shared, own;
 
-    Trial(const Pass& pilot, PixelRect all, glm::ivec2 inside, Worker& worker, PlanEvidence& found) {
+    Trial(const Pass& pilot, PixelRect all, glm::ivec2 inside, Worker& worker, CellStatistics& found) {
         SamplingSet& set = worker.set;
         set.assign(all);
         worker.base.trace(pilot, worker.tracer, all, inside);
-        share_light(pilot, roulette_of(pilot.settings), worker);
+        reuse_paths(pilot, roulette_of(pilot.settings), worker);
         for (int i = 0; i < set.size(); ++i) {
             const auto at = static_cast<std::size_t>(i);
             const BasePath& path = *set.paths[at];
@@ -38,16 +39,15 @@ struct Trial {
     }
 };
 
-/// Lengths of the noise of a set's gradients, summed: with sharing and without.
+/// Sums of the lengths of the noise of a set's gradients, with path reuse and without.
 struct GradientNoise {
     double shared = 0, own = 0;
 
-    /// Adds how far two trials differ in the gradient from pixel m to n. What the picture itself differs by is in
-    /// neither.
+    /// Adds the difference of two samples of the gradient from pixel m to n. The gradient itself cancels.
     void compare(const Trial& a, const Trial& b, std::size_t m, std::size_t n) {
         const double with = glm::length(a.shared[n] - a.shared[m] - b.shared[n] + b.shared[m]);
         const double without = glm::length(a.own[n] - a.own[m] - b.own[n] + b.own[m]);
-        if (!std::isfinite(with) || !std::isfinite(without)) // refused, as a sample would be
+        if (!std::isfinite(with) || !std::isfinite(without)) // invalid
             return;
         shared += with;
         own += without;
@@ -62,15 +62,16 @@ RenderSettings settings_of_trial(RenderSettings settings, std::uint64_t trial) {
 } // namespace
 
 Pilot::Pilot(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-             const ReusePlan& plan)
+             const LearnedReuse& learned)
     : settings_{settings_of_trial(settings, 0), settings_of_trial(settings, 1)},
-      first_(scene, camera, size, settings_[0], plan, 0), second_(scene, camera, size, settings_[1], plan, 0) {}
+      first_(scene, camera, size, settings_[0], learned, 0),
+      second_(scene, camera, size, settings_[1], learned, 0) {}
 
-PlanEvidence Pilot::explore(PixelRect cell, Worker& worker) const {
-    PlanEvidence found;
+CellStatistics Pilot::explore(PixelRect cell, Worker& worker) const {
+    CellStatistics found;
     for_each_square(cell, set_distance, [&](PixelRect square) {
         if ((square.x0 + square.y0) / set_distance % 2 != 0)
-            return; // a chequered pattern
+            return; // checkerboard
         const PixelRect all =
             PixelRect{square.x0, square.y0, square.x0 + set_edge, square.y0 + set_edge}.clipped(first_.size);
         const Trial a(first_, all, {cell.x0, cell.y0}, worker, found);

@@ -1,25 +1,26 @@
 #pragma once
 
 #include "render/estimator/pass.h"
+#include "render/estimator/worker.h"
 
 #include <array>
 
 namespace tessera {
 
-/// Tries before the first pass what sharing would bring G-PR. It takes two samples, so that their differences are
-/// noise and nothing of the picture, of sets of 3 x 3 pixels: of one in 32 pixels. That costs about as much as a
-/// sample of path tracing.
+/// Pilot pass: measures the gain of path reuse for G-PR before the first pass. It takes two samples of sets of 3 x
+/// 3 pixels, one set per 32 pixels. Differences of the two samples contain noise only, and no gradients of the
+/// picture. The cost is about that of one sample of path tracing.
 class Pilot {
 public:
-    /// Keeps references, as Pass does; of the plan nothing is asked but its tiles.
+    /// Keeps references, as Pass does. Uses the tiles of `learned` only.
     Pilot(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-          const ReusePlan& plan);
+          const LearnedReuse& learned);
 
-    /// What one cell of a plan is like.
-    PlanEvidence explore(PixelRect cell, Worker& worker) const;
+    /// Returns the statistics of one cell.
+    CellStatistics explore(PixelRect cell, Worker& worker) const;
 
 private:
-    /// With seeds of their own, so that nothing of the trials is in any pass, nor of one in the other.
+    /// Settings with other seeds: both samples are independent of each other and of all passes.
     std::array<RenderSettings, 2> settings_;
     Pass first_, second_;
 };

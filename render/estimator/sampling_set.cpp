@@ -1,7 +1,5 @@
 #include "render/estimator/sampling_set.h"
 
-#include "render/estimator/pass.h"
-
 namespace tessera {
 
 void SamplingSet::assign(PixelRect rect) {
@@ -11,37 +9,10 @@ void SamplingSet::assign(PixelRect rect) {
             add(x, y);
 }
 
-void SamplingSet::collect(const Pass& pass, const BaseBlock& block) {
-    paths.clear();
-    base.clear();
-    albedo.clear();
-    for (glm::ivec2 p : pixels) {
-        paths.push_back(&block.seen(p.x, p.y));
-        base.push_back(&block.at(p.x, p.y));
-        albedo.push_back(pass.albedo_of(*paths.back()));
-    }
-    counts.assign(pixels.size(), 1);
-    if (positions > 1)
-        balance_turns(pass);
-    radiance.assign(pixels.size(), Rgb(0));
-    reuse.assign(pixels.size(), {});
-    arriving.reset(is_expanded(pass.settings) ? pass.settings.basis : Basis::none, albedo);
-}
-
-void SamplingSet::balance_turns(const Pass& pass) {
-    std::array<int, edge_positions> turns{};
-    for (glm::ivec2 p : pixels)
-        ++turns[static_cast<std::size_t>(pass.turn(p))];
-    const auto taken = static_cast<float>(std::ranges::count_if(turns, [](int n) { return n > 0; }));
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        counts[i] = static_cast<float>(size()) /
-                    (taken * static_cast<float>(turns[static_cast<std::size_t>(pass.turn(pixels[i]))]));
-}
-
 void SamplingSet::expand(const Film& film) {
     parts.resize(static_cast<std::size_t>(size() * arriving.parts()));
     for (int i = 0; arriving.is_kept() && i < size(); ++i) {
-        const glm::ivec2 p = pixels[static_cast<std::size_t>(i)];
+        const glm::ivec2 p = pixels[i];
         arriving.expand(i, coefficient(i), film.projection(p.x, p.y), parts.data() + i * arriving.parts());
     }
 }
@@ -53,7 +24,7 @@ void SamplingSet::count(std::span<const ShiftOutcome> outcomes, int k) {
 }
 
 void SamplingSet::count(const ReuseDecision& decision, int k) {
-    ReuseCounts& of_path = reuse[static_cast<std::size_t>(k)];
+    ReuseCounts& of_path = reuse[k];
     if (!decision.is_dark())
         ++(decision.survives() ? of_path.reused : of_path.skipped);
 }
@@ -69,12 +40,12 @@ void SetMeans::begin(PixelRect area, int parts) {
 
 void SetMeans::add(const SamplingSet& set, PixelRect all) {
     for (int i = 0; i < set.size(); ++i) {
-        const glm::ivec2 p = set.pixels[static_cast<std::size_t>(i)];
+        const glm::ivec2 p = set.pixels[i];
         if (!area_.contains(p))
             continue;
         const std::size_t at = index(p.x, p.y);
         Pixel& pixel = pixels_[at];
-        pixel.reuse += set.reuse[static_cast<std::size_t>(i)];
+        pixel.reuse += set.reuse[i];
         add(set, {}, i, pixel.primal, parts_at(parts_, at));
         if (set.positions > 1)
             see(set, i, pixel);
@@ -85,8 +56,8 @@ void SetMeans::add(const SamplingSet& set, PixelRect all) {
     }
 }
 
-/// Running means: sums of what is as bright as numbers go would be beyond them. At the first position, where all
-/// sets are, they come to weigh what they do; at others, what a set gets is added with that weight.
+/// Updates running means, which cannot overflow as sums can. The sets of the first position set the weights; those
+/// of other positions add with the same weights.
 void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
     const auto pixels = static_cast<float>(set.size());
     if (set.position == 0)
@@ -98,19 +69,16 @@ void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean
         move(parts[l], from ? set.parts_of(*from)[l] : Rgb(0), set.parts_of(to)[l]);
 }
 
-/// After add() of the primal.
+/// To be called after add() of the primal.
 void SetMeans::see(const SamplingSet& set, int i, Pixel& pixel) {
     const auto entry = static_cast<std::size_t>(i);
     const float share = static_cast<float>(set.size()) / pixel.primal.pixels,
                 kept = set.position == 0 ? 1 - share : 1, seen_share = share / static_cast<float>(set.positions);
     Seen& seen = pixel.seen;
-    seen.radiance = seen.radiance * kept + set.radiance[entry] * share;
-    seen.albedo = seen.albedo * kept + set.albedo[entry] * seen_share;
-    const Rgb a = set.albedo[entry];
-    seen.albedo_squares = seen.albedo_squares * kept + a * a * seen_share;
-    seen.albedo_values = seen.albedo_values * kept + a * set.radiance[entry] * share;
+    seen.moments *= kept;
+    seen.moments.add(set.albedo[entry], set.radiance[entry], seen_share, share);
     seen.very_direct = seen.very_direct * kept + set.paths[entry]->very_direct * seen_share;
-    // What has been the same from everywhere would differ by rounding alone.
+    // Means over positions that all saw the same would differ from it by rounding.
     pixel.is_mixed = pixel.is_mixed || set.paths[entry] != set.base[entry];
 }
 
@@ -122,10 +90,7 @@ void SetMeans::take_primal(int x, int y, PixelSample& sample) const {
     if (!pixel.is_mixed)
         return;
     sample.very_direct = pixel.seen.very_direct;
-    sample.albedo = pixel.seen.albedo;
-    sample.albedo_spread = pixel.seen.albedo_squares - sample.albedo * sample.albedo;
-    sample.value_spread = pixel.seen.albedo_values - sample.albedo * pixel.seen.radiance;
-    sample.beside = pixel.seen.radiance - sample.primal * sample.albedo;
+    sample.set_albedo(pixel.seen.moments);
 }
 
 void SetMeans::take_gradients(int x, int y, PixelSample& sample) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/estimator/reuse_policy.h"
+#include "render/estimator/learned_reuse.h"
 #include "render/sampling/sampling.h"
 #include "render/settings/settings.h"
 
@@ -12,71 +12,72 @@
 
 namespace tessera {
 
-/// Which pixels of one pass share their light: a grid of tiles, what these are cut into, and N-rooks patterns.
+/// The reuse sets of one pass: a grid of tiles, their tile splits, and N-rooks patterns.
 class TileGrid {
 public:
-    /// `pass` counts from 0. Keeps references to settings and plan, which is the one that this pass had.
-    TileGrid(glm::ivec2 size, const RenderSettings& settings, const ReusePlan& plan, int pass);
+    /// Keeps references to settings and `learned`.
+    /// @param pass     counts from 0
+    /// @param learned  state that this pass uses
+    TileGrid(glm::ivec2 size, const RenderSettings& settings, const LearnedReuse& learned, int pass);
 
-    /// Where the grid begins, in (-tile, 0]. Each pass draws another origin, so that no pixel is always at the
-    /// edge of a tile and the grid does not show in the picture [Bekaert 2002; Bauszat 2017, 3.3].
+    /// Corner of the first tile, in (-tile, 0]. Each pass draws another origin, so no pixel is always at the edge
+    /// of a tile, and the grid is not visible in the picture [Bekaert 2002; Bauszat 2017, 3.3].
     const glm::ivec2 origin;
     const glm::ivec2 size; ///< of the image
 
-    /// Blocks of whole tiles, or of pixels where the method has none, are what workers render; base paths are
-    /// shared within a block alone, those of its border among them. The column and row of the block that a pixel
-    /// is in.
+    /// Returns column and row of the block of a pixel. Workers render blocks of whole tiles, or of pixels if the
+    /// method has no tiles. Pixels only reuse base paths of their own block, including those of its border.
     glm::ivec2 block_of(glm::ivec2 pixel) const { return (pixel - block_origin) / block_edge; }
-    /// Its pixels; it may reach beyond the image.
+    /// Returns the pixels of a pixel's block; it may reach beyond the image.
     PixelRect block_at(glm::ivec2 pixel) const;
     const int block_edge; ///< in pixels
     const glm::ivec2 block_origin;
 
-    /// The tile of a pixel; it may reach beyond the image.
+    /// Returns the tile of a pixel; it may reach beyond the image.
     PixelRect tile_at(glm::ivec2 pixel) const;
-    /// The square of the tile, cut by the plan and at the image's border, that the pixel is in.
-    PixelRect part_at(glm::ivec2 pixel) const;
-    bool is_mixed(glm::ivec2 pixel) const { return plan_.is_mixed(pixel); }
-    /// How many base paths the pixel takes for itself alone; 0: it shares one.
+    /// Returns the tile split of a pixel, clipped to the image.
+    PixelRect split_at(glm::ivec2 pixel) const;
+    bool is_mixed(glm::ivec2 pixel) const { return learned_.is_mixed(pixel); }
+    /// Returns the number of base paths of a pixel that reuses no paths; 0: it reuses paths.
     int paths_alone_at(glm::ivec2 pixel) const;
 
-    /// Calls `visit(part, paths_alone)` for the squares, not empty, into which the plan cuts the tiles of a block;
-    /// paths_alone as ReusePlan has them.
+    /// Calls `visit(split, paths_alone)` for all nonempty splits of the tiles of a block, clipped to the image.
+    /// See LearnedReuse::paths_alone.
     template <class Visit>
-    void for_each_part(PixelRect block, Visit&& visit) const {
+    void for_each_split(PixelRect block, Visit&& visit) const {
         for_each_square(block, settings_.tile, [&](PixelRect tile) {
-            plan_.for_each_piece(tile, [&](PixelRect piece) {
-                const int paths_alone = plan_.paths_alone(piece);
-                for_each_square(piece, plan_.part_edge(piece), [&](PixelRect part) {
-                    if (const PixelRect inner = part.clipped(size); !inner.empty())
+            learned_.for_each_piece(tile, [&](PixelRect piece) {
+                const int paths_alone = learned_.paths_alone(piece);
+                for_each_square(piece, learned_.split_edge(piece), [&](PixelRect split) {
+                    if (const PixelRect inner = split.clipped(size); !inner.empty())
                         visit(inner, paths_alone);
                 });
             });
         });
     }
 
-    /// A permutation of the columns of a tile, another one for every tile and pass [Fisher and Yates 1938].
+    /// Returns a permutation of the columns of a tile, another one for each tile and pass [Fisher and Yates 1938].
     void shuffle_columns(PixelRect tile, std::vector<int>& columns) const;
-    /// N-rooks patterns: N pixels on an N x N square, one in each row and column. Moved along the rows, one
-    /// permutation makes N patterns, in which every pixel of the square occurs once [Bekaert 2002]. Calls
-    /// `visit(x, y)` for the pixels of pattern `index` that lie in the image.
+    /// Calls `visit(x, y)` for the pixels of N-rooks pattern `index` that lie in the image. A pattern has one
+    /// pixel in each row and column of an N x N square. Cyclic shifts of one permutation make N patterns, which
+    /// together contain each pixel of the square once [Bekaert 2002].
     template <class Visit>
     void for_each_rook(PixelRect tile, const std::vector<int>& columns, int index, Visit&& visit) const {
         const int n = tile.width();
         for (int row = 0; row < n; ++row) {
-            const int x = tile.x0 + (columns[static_cast<std::size_t>(row)] + index) % n, y = tile.y0 + row;
+            const int x = tile.x0 + (columns[row] + index) % n, y = tile.y0 + row;
             if (x >= 0 && x < size.x && y >= 0 && y < size.y)
                 visit(x, y);
         }
     }
-    /// Which of the patterns of its tile a pixel is in.
+    /// Returns the index of a pixel's pattern in its tile.
     int pattern_at(glm::ivec2 pixel, PixelRect tile, const std::vector<int>& columns) const;
 
 private:
     PixelRect piece_at(glm::ivec2 pixel) const;
 
     const RenderSettings& settings_;
-    const ReusePlan& plan_;
+    const LearnedReuse& learned_;
     int pass_;
 };
 
@@ -86,21 +87,22 @@ inline glm::ivec2 origin_of(const RenderSettings& settings, int pass) {
     return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
 }
 
-/// The square of a given edge, of those that fill the plane from `corner` on, that a pixel beyond it is in.
+/// Returns the square of a pixel in the grid of squares that begins at `corner`. The pixel must not lie left of or
+/// above the corner.
 inline PixelRect square_at(glm::ivec2 pixel, glm::ivec2 corner, int edge) {
     const glm::ivec2 min = corner + (pixel - corner) / edge * edge;
     return {min.x, min.y, min.x + edge, min.y + edge};
 }
 
-/// The edge of blocks: small enough for many of them, large enough for a thin border of base paths.
+/// Returns the edge of blocks: small enough for many blocks, and large enough that border paths are few.
 inline int block_edge_of(const RenderSettings& settings) {
     constexpr int usual = 24;
     return reuses_paths(settings.method) ? settings.tile * std::max(1, usual / settings.tile) : usual;
 }
 
-inline TileGrid::TileGrid(glm::ivec2 size_, const RenderSettings& settings, const ReusePlan& plan, int pass)
+inline TileGrid::TileGrid(glm::ivec2 size_, const RenderSettings& settings, const LearnedReuse& learned, int pass)
     : origin(origin_of(settings, pass)), size(size_), block_edge(block_edge_of(settings)),
-      block_origin(reuses_paths(settings.method) ? origin : glm::ivec2(0)), settings_(settings), plan_(plan),
+      block_origin(reuses_paths(settings.method) ? origin : glm::ivec2(0)), settings_(settings), learned_(learned),
       pass_(pass) {}
 
 inline PixelRect TileGrid::block_at(glm::ivec2 pixel) const {
@@ -113,37 +115,36 @@ inline PixelRect TileGrid::tile_at(glm::ivec2 pixel) const {
 
 inline PixelRect TileGrid::piece_at(glm::ivec2 pixel) const {
     PixelRect found = tile_at(pixel);
-    plan_.for_each_piece(found, [&](PixelRect piece) { found = piece.contains(pixel) ? piece : found; });
+    learned_.for_each_piece(found, [&](PixelRect piece) { found = piece.contains(pixel) ? piece : found; });
     return found;
 }
 
-inline PixelRect TileGrid::part_at(glm::ivec2 pixel) const {
+inline PixelRect TileGrid::split_at(glm::ivec2 pixel) const {
     const PixelRect piece = piece_at(pixel);
-    return square_at(pixel, {piece.x0, piece.y0}, plan_.part_edge(piece))
+    return square_at(pixel, {piece.x0, piece.y0}, learned_.split_edge(piece))
         .clipped({piece.x1, piece.y1})
         .clipped(size);
 }
 
 inline int TileGrid::paths_alone_at(glm::ivec2 pixel) const {
-    return plan_.paths_alone(piece_at(pixel));
+    return learned_.paths_alone(piece_at(pixel));
 }
 
 inline void TileGrid::shuffle_columns(PixelRect tile, std::vector<int>& columns) const {
     columns.resize(static_cast<std::size_t>(tile.width()));
     std::iota(columns.begin(), columns.end(), 0);
-    // The seed differs from that of any path. A tile may begin left of and above the image.
+    // The seed differs from that of any path. A tile may begin left of or above the image.
     const Random random(settings_.seed ^ 0x7469'6c65'7300'0000u, pixel_number({tile.x0, tile.y0}),
                         static_cast<std::uint32_t>(pass_));
     for (int i = tile.width() - 1; i > 0; --i) {
         const float u = random.draw(i, Draw::direction);
-        std::swap(columns[static_cast<std::size_t>(i)],
-                  columns[static_cast<std::size_t>(u * static_cast<float>(i + 1))]);
+        std::swap(columns[i], columns[static_cast<std::size_t>(u * static_cast<float>(i + 1))]);
     }
 }
 
 inline int TileGrid::pattern_at(glm::ivec2 pixel, PixelRect tile, const std::vector<int>& columns) const {
     const int n = tile.width();
-    return (pixel.x - tile.x0 - columns[static_cast<std::size_t>(pixel.y - tile.y0)] + n) % n;
+    return (pixel.x - tile.x0 - columns[pixel.y - tile.y0] + n) % n;
 }
 
 } // namespace tessera

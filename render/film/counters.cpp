@@ -16,7 +16,7 @@ std::string_view to_string(ShiftOutcome outcome) {
 }
 
 std::string_view to_string(RayKind kind) {
-    constexpr std::string_view names[] = {"camera", "look", "bounce", "light", "shift_bounce", "shift_edge"};
+    constexpr std::string_view names[] = {"camera", "feature", "bounce", "light", "shift_bounce", "shift_edge"};
     static_assert(std::size(names) == ray_kind_count);
     return names[static_cast<int>(kind)];
 }
@@ -64,7 +64,7 @@ Counters& Counters::operator+=(const Counters& other) {
 
 namespace {
 
-/// `part` of `whole`, in [0, 1]; 0 of none.
+/// Returns `part` over `whole`, in [0, 1]; 0 if both are 0.
 float share_of(std::uint32_t part, std::uint32_t whole) {
     return static_cast<float>(part) / static_cast<float>(std::max(whole, 1u));
 }

@@ -13,10 +13,10 @@
 
 namespace tessera {
 
-/// How a shift of one base path to one offset pixel ended (render/estimator/shift.h).
+/// Outcome of the shift of one base path to one offset pixel (render/paths/shift.h).
 enum class ShiftOutcome : std::uint8_t {
-    ok,               ///< at least one light path came through
-    occluded,         ///< no light path came through, and a new edge of at least one is blocked
+    ok,               ///< at least one light path has a valid shift
+    occluded,         ///< no valid shift, and a new edge of at least one light path is occluded
     kind_mismatch,    ///< vertices scatter in different ways, or one edge is short: the way back would be another
     total_reflection, ///< a perfect refraction of the base has no direction at the offset
     outside,          ///< a ray left the scene, or an offset pixel sees nothing
@@ -28,14 +28,14 @@ inline constexpr int shift_outcome_count = static_cast<int>(ShiftOutcome::count)
 /// The enumerator's own name: "ok", "occluded", "kind_mismatch".
 std::string_view to_string(ShiftOutcome outcome);
 
-/// What a ray is shot for.
+/// Purpose of a ray.
 enum class RayKind : std::uint8_t {
-    camera, ///< from the camera to x_1
-    look,   ///< to what a pixel shows, which is no sample's (PixelLooks): from the camera on, through mirrors
-    bounce, ///< on from a vertex of a base path
-    light,  ///< from a vertex of a base path to a point on a light: occlusion only
-    shift_bounce, ///< on from a vertex of an offset path
-    shift_edge,   ///< a new edge of an offset path, to a base vertex or a light: occlusion only
+    camera,       ///< from the camera to x_1
+    feature,      ///< a feature sample (PixelFeatures): from the camera and through mirrors
+    bounce,       ///< next segment of a base path
+    light,        ///< occlusion between a vertex of a base path and a light
+    shift_bounce, ///< next segment of an offset path
+    shift_edge,   ///< occlusion of an offset path's new edge, to a base vertex or a light
     count
 };
 inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
@@ -43,15 +43,15 @@ inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
 /// The enumerator's own name: "camera", "bounce", "shift_edge".
 std::string_view to_string(RayKind kind);
 
-/// A sample that was not finite, and so not added: pass and pixel, from 0. With the seed, its path can be traced
-/// again.
+/// An invalid sample: pass and pixel, from 0. With the seed, its path can be traced again.
 struct RefusedSample {
     int pass, y, x;
 
     auto operator<=>(const RefusedSample&) const = default;
 };
 
-/// The first few of such samples, in order and each of them once, whoever finds them first.
+/// The first few invalid samples, in order and each of them once. The result does not depend on the order of
+/// add().
 class FirstRefused {
 public:
     static constexpr std::size_t most = 16;
@@ -64,27 +64,27 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Sums over a render; each worker has its own, added at the end of a pass.
+/// Sums over a render. Each worker counts separately; the render adds them at the end of a pass.
 struct Counters {
     std::uint64_t camera_paths = 0;  ///< base paths traced
     std::uint64_t path_vertices = 0; ///< surface vertices of base paths
     std::array<std::uint64_t, ray_kind_count> rays{};
-    std::uint64_t remembered = 0; ///< vertices of offset paths that were known without a ray
+    std::uint64_t remembered = 0; ///< vertices of offset paths that need no ray
 
-    // Base paths of sampling sets; a path counts once for every set that it is in.
-    std::uint64_t dark_paths = 0;          ///< carry nothing that could be reused
-    std::uint64_t skipped_paths = 0;       ///< carry light, and were ended by the reuse roulette
-    std::uint64_t reused_paths = 0;        ///< carry light, and were shifted to the others
+    // Base paths of sampling sets. A path counts once per set.
+    std::uint64_t dark_paths = 0;    ///< without light that could be reused
+    std::uint64_t skipped_paths = 0; ///< with light, ended by Russian roulette on reuse
+    std::uint64_t reused_paths = 0;  ///< with light, and shifted to the other pixels
 
     std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
 
-    std::uint64_t refused_samples = 0; ///< not finite, and so not added
+    std::uint64_t refused_samples = 0; ///< invalid samples, which the film rejects
     FirstRefused first_refused;
 
     std::uint64_t shift_attempts() const {
         return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});
     }
-    /// What the offsets cost, in rays: what goes with a vertex costs as much whether a ray was shot for it or not.
+    /// Returns the cost of offset paths in rays. A vertex without a ray costs about as much as one with a ray.
     std::uint64_t offset_work() const {
         return rays[static_cast<std::size_t>(RayKind::shift_bounce)] +
                rays[static_cast<std::size_t>(RayKind::shift_edge)] + remembered;
@@ -97,42 +97,43 @@ struct Counters {
     Counters& operator+=(const Counters& other);
 };
 
-/// "3 samples were not finite and were left out; the first is pass 5, pixel (7, 2), seed 0"; empty: none was.
+/// "3 samples were not finite and were left out; the first is pass 5, pixel (7, 2), seed 0"; empty without such
+/// samples.
 std::string refused_text(const Counters& counters, std::uint64_t seed);
 
-/// How sharing went at one pixel.
+/// Outcomes of path reuse at one pixel.
 struct ReuseCounts {
-    /// Base paths of other pixels that were shifted here, by outcome: those that are ok brought light.
+    /// Base paths of other pixels that were shifted to this pixel, by outcome. Those with `ok` contributed.
     std::array<std::uint32_t, shift_outcome_count> shifts{};
-    std::uint32_t reused = 0;  ///< its own base paths with light that were reused, once a sampling set of its own
-    std::uint32_t skipped = 0; ///< its own base paths with light that the reuse roulette ended, likewise
+    std::uint32_t reused = 0;  ///< its base paths with light that were reused, once per sampling set
+    std::uint32_t skipped = 0; ///< its base paths with light that Russian roulette on reuse ended, likewise
 
-    std::uint32_t tried() const; ///< shifts to here
+    std::uint32_t tried() const; ///< shifts to this pixel
     std::uint32_t arrived() const { return shifts[static_cast<std::size_t>(ShiftOutcome::ok)]; }
     std::uint32_t failed() const { return tried() - arrived(); }
 
     void operator+=(const ReuseCounts& other);
 };
 
-/// How sharing went, per pixel.
+/// Outcomes of path reuse for all pixels.
 struct ReuseMaps {
-    Image<ReuseCounts> counts; ///< of all passes; empty where pixels share nothing
+    Image<ReuseCounts> counts; ///< of all passes; empty without path reuse
     int passes = 0;
 
-    // What the plan has chosen for the next pass; empty where there are no tiles:
-    Image<float> sharers{}; ///< sharers_of() that pass
-    Image<float> gain{};    ///< ReusePlan::gain
+    // Choices of LearnedReuse for the next pass; empty without tiles:
+    Image<float> reuse_set_size{}; ///< reuse_set_sizes() of that pass
+    Image<float> gain{};           ///< LearnedReuse::gain
 
-    Image<float> paths{}; ///< base paths of its own that a pixel has taken in all passes; empty: one in each
+    Image<float> paths{}; ///< base paths of each pixel in all passes; empty: one per pass
 
     bool empty() const { return counts.empty(); }
 
-    Image<float> reused() const; ///< base paths of other pixels that brought light here, a pass, once in each set
-    /// Share of the shifts to here that ended so, in [0, 1]; 0 without any.
+    Image<float> reused() const; ///< base paths of other pixels that contributed, per pass, once per set
+    /// Returns the fraction of shifts to each pixel with this outcome, in [0, 1]; 0 without shifts.
     Image<float> share(ShiftOutcome outcome) const;
-    Image<float> failed() const; ///< share of the shifts to here that brought no light, likewise
-    /// Share of its own base paths with light that the reuse roulette left, in [0, 1]; 0 where none has carried
-    /// light.
+    Image<float> failed() const; ///< fraction of shifts that did not contribute, likewise
+    /// Returns the fraction of base paths with light that survive Russian roulette on reuse, in [0, 1]; 0 without
+    /// such paths.
     Image<float> survival() const;
 };
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/film/albedo_moments.h"
 #include "render/film/counters.h"
-#include "render/film/pixel_looks.h"
+#include "render/film/pixel_features.h"
 #include "render/io/memory.h"
 
 #include <algorithm>
@@ -15,52 +16,58 @@
 
 namespace tessera {
 
-/// e = v / a of radiance v; 0 where nothing is seen, and so both are black: v = a e holds whatever e is.
+/// Returns e = v / a of radiance v and albedo a, or 0 for a black radiance. A pixel that sees nothing has v = a =
+/// 0, so v = a e holds for any e.
 inline Rgb coefficient(Rgb radiance, Rgb albedo) {
     return is_black(radiance) ? Rgb(0) : radiance / albedo;
 }
 
-/// What one pass found at one pixel.
+/// What one pass measures at one pixel.
 struct PixelSample {
-    Rgb primal{0}; ///< radiance over `albedo`
-    Rgb dx{0};     ///< of the same, to the pixel on the right
-    Rgb dy{0};     ///< to the pixel below
+    Rgb primal{0}; ///< radiance divided by `albedo`
+    Rgb dx{0};     ///< difference of the primals to the pixel on the right
+    Rgb dy{0};     ///< difference to the pixel below
     Rgb very_direct{0};
-    Rgb albedo{1}; ///< above 0, or black where nothing is seen
+    Rgb albedo{1}; ///< positive, or black if the pixel sees nothing
     ReuseCounts reuse{};
-    float luminance = -1; ///< PathReuse::arriving_luminance of its base path, which the plan learns from
+    float luminance = -1; ///< PathReuse::arriving_luminance of its base path
 
-    /// Of primal, dx and dy the parts by direction (basis.h), in memory that outlives the sample; none: without
-    /// such a basis, or no neighbour.
+    /// Basis components of primal, dx and dy (basis.h). The memory belongs to the caller. Empty without such a
+    /// basis or without a neighbour.
     std::span<const Rgb> parts{}, parts_dx{}, parts_dy{};
 
-    /// Radiance less primal times albedo: other than 0 where the sample is the mean of several paths or
-    /// positions, whose light is not divided by one albedo.
+    /// Radiance minus primal times albedo. It is 0 unless the sample is a mean of several paths or positions,
+    /// which have different albedos.
     Rgb beside{0};
-    int paths = 1; ///< base paths of its own that it is the mean of
-    Rgb own{0};    ///< the radiance of these alone, without very direct light; where there are gradients
-    /// Within a sample that is such a mean: the variance of the albedo, and its covariance with radiance.
-    Rgb albedo_spread{0}, value_spread{0};
+    int paths = 1;              ///< number of base paths in that mean
+    AlbedoSpread<Rgb> spread{}; ///< of albedo and radiance within that mean
+
+    /// Sets albedo, spread and `beside` of a sample that is a mean and has its primal.
+    void set_albedo(const AlbedoMoments<Rgb>& mean) {
+        albedo = mean.albedo;
+        spread = mean.spread();
+        beside = mean.value - primal * albedo;
+    }
 };
 
-/// What a film keeps beside primal and very direct light.
+/// What a film stores besides primal and directly visible emission.
 struct FilmBuffers {
-    bool gradients = false;  ///< and what pixels have of their own paths alone
-    bool albedo = false;     ///< what radiance was divided by, and radiance itself
-    bool reuse = false;      ///< how sharing went
-    bool luminance = false;  ///< for the plan, of the last pass
-    bool lamp_edges = false; ///< of the lamps that the camera sees
-    int parts = 0;           ///< of primal and gradients
-    bool means = false;      ///< samples may be means (PixelSample::beside); paths are counted
+    bool gradients = false;
+    bool albedo = false;     ///< moments of the albedos by which radiance was divided, and of radiance
+    bool reuse = false;      ///< outcomes of shifts
+    bool luminance = false;  ///< arriving luminance of the last pass, from which LearnedReuse learns
+    bool lamp_edges = false; ///< edges of directly visible emitters
+    int parts = 0;           ///< basis components of primal and gradients
+    bool means = false;      ///< samples may be means (PixelSample::beside)
 };
 
-/// Sums of a render's samples, the only place that knows counts and borders. Sums are kept in double: means are
-/// taken when they are asked for, and 10^5 passes neither drift nor overflow. Every pixel is written once a pass,
-/// by one worker, so the sums do not depend on the number of threads.
+/// Sums of a render's samples. Only the film handles numbers of passes and the image's borders. Sums are doubles,
+/// so 10^5 passes neither drift nor overflow. One worker writes each pixel once a pass, so the sums do not depend
+/// on the number of threads.
 class Film {
     struct Moments {
-        glm::dvec3 sum;
-        double squares; ///< of the lengths of colours
+        glm::dvec3 sum{0};
+        double squares = 0; ///< of the lengths of colours
 
         void operator+=(Rgb value) {
             const glm::dvec3 v(value);
@@ -76,58 +83,59 @@ class Film {
 public:
     Film(int width, int height, const FilmBuffers& buffers);
 
-    /// The memory that a film takes.
+    /// Returns the memory that a film takes.
     static std::uint64_t bytes(int width, int height, const FilmBuffers& buffers);
 
-    int width() const { return primal_.width(); }
-    int height() const { return primal_.height(); }
+    int width() const { return pixels_.width(); }
+    int height() const { return pixels_.height(); }
 
-    /// Adds the sample of pass `pass` at one pixel. One that is not finite is refused and counted: nothing of it
-    /// is kept but its base path's luminance.
+    /// Adds the sample of pass `pass` at one pixel. Rejects and counts an invalid sample; the film only keeps the
+    /// luminance of its base path.
     void add(int x, int y, int pass, const PixelSample& sample, Counters& counters);
 
-    const PixelLooks& looks() const { return looks_; }
-    /// Adds one more look at a pixel, in pass `pass`. One that is not finite is refused and counted.
-    void add_look(int x, int y, int pass, const Look& look, Counters& counters);
+    const PixelFeatures& features() const { return features_; }
+    /// Adds one feature sample of a pixel in pass `pass`. Rejects and counts an invalid sample.
+    void add_feature_sample(int x, int y, int pass, const FeatureSample& sample, Counters& counters);
 
-    /// Takes looks that were taken before, where it has fewer of its own.
-    void take_looks(const PixelLooks& looks) { looks_.take_more_of(looks); }
+    /// Replaces the feature samples of the pixels of which `features` has more.
+    void take_features(const PixelFeatures& features) { features_.take_more_of(features); }
 
-    /// To be called after each pass: it counts to one half or the other.
+    /// Assigns the pass to one of the two halves. To be called after each pass.
     void finish(int pass);
-    /// Between passes: finds out where more looks are needed, for the means of so many passes.
-    void ask_for_looks(int passes) { looks_.ask_for_more(passes); }
+    /// Finds, between passes, where the means of so many passes need more feature samples.
+    void request_features(int passes) { features_.request_more(passes); }
 
-    /// Adds what another film of the same size and buffers has summed, of other passes of the same render. The
-    /// bits depend on the order in which films are added. Of albedos, whose points are the same ones in each,
-    /// those of the film that has more of a pixel are kept; likewise of luminances the other's.
+    /// Adds the sums of another film of the same render, with the same size and buffers and other passes. The bits
+    /// depend on the order in which films are added. All films draw the same feature samples: the film that has
+    /// more of a pixel keeps them. Path luminances are those of `other`.
     void add(const Film& other);
 
-    /// s^l of a pixel, FilmBuffers::parts numbers (basis.h): to be set before its first sample, and never again.
-    const float* projection(int x, int y) const { return projections_.row(y) + x * parts_a_pixel_; }
+    /// Returns s^l of a pixel, FilmBuffers::parts numbers (basis.h). set_projection() sets them before the pixel's
+    /// first sample; they never change.
+    const float* projection(int x, int y) const { return projections_.row(y) + x * buffers_.parts; }
     void set_projection(int x, int y, const float* numbers) {
-        std::copy_n(numbers, parts_a_pixel_, projections_.row(y) + x * parts_a_pixel_);
+        std::copy_n(numbers, buffers_.parts, projections_.row(y) + x * buffers_.parts);
     }
 
-    /// Remembers more edges of lamps, if it keeps them: both sides of every step between pixels side by side of
-    /// `lamps`, very direct light with a pixel more than the film on all four sides: an edge may lie in the
-    /// outermost pixels. Not during a pass.
+    /// Marks the pixels on both sides of every edge of `lamps`, an image of directly visible emission with one
+    /// more pixel on all four sides. Does nothing without FilmBuffers::lamp_edges. Not during a pass.
     void find_lamp_edges(const RgbImage& lamps);
     bool has_lamp_edge(int x, int y) const { return !lamp_edges_.empty() && lamp_edges_(x, y) != 0; }
 
-    /// Means over `passes` complete passes; of two or more passes, their variances, too.
+    /// Returns means over `passes` complete passes, and their variances if there are at least two passes.
     GradientImages means(int passes) const;
-    /// means() at the end of a render: gives each sum's memory up before the next is looked at, so that sums and
-    /// means are never all there together. The film is then good for nothing more.
+    /// Returns means() at the end of a render. Frees each group of sums before it uses the next one, so all sums
+    /// and all means never exist together. The film cannot be used afterwards.
     GradientImages take_means(int passes);
-    /// How sharing went over `passes` complete passes; empty where pixels share nothing.
+    /// Returns the outcomes of shifts over `passes` complete passes; empty without reuse.
     ReuseMaps reuse_maps(int passes) const;
-    /// PixelSample::luminance of the last pass; empty where it is not kept.
+    /// Returns PixelSample::luminance of the last pass; empty without FilmBuffers::luminance.
     const Image<float>& path_luminance() const { return luminance_; }
-    /// All that it has summed.
+    /// Returns all memory that passes change.
     Memory memory();
 
 private:
+    /// Sums of one basis component.
     struct Part {
         Moments primal, dx, dy;
 
@@ -138,52 +146,74 @@ private:
         }
     };
 
-    /// Sums over one half of the passes less those over the other. (They do not grow with the passes: floats will
-    /// do.)
-    struct Difference {
+    /// The sample with the largest contribution to a pixel.
+    struct Brightest {
         Rgb primal{0}, dx{0}, dy{0};
-
-        void operator+=(const Difference& other) {
-            primal += other.primal;
-            dx += other.dx;
-            dy += other.dy;
-        }
+        Rgb albedo{0};  ///< radiance over primal
+        float sign = 1; ///< of its pass in the half differences
+        float size = 0; ///< largest |luminance| of primal, dx and dy
     };
 
-    /// The sample that brought most to a pixel: primal, gradients, and its radiance over the primal.
-    struct Brightest {
-        Rgb primal{0}, dx{0}, dy{0}, albedo{0};
-        float sign = 1; ///< of its pass in Difference
-        float size = 0; ///< the largest luminance of its primal and gradients, whatever their signs
+    // The half differences are sums over one half of the passes minus sums over the other half. They do not grow
+    // with the number of passes, so floats suffice.
+
+    struct PixelSums {
+        Moments primal;
+        glm::dvec3 very_direct{0};
+        Rgb half_primal{0};
+        std::uint32_t paths = 0; ///< base paths
+        Brightest brightest;
+
+        void operator+=(const PixelSums& other);
+    };
+    struct GradientSums {
+        Moments dx, dy;
+        Rgb half_dx{0}, half_dy{0};
+
+        void operator+=(const GradientSums& other);
+    };
+    using AlbedoSums = AlbedoMoments<glm::dvec3>;
+
+    /// Turns sums into half differences. With n passes, signs s_k and S = sum of s_k, a half difference is the
+    /// mean of (s_k - S / n) x_k. These weights sum to zero for every n. Their squares sum to n - S^2 / n and are
+    /// scaled to n, the sum for the weights of the mean.
+    struct HalfWeights {
+        double balance = 0; ///< S / n
+        double scale = 1;   ///< corrects for halves of different lengths
+        int passes = 0;
+
+        /// @param sum  of s_k x_k
+        Rgb difference(Rgb sum, const Moments& moments) const {
+            return Rgb((glm::dvec3(sum) - balance * moments.sum) * (scale / passes));
+        }
+        /// Returns the weight of one sample.
+        float of_sample(float sign) const {
+            return static_cast<float>(scale) * (sign - static_cast<float>(balance));
+        }
     };
 
     bool is_good(const PixelSample& sample) const;
     void add_parts(int x, int y, const PixelSample& sample);
     void remember_if_brightest(int x, int y, int pass, const PixelSample& sample);
-    BrightestSamples brightest_samples(int passes) const;
-    HalfDifferences half_differences(int passes) const;
-    double share_of_balance(int passes) const { return passes > 0 ? static_cast<double>(balance_) / passes : 0; }
-    double scale_of_halves(int passes) const;
-    std::vector<CoefficientPart> part_means(int passes) const;
+    HalfWeights half_weights(int passes) const;
+    std::vector<BasisComponent> part_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;
+    void measure_gradients(int passes, GradientImages& images) const;
+    void measure_pixels(int passes, GradientImages& images) const;
 
-    Image<Moments> primal_, dx_, dy_;
-    Image<Brightest> brightest_;
-    Image<Difference> differences_;
-    int balance_ = 0; // passes of the one half less those of the other
-    PixelLooks looks_;
-    Image<glm::dvec3> value_, sampled_albedo_, albedo_squares_, albedo_values_; // v, a, a^2 and a v per channel
-    Image<std::uint32_t> paths_; // of their own that pixels have taken
-    Image<glm::dvec3> beside_;   // what of v is not e a
-    Image<glm::dvec3> own_;      // PixelSample::own
-    int parts_a_pixel_;
-    Image<Part> parts_;        // those of a pixel side by side
-    Image<float> projections_; // likewise
-    Image<glm::dvec3> very_direct_;
+    FilmBuffers buffers_;
+    Image<PixelSums> pixels_;
+    Image<GradientSums> gradients_; ///< empty without gradients, as are the others without their buffers
+    Image<AlbedoSums> albedos_;     ///< values are radiance
+    Image<glm::dvec3> beside_;      ///< PixelSample::beside
+    Image<Part> parts_;             ///< components of a pixel side by side
+    Image<float> projections_;      ///< likewise
     Image<ReuseCounts> reuse_;
     Image<float> luminance_;
     Image<std::uint8_t> lamp_edges_;
+    PixelFeatures features_;
+    int balance_ = 0; ///< passes of the first half minus passes of the second
 };
 
 } // namespace tessera

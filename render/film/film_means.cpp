@@ -1,3 +1,4 @@
+// Means, variances and half differences of a film's sums.
 #include "render/film/film.h"
 
 #include <algorithm>
@@ -7,101 +8,79 @@
 
 #include <glm/common.hpp>
 
-// What a film's sums say: means, variances and the like.
-
 namespace tessera {
 
 namespace {
 
 constexpr double largest_variance = std::numeric_limits<float>::max();
 
-/// An image of sum / passes, where `sum_of` gives the sum of an entry.
-template <class Entry, class SumOf>
-RgbImage means_of(const Image<Entry>& entries, int passes, SumOf sum_of) {
-    RgbImage image(entries.width(), entries.height());
-    const double scale = passes > 0 ? 1.0 / passes : 0.0;
-    std::transform(entries.begin(), entries.end(), image.begin(),
-                   [&](const Entry& entry) { return Rgb(sum_of(entry) * scale); });
-    return image;
+double scale_of_means(int passes) {
+    return passes > 0 ? 1.0 / passes : 0.0;
 }
 
-/// Of a mean over n, from the sample variance (squares - |sum|^2 / n) / (n - 1).
+/// Returns the variance of a mean over n, from the sample variance (squares - |sum|^2 / n) / (n - 1).
 template <class Moments>
 float variance_of(const Moments& m, double n) {
-    const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // below 0 by rounding alone
+    const double spread = m.squares - glm::dot(m.sum, m.sum) / n; // rounding can make it negative
     return static_cast<float>(std::clamp(spread / (n * (n - 1)), 0.0, largest_variance));
-}
-
-/// The means and their variances.
-template <class Moments>
-void measure(const Image<Moments>& moments, int passes, RgbImage& mean, Image<float>& variance) {
-    mean = means_of(moments, passes, [](const Moments& m) { return m.sum; });
-    variance = {};
-    if (passes < 2)
-        return;
-    variance = Image<float>(moments.width(), moments.height());
-    std::transform(moments.begin(), moments.end(), variance.begin(),
-                   [passes](const Moments& m) { return variance_of(m, passes); });
 }
 
 } // namespace
 
-/// How albedo, value and coefficient of entry i changed from sample to sample. With S for sums over products of
-/// differences to the means, the coefficient that follows the albedo explains S_ea^2 / S_aa of S_ee; a v / a is v.
-/// (Of samples that are means, S_aa has what is within them, too, and S_ea has not: then less is explained than
-/// could be.)
+/// Measures how albedo, radiance and coefficient of pixel i vary from sample to sample. With S for sums of
+/// products of deviations from the means, the part of the coefficient that follows the albedo explains S_ea^2 /
+/// S_aa of S_ee. a v / a is v. For samples that are means, S_aa includes the variance within them, and S_ea does
+/// not, so the explained part is underestimated.
 void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
     const double n = passes;
-    const glm::dvec3 a = sampled_albedo_.data()[i] / n, v = value_.data()[i] / n, e = primal_.data()[i].sum / n;
+    AlbedoSums mean = albedos_.data()[i];
+    mean /= n;
+    const Moments& primal = pixels_.data()[i].primal;
+    const glm::dvec3 e = primal.sum / n;
     const glm::dvec3 beside = beside_.empty() ? glm::dvec3(0) : beside_.data()[i] / n;
-    const glm::dvec3 variance = glm::max(albedo_squares_.data()[i] / n - a * a, 0.0); // below 0 by rounding alone
-    const glm::dvec3 with_value = albedo_values_.data()[i] / n - a * v, with_light = v - beside - a * e;
-    const double all = primal_.data()[i].squares - n * glm::dot(e, e);
+    const glm::dvec3 variance = glm::max(mean.variance(), 0.0);
+    const glm::dvec3 with_light = mean.value - beside - mean.albedo * e;
+    const double all = primal.squares - n * glm::dot(e, e);
     double explained = 0;
     for (int c = 0; c < 3; ++c)
         explained += variance[c] > 0 ? n * with_light[c] * with_light[c] / variance[c] : 0;
     result.sampled_variance.data()[i] = Rgb(variance);
-    result.value_covariance.data()[i] = Rgb(with_value);
+    result.value_covariance.data()[i] = Rgb(mean.covariance());
     result.unexplained_variance.data()[i] =
         static_cast<float>(std::clamp((all - explained) / (n * std::max(n - 2, 1.0)), 0.0, largest_variance));
 }
 
 Demodulation Film::demodulation(int passes) const {
-    if (value_.empty())
+    if (albedos_.empty())
         return {};
-    const auto sum = [](const glm::dvec3& s) { return s; };
     const RgbImage black(width(), height());
     const Image<float> none(width(), height());
-    Demodulation result{means_of(value_, passes, sum),
-                        black,
-                        means_of(sampled_albedo_, passes, sum),
-                        none,
-                        none,
-                        black,
-                        black,
-                        none};
-    const double samples = std::pow(passes, 1.5);
-    for (std::size_t i = 0; i < value_.size(); ++i) {
-        result.albedo.data()[i] = looks_.albedo(i);
-        result.albedo_variance.data()[i] = looks_.albedo_variance(i);
-        result.sampled_share.data()[i] = static_cast<float>(samples / (samples + std::pow(looks_.count(i), 1.5)));
+    Demodulation result{black, black, black, none, none, black, black, none};
+    const double scale = scale_of_means(passes), samples = std::pow(passes, 1.5);
+    for (std::size_t i = 0; i < albedos_.size(); ++i) {
+        result.value.data()[i] = Rgb(albedos_.data()[i].value * scale);
+        result.sampled_albedo.data()[i] = Rgb(albedos_.data()[i].albedo * scale);
+        result.albedo.data()[i] = features_.albedo(i);
+        result.albedo_variance.data()[i] = features_.albedo_variance(i);
+        result.sampled_share.data()[i] =
+            static_cast<float>(samples / (samples + std::pow(features_.count(i), 1.5)));
         if (passes > 1)
             measure_samples(i, passes, result);
     }
     return result;
 }
 
-std::vector<CoefficientPart> Film::part_means(int passes) const {
+std::vector<BasisComponent> Film::part_means(int passes) const {
     const RgbImage black(width(), height());
     const Image<float> none = passes > 1 ? Image<float>(width(), height()) : Image<float>();
-    std::vector<CoefficientPart> result;
-    const double scale = passes > 0 ? 1.0 / passes : 0.0;
-    for (int l = 0; l < parts_a_pixel_; ++l) {
-        CoefficientPart& part =
+    std::vector<BasisComponent> result;
+    const double scale = scale_of_means(passes);
+    for (int l = 0; l < buffers_.parts; ++l) {
+        BasisComponent& part =
             result.emplace_back(Image<float>(width(), height()), black, black, black, none, none, none);
         for (int y = 0; y < height(); ++y)
             for (int x = 0; x < width(); ++x) {
-                const Part& sums = parts_(x * parts_a_pixel_ + l, y);
+                const Part& sums = parts_(x * buffers_.parts + l, y);
                 part.projection(x, y) = projection(x, y)[l];
                 part.primal(x, y) = Rgb(sums.primal.sum * scale);
                 part.dx(x, y) = Rgb(sums.dx.sum * scale);
@@ -116,97 +95,107 @@ std::vector<CoefficientPart> Film::part_means(int passes) const {
     return result;
 }
 
-BrightestSamples Film::brightest_samples(int passes) const {
-    const auto image_of = [this](Rgb Brightest::*part) {
-        RgbImage image(width(), height());
-        std::transform(brightest_.begin(), brightest_.end(), image.begin(),
-                       [part](const Brightest& b) { return b.*part; });
-        return image;
-    };
-    const bool has_gradients = !dx_.empty();
-    Image<float> half(width(), height());
-    const auto balance = static_cast<float>(share_of_balance(passes));
-    const auto scale = static_cast<float>(scale_of_halves(passes));
-    std::ranges::transform(brightest_, half.begin(),
-                           [=](const Brightest& b) { return scale * (b.sign - balance); });
-    return {image_of(&Brightest::primal),
-            has_gradients ? image_of(&Brightest::dx) : RgbImage(),
-            has_gradients ? image_of(&Brightest::dy) : RgbImage(),
-            value_.empty() ? RgbImage() : image_of(&Brightest::albedo),
-            std::move(half),
-            passes};
+Film::HalfWeights Film::half_weights(int passes) const {
+    const double balance = passes > 0 ? static_cast<double>(balance_) / passes : 0, kept = 1 - balance * balance;
+    return {balance, kept > 0 ? 1 / std::sqrt(kept) : 1, passes};
 }
 
-/// What makes up for the little of the noise that is left out where one half has more passes.
-double Film::scale_of_halves(int passes) const {
-    const double balance = share_of_balance(passes), kept = 1 - balance * balance;
-    return kept > 0 ? 1 / std::sqrt(kept) : 1;
+/// Fills in dx and dy with their variances and half differences.
+void Film::measure_gradients(int passes, GradientImages& images) const {
+    const RgbImage black(gradients_.width(), gradients_.height());
+    images.dx = images.dy = black;
+    if (passes > 1) {
+        images.dx_variance = images.dy_variance = Image<float>(black.width(), black.height());
+        images.halves.dx = images.halves.dy = black;
+    }
+    const double scale = scale_of_means(passes);
+    const HalfWeights half = half_weights(passes);
+    for (std::size_t i = 0; i < gradients_.size(); ++i) {
+        const GradientSums& sums = gradients_.data()[i];
+        images.dx.data()[i] = Rgb(sums.dx.sum * scale);
+        images.dy.data()[i] = Rgb(sums.dy.sum * scale);
+        if (passes < 2)
+            continue;
+        images.dx_variance.data()[i] = variance_of(sums.dx, passes);
+        images.dy_variance.data()[i] = variance_of(sums.dy, passes);
+        images.halves.dx.data()[i] = half.difference(sums.half_dx, sums.dx);
+        images.halves.dy.data()[i] = half.difference(sums.half_dy, sums.dy);
+    }
 }
 
-/// With n passes of signs s_k that sum to S, the mean of (s_k - S / n) x_k: its weights sum to zero, whatever n.
-/// Their squares sum to n - S^2 / n, and are scaled to n, as those of the mean.
-HalfDifferences Film::half_differences(int passes) const {
-    if (passes < 2)
-        return {};
-    const double balance = share_of_balance(passes), scale = scale_of_halves(passes) / passes;
-    const auto image_of = [&](const Image<Moments>& moments, Rgb Difference::*part) {
-        RgbImage image(moments.width(), moments.height());
-        for (std::size_t i = 0; i < image.size(); ++i)
-            image.data()[i] =
-                Rgb((glm::dvec3(differences_.data()[i].*part) - balance * moments.data()[i].sum) * scale);
-        return image;
-    };
-    return {image_of(primal_, &Difference::primal), image_of(dx_, &Difference::dx),
-            image_of(dy_, &Difference::dy)};
+/// Fills in the primal with its variance and half difference, directly visible emission, and the brightest
+/// samples.
+void Film::measure_pixels(int passes, GradientImages& images) const {
+    const RgbImage black(width(), height()), none;
+    const Image<float> numbers(width(), height());
+    BrightestSamples& brightest = images.brightest;
+    images.primal = images.very_direct = black;
+    brightest = {black,
+                 buffers_.gradients ? black : none,
+                 buffers_.gradients ? black : none,
+                 buffers_.albedo ? black : none,
+                 numbers,
+                 passes};
+    if (passes > 1) {
+        images.primal_variance = numbers;
+        images.halves.primal = black;
+    }
+    const double scale = scale_of_means(passes);
+    const HalfWeights half = half_weights(passes);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const PixelSums& sums = pixels_.data()[i];
+        images.primal.data()[i] = Rgb(sums.primal.sum * scale);
+        images.very_direct.data()[i] = Rgb(sums.very_direct * scale);
+        brightest.primal.data()[i] = sums.brightest.primal;
+        brightest.half.data()[i] = half.of_sample(sums.brightest.sign);
+        if (buffers_.gradients) {
+            brightest.dx.data()[i] = sums.brightest.dx;
+            brightest.dy.data()[i] = sums.brightest.dy;
+        }
+        if (buffers_.albedo)
+            brightest.albedo.data()[i] = sums.brightest.albedo;
+        if (passes < 2)
+            continue;
+        images.primal_variance.data()[i] = variance_of(sums.primal, passes);
+        images.halves.primal.data()[i] = half.difference(sums.half_primal, sums.primal);
+    }
 }
 
 GradientImages Film::means(int passes) const {
     GradientImages images;
-    measure(primal_, passes, images.primal, images.primal_variance);
-    measure(dx_, passes, images.dx, images.dx_variance);
-    measure(dy_, passes, images.dy, images.dy_variance);
     images.parts = part_means(passes);
     images.demodulation = demodulation(passes);
-    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
-    images.brightest = brightest_samples(passes);
-    images.halves = half_differences(passes);
-    images.guides = looks_.guides();
-    images.own = means_of(own_, passes, [](const glm::dvec3& sum) { return sum; });
+    images.features = features_.images();
+    measure_gradients(passes, images);
+    measure_pixels(passes, images);
     return images;
 }
 
 GradientImages Film::take_means(int passes) {
     reuse_ = {};
-    paths_ = {};
     luminance_ = {};
     GradientImages images;
     images.parts = part_means(passes);
     parts_ = {};
-    images.brightest = brightest_samples(passes);
-    brightest_ = {};
-    images.halves = half_differences(passes);
-    differences_ = {};
-    const auto take = [passes](Image<Moments>& moments, RgbImage& mean, Image<float>& variance) {
-        measure(moments, passes, mean, variance);
-        moments = {};
-    };
-    take(dx_, images.dx, images.dx_variance);
-    take(dy_, images.dy, images.dy_variance);
     images.demodulation = demodulation(passes);
-    images.guides = looks_.guides();
-    looks_.clear();
-    value_ = sampled_albedo_ = albedo_squares_ = albedo_values_ = beside_ = {};
-    take(primal_, images.primal, images.primal_variance);
-    images.own = means_of(own_, passes, [](const glm::dvec3& sum) { return sum; });
-    own_ = {};
-    images.very_direct = means_of(very_direct_, passes, [](const glm::dvec3& sum) { return sum; });
+    images.features = features_.images();
+    albedos_ = {};
+    beside_ = {};
+    features_.clear();
+    measure_gradients(passes, images);
+    gradients_ = {};
+    measure_pixels(passes, images);
+    pixels_ = {};
     return images;
 }
 
 ReuseMaps Film::reuse_maps(int passes) const {
     ReuseMaps maps{reuse_, passes};
-    maps.paths = Image<float>(paths_.width(), paths_.height());
-    std::ranges::transform(paths_, maps.paths.begin(), [](std::uint32_t n) { return static_cast<float>(n); });
+    if (!buffers_.means)
+        return maps;
+    maps.paths = Image<float>(width(), height());
+    std::ranges::transform(pixels_, maps.paths.begin(),
+                           [](const PixelSums& sums) { return static_cast<float>(sums.paths); });
     return maps;
 }
 

@@ -122,8 +122,8 @@ class MovedScatter {
 public:
     MovedScatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x, const Scattering& s,
                  bool looks_up)
-        : scene_(scene), ray_(ray), hit_(hit), x_(x),
-          s_(s), base_{x.to_world(s.to_next), std::log(luminance(s.f_cos))},
+        : scene_(scene), ray_(ray), hit_(hit), x_(x), s_(s),
+          base_{x.to_world(s.to_next), std::log(luminance(s.f_cos))},
           // Sharp lobes change within less.
           angle_(2e-3f * (s.is_delta ? 1 : std::clamp(10 * x.bsdf.roughness(), 0.1f, 1.0f))) {
         if (looks_up)
@@ -240,8 +240,8 @@ void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns
                 std::fill_n(part->begin() + here_.count, NumberVectors::lanes, 0.0f);
         const int j = here_.count++;
         direction_.set(j, t.direction);
-        here_.gradient[static_cast<std::size_t>(j)] = t.log_value;
-        here_.choice[static_cast<std::size_t>(j)] = choice;
+        here_.gradient[j] = t.log_value;
+        here_.choice[j] = choice;
     }
     here_.numbers = here_.count;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/tracer.h"
+#include "render/paths/tracer.h"
 #include "render/settings/settings.h"
 #include "render/trace/intersector.h"
 

@@ -4,6 +4,8 @@
 #include "render/estimator/method_sets.h"
 #include "render/estimator/pass.h"
 #include "render/estimator/pilot.h"
+#include "render/estimator/pre_pass.h"
+#include "render/estimator/set_reuse.h"
 #include "render/inspect/onlooker.h"
 
 #include <algorithm>
@@ -38,9 +40,9 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     for (set.position = 0; set.position < set.positions; ++set.position) {
         if (set.positions > 1)
             worker.base.see_from(pass, worker.tracer, set.position);
-        share_light(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
+        reuse_paths(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
         for (int m = 0; m < set.size(); ++m)
-            result.coefficient[static_cast<std::size_t>(m)] += set.coefficient(m);
+            result.coefficient[m] += set.coefficient(m);
     }
     return result;
 }
@@ -49,7 +51,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
 bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
-        return m >= 0 && !is_finite(set.coefficient[static_cast<std::size_t>(m)]);
+        return m >= 0 && !is_finite(set.coefficient[m]);
     };
     return is_bad(pixel) || (has_gradients(settings.method) &&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
@@ -107,9 +109,9 @@ void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from
     Differentiation along;
     differentiate(pass.scene, projection, at, from.lens, worker.path, hits, along,
                   [&](int i, const PathDerivatives& d) {
-                      InspectedVertex& x = path[static_cast<std::size_t>(i)];
+                      InspectedVertex& x = path[i];
                       x.footprint = footprint(d, rule);
-                      x.footprint_width = widths[static_cast<std::size_t>(i)];
+                      x.footprint_width = widths[i];
                       add_light_footprint(worker, i, d, rule, x);
                   });
 }
@@ -164,9 +166,9 @@ int TileInspection::base_count() const {
 }
 
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-                   const ReusePlan& plan, int index, glm::ivec2 pixel) {
-    const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, camera, size, settings, plan.guiding());
+                   const LearnedReuse& learned, int index, glm::ivec2 pixel) {
+    const Pass pass(scene, camera, size, settings, learned, index);
+    Worker worker(scene, camera, size, settings, learned.guiding());
     const CameraSample from = pass.base_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
     const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
@@ -198,9 +200,10 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
 }
 
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
-                            const RenderSettings& settings, const ReusePlan& plan, int index, glm::ivec2 pixel) {
-    const Pass pass(scene, camera, size, settings, plan, index);
-    Worker worker(scene, camera, size, settings, plan.guiding());
+                            const RenderSettings& settings, const LearnedReuse& learned, int index,
+                            glm::ivec2 pixel) {
+    const Pass pass(scene, camera, size, settings, learned, index);
+    Worker worker(scene, camera, size, settings, learned.guiding());
     const PixelRect tile = reuses_paths(settings.method) ? pass.grid.tile_at(pixel)
                                                          : PixelRect{pixel.x, pixel.y, pixel.x + 1, pixel.y + 1};
     TileInspection result{tile, index, settings, {}};
@@ -211,12 +214,12 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
 
 namespace {
 
-/// What the base paths of a pass tell the plan of the pixels that are seen.
-void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, ReusePlan& plan) {
+/// What the base paths of a pass tell LearnedReuse of the pixels that are seen.
+void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, LearnedReuse& learned) {
     for (int y = seen.y0; y < seen.y1; ++y)
         for (int x = seen.x0; x < seen.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, pass.base_sample({x, y}), worker.path);
-            plan.learn(x, y, worker.reuse.arriving_luminance(worker.path));
+            learned.learn(x, y, worker.reuse.arriving_luminance(worker.path));
         }
 }
 
@@ -229,10 +232,10 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
         if (stop.stop_requested())
             continue;
         for_each_square(block.clipped(pass.size), 1, [&](PixelRect p) {
-            if (!tells_of_light(pass, pass.random(p.x0, p.y0)))
+            if (!is_guiding_path(pass, pass.random(p.x0, p.y0)))
                 return;
             trace_pixel(pass, worker.tracer, p.x0, p.y0, pass.base_sample({p.x0, p.y0}), worker.path);
-            note_light(pass, worker.path, found.back());
+            record_light(pass, worker.path, found.back());
         });
     }
     return found;
@@ -241,66 +244,66 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
 /// Which pixels of these places see several things, as a render finds it before its first pass.
 std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::span<const PixelRect> places,
                                                         Worker& worker, const std::stop_token& stop) {
-    PixelLooks looks(pass.size.x, pass.size.y, is_demodulated(pass.settings));
+    PixelFeatures features(pass.size.x, pass.size.y, is_demodulated(pass.settings));
     for (const PixelRect& place : places) // with the pixels around, which tell, too
         if (!stop.stop_requested())
-            take_first_looks(pass,
-                             {std::max(place.x0 - 1, 0), std::max(place.y0 - 1, 0), place.x1 + 1, place.y1 + 1},
-                             worker, looks);
-    return std::make_shared<const Image<std::uint8_t>>(looks.mixed());
+            take_feature_samples(
+                pass, {std::max(place.x0 - 1, 0), std::max(place.y0 - 1, 0), place.x1 + 1, place.y1 + 1}, worker,
+                features);
+    return std::make_shared<const Image<std::uint8_t>>(features.mixed());
 }
 
 } // namespace
 
-ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-                      int pass, glm::ivec2 pixel, std::stop_token stop) {
-    ReusePlan plan(size, settings);
+LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec2 size,
+                             const RenderSettings& settings, int pass, glm::ivec2 pixel, std::stop_token stop) {
+    LearnedReuse learned(size, settings);
     const bool cuts = settings.adapt_tile && has_tiles_to_cut(settings) && settings.tile > 1;
-    if (plan.wants_pilot()) {
+    if (learned.wants_pilot()) {
         Worker worker(scene, camera, size, settings, nullptr);
-        const Pilot pilot(scene, camera, size, settings, plan);
-        std::vector<PlanEvidence> found;
-        for (int i = 0; i < plan.cell_count() && !stop.stop_requested(); ++i)
-            found.push_back(pilot.explore(plan.cell(i), worker));
-        plan.learn(found);
+        const Pilot pilot(scene, camera, size, settings, learned);
+        std::vector<CellStatistics> found;
+        for (int i = 0; i < learned.cell_count() && !stop.stop_requested(); ++i)
+            found.push_back(pilot.explore(learned.cell(i), worker));
+        learned.learn(found);
     }
-    const TileGrid grid(size, settings, plan, pass);
+    const TileGrid grid(size, settings, learned, pass);
     std::set<int> cells; // that the tiles reach into whose pixels share with this one
     for (const glm::ivec2 beside : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
         const PixelRect tile = grid.tile_at(pixel - beside);
         for (const int x : {tile.x0, tile.x1 - 1})
             for (const int y : {tile.y0, tile.y1 - 1})
                 if (cuts)
-                    cells.insert(plan.cell_of({x, y, x + 1, y + 1}));
+                    cells.insert(learned.cell_of({x, y, x + 1, y + 1}));
     }
     const bool guides = settings.path_guiding != Guiding::off;
     if (has_positions(settings)) {
         std::vector<PixelRect> places{grid.block_at(pixel).with_halo(size)};
         for (const int cell : cells)
-            places.push_back(plan.cell(cell));
+            places.push_back(learned.cell(cell));
         if (guides) // all of whose base paths are traced again
             places = {{0, 0, size.x, size.y}};
         Worker worker(scene, camera, size, settings, nullptr);
-        plan.set_mixed(mixed_pixels({scene, camera, size, settings, plan, 0}, places, worker, stop));
+        learned.set_mixed(mixed_pixels({scene, camera, size, settings, learned, 0}, places, worker, stop));
     }
     // Passes go by what all had told when there were last twice as many as the time before (Render).
-    ReusePlan next = plan;
+    LearnedReuse next = learned;
     GuidingLearner guiding;
     const int told = static_cast<int>(std::bit_floor(static_cast<unsigned>(pass)));
     for (int i = cuts || guides ? 0 : told; i < told && !stop.stop_requested(); ++i) {
-        Worker worker(scene, camera, size, settings, plan.guiding());
-        const Pass replayed(scene, camera, size, settings, plan, i);
+        Worker worker(scene, camera, size, settings, learned.guiding());
+        const Pass replayed(scene, camera, size, settings, learned, i);
         if (guides)
             guiding.learn(light_found_in(replayed, worker, stop));
         for (const int cell : cells)
             learn_luminance(replayed, next.cell(cell), worker, next);
         if (std::has_single_bit(static_cast<unsigned>(i + 1))) {
             next.set_guiding(guiding.make_guiding(settings.path_guiding));
-            plan.take(next, i + 1);
+            learned.take(next, i + 1);
         }
     }
-    plan.take(next, told); // where there was nothing to replay
-    return plan;
+    learned.take(next, told); // where there was nothing to replay
+    return learned;
 }
 
 } // namespace tessera

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "render/estimator/reuse_policy.h"
-#include "render/estimator/shift_onlooker.h"
+#include "render/estimator/learned_reuse.h"
+#include "render/estimator/reuse_roulette.h"
+#include "render/paths/shift_onlooker.h"
 #include "render/film/counters.h"
 #include "render/inspect/path_differentials.h"
 #include "render/settings/settings.h"
@@ -40,10 +41,10 @@ struct InspectedVertex : SeenVertex {
     glm::vec3 to_next; ///< unit, world
     bool is_delta;
     float pdf_w;
-    Rgb throughput; ///< of the path through this vertex: product of f cos / (pdf survival)
-    float survival; ///< probability of the roulette on path length
-    Rgb sampled;    ///< direct light by emitter sampling, with its MIS weight
-    Rgb hit;        ///< direct light by BSDF sampling, with its MIS weight
+    Rgb throughput;                      ///< of the path through this vertex: product of f cos / (pdf survival)
+    float survival;                      ///< probability of the roulette on path length
+    Rgb sampled;                         ///< direct light by emitter sampling, with its MIS weight
+    Rgb hit;                             ///< direct light by BSDF sampling, with its MIS weight
     std::optional<InspectedLight> light; ///< the light sample, if it brings light and is not at infinity
     /// What the path stands for there, as one of the samples so far; a point: not known, or none of this pixel's
     /// own.
@@ -95,8 +96,8 @@ struct InspectedSet {
 
     int size() const { return static_cast<int>(pixels.size()); }
     int index_of(glm::ivec2 pixel) const; ///< -1: it is not in the set
-    const InspectedBase& base(int k) const { return bases[static_cast<std::size_t>(k)]; }
-    const InspectedShift& shift(int k, int m) const { return shifts[static_cast<std::size_t>(k * size() + m)]; }
+    const InspectedBase& base(int k) const { return bases[k]; }
+    const InspectedShift& shift(int k, int m) const { return shifts[k * size() + m]; }
     /// All that a pixel gets from the first `bases` base paths.
     Rgb radiance(int m, int bases) const;
     Rgb radiance(glm::ivec2 pixel) const { return radiance(index_of(pixel), size()); }
@@ -138,23 +139,25 @@ struct TileInspection {
 
 /// Takes the sample of a pass at one pixel again, with the passes' own code, and looks at it. Quick: no more than
 /// the pixel's tile and those that take it into their sets are traced.
-/// @param plan  the one that this pass had
+/// @param learned  the one that this pass had
 /// @param pass  counts from 0
 Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-                   const ReusePlan& plan, int pass, glm::ivec2 pixel);
+                   const LearnedReuse& learned, int pass, glm::ivec2 pixel);
 
 /// Takes all samples of the pixel's tile in a pass again, as inspect() does for one pixel.
 TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2 size,
-                            const RenderSettings& settings, const ReusePlan& plan, int pass, glm::ivec2 pixel);
+                            const RenderSettings& settings, const LearnedReuse& learned, int pass,
+                            glm::ivec2 pixel);
 
-/// The plan that a pass of a render had, as far as the sets of one pixel go: bit for bit, and good for no other
-/// pixel. It is learnt again from the base paths of the passes before, of the few pixels that decide on these
-/// tiles; this costs as much as path tracing some 16 x 16 pixels as often, or where tiles lie between several
-/// cells of the plan, a few times that; and of G-PR as a sample of path tracing of the whole picture, on one
-/// thread; and unless path guiding is off, as the paths that guides were learnt from.
+/// LearnedReuse that a pass of a render had, as far as the sets of one pixel go: bit for bit, and good for no
+/// other pixel. It is learnt again from the base paths of the passes before, of the few pixels that decide on
+/// these tiles; this costs as much as path tracing some 16 x 16 pixels as often, or where tiles lie between
+/// several cells of LearnedReuse, a few times that; and of G-PR as a sample of path tracing of the whole picture,
+/// on one thread; and unless path guiding is off, as the paths that guides were learnt from.
 /// @param pass  counts from 0
 /// @param stop  ends it early: it has then learnt less, and is good for nothing
-ReusePlan replay_plan(const Scene& scene, const Camera& camera, glm::ivec2 size, const RenderSettings& settings,
-                      int pass, glm::ivec2 pixel, std::stop_token stop = {});
+LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec2 size,
+                             const RenderSettings& settings, int pass, glm::ivec2 pixel,
+                             std::stop_token stop = {});
 
 } // namespace tessera

@@ -92,13 +92,13 @@ Onlooker::~Onlooker() {
 
 void Onlooker::operator()(int base, const ReuseDecision& decision) {
     const int pixels = worker_.set.size();
-    result_.bases[static_cast<std::size_t>(base)] = {inspect_path(path(base)), path(base).radiance(), decision};
+    result_.bases[base] = {inspect_path(path(base)), path(base).radiance(), decision};
     for (int m = 0; m < pixels; ++m)
-        result_.shifts[static_cast<std::size_t>(base * pixels + m)] = shift(base, m, decision.scale);
+        result_.shifts[base * pixels + m] = shift(base, m, decision.scale);
 }
 
 InspectedShift Onlooker::shift(int base, int m, float scale) const {
-    const auto pixel = [&](int i) { return worker_.set.pixels[static_cast<std::size_t>(i)]; };
+    const auto pixel = [&](int i) { return worker_.set.pixels[i]; };
     const auto outcomes = worker_.reuse.outcomes();
     InspectedShift s{pixel(base), pixel(m), !outcomes.empty(), ShiftOutcome::ok, 0, 0, 0, Rgb(0), {}, {}, {}, {}};
     if (base == m && !path(base).empty())
@@ -106,7 +106,7 @@ InspectedShift Onlooker::shift(int base, int m, float scale) const {
     if (!s.is_tried)
         return s;
     if (base != m)
-        s.outcome = outcomes[static_cast<std::size_t>(m)];
+        s.outcome = outcomes[m];
     int slot = add_light_paths(base, m, scale, s);
     if (base != m) {
         add_places(base, m, s);
@@ -169,13 +169,11 @@ void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
         steps = steps_of(path(base), last, light.carried(slot));
     } else {
         const OffsetTrace::Path& y = trace_[m];
-        const OffsetTrace::End& end = y.ends[static_cast<std::size_t>(slot)];
-        const auto add = [&](const OffsetStep& step) {
-            steps.push_back({y.vertices[static_cast<std::size_t>(step.vertex)], false, step});
-        };
+        const OffsetTrace::End& end = y.ends[slot];
+        const auto add = [&](const OffsetStep& step) { steps.push_back({y.vertices[step.vertex], false, step}); };
         const int bounces = end.joins ? end.join.vertex : end.last.vertex;
         for (int i = 0; i < bounces; ++i)
-            add(y.bounces[static_cast<std::size_t>(i)]);
+            add(y.bounces[i]);
         add(end.joins ? end.join : end.last);
         if (end.joins)
             steps.push_back({seen(path(base)[end.last.vertex].vertex), true, end.last});

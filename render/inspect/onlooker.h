@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/pass.h"
+#include "render/estimator/worker.h"
 #include "render/inspect/inspection.h"
 
 namespace tessera {
@@ -22,7 +22,7 @@ public:
         std::vector<End> ends;            ///< one a slot
     };
 
-    const Path& operator[](int m) const { return paths_[static_cast<std::size_t>(m)]; }
+    const Path& operator[](int m) const { return paths_[m]; }
 
     void begins(int offsets, int slots) override;
     void arrives(int m, const Vertex& y) override;
@@ -34,8 +34,8 @@ public:
     }
 
 private:
-    Path& at(int m) { return paths_[static_cast<std::size_t>(m)]; }
-    End& end_at(int m, int slot) { return at(m).ends[static_cast<std::size_t>(slot)]; }
+    Path& at(int m) { return paths_[m]; }
+    End& end_at(int m, int slot) { return at(m).ends[slot]; }
 
     std::vector<Path> paths_;
 };
@@ -43,7 +43,7 @@ private:
 /// A base path's vertices as one looks at them.
 std::vector<InspectedVertex> inspect_path(const BasePath& path);
 
-/// Looks on while the light of a worker's set is shared out (share_light).
+/// Looks on while the light of a worker's set is shared out (reuse_paths).
 class Onlooker {
 public:
     /// @param samples  a pixel so far, of which footprints are
@@ -63,7 +63,7 @@ private:
     void add_steps(int base, int m, int slot, InspectedShift& s) const;
     void add_footprints(int base, int m, std::vector<InspectedStep>& steps) const;
     std::string_view ending_of(int slot) const;
-    const BasePath& path(int k) const { return *worker_.set.paths[static_cast<std::size_t>(k)]; }
+    const BasePath& path(int k) const { return *worker_.set.paths[k]; }
 
     Worker& worker_;
     InspectedSet& result_;

@@ -179,7 +179,7 @@ void scalar_footprints(const BasePath& path, PixelWidth pixel, glm::vec3 origin,
         const BaseVertex& x = path[i];
         const glm::vec3 normal = x.vertex.geometric_normal;
         along.arrive(distance, std::abs(glm::dot(way, normal)) / distance);
-        widths[static_cast<std::size_t>(i)] = along.width(log_samples);
+        widths[i] = along.width(log_samples);
         if (i + 1 == path.size())
             return;
         way = path[i + 1].vertex.position - x.vertex.position;

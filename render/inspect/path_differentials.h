@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/base_path.h"
+#include "render/paths/base_path.h"
 #include "render/inspect/differentiation.h"
 #include "render/scene/camera.h"
 
@@ -29,7 +29,7 @@ void differentiate(const Scene& scene, const Projection& projection, glm::vec2 p
     Ray ray = projection.ray(pixel, lens);
     for (int i = 0; i < path.size(); ++i) {
         const Vertex& x = path[i].vertex;
-        const Hit& hit = hits[static_cast<std::size_t>(i)];
+        const Hit& hit = hits[i];
         along.arrive(ray, hit.distance, x.geometric_normal);
         visit(i, along.derivatives());
         if (i + 1 == path.size())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -25,11 +26,22 @@ namespace {
 
 constexpr int rows_at_once = 64; // of what is read: OpenEXR itself can neither be watched nor stopped
 
-constexpr const char* channel_names[] = {"R", "G", "B"};
+/// A layer by its name and channels.
+struct LayerName {
+    std::string name;
+    ExrChannels channels = ExrChannels::rgb;
+};
 
-/// "" and "R": "R"; "primal" and "R": "primal.R".
-std::string channel_name(const std::string& layer, const std::string& channel) {
-    return layer.empty() ? channel : layer + "." + channel;
+int channel_count(ExrChannels channels) {
+    return channels == ExrChannels::single ? 1 : 3;
+}
+
+/// Returns the full name of channel `i` of a layer: "R", "primal.R", "N.X", "Z".
+std::string channel_name(const LayerName& layer, int i) {
+    if (layer.channels == ExrChannels::single)
+        return layer.name;
+    const char channel = (layer.channels == ExrChannels::rgb ? "RGB" : "XYZ")[i];
+    return layer.name.empty() ? std::string(1, channel) : layer.name + "." + channel;
 }
 
 /// Where OpenEXR finds channel `channel` of an image whose first pixel is (first_x, first_y) of the file.
@@ -61,8 +73,8 @@ void write_layers(const std::filesystem::path& path, const ExrFile& file) {
         header.insert(name, Imf::StringAttribute(text));
     Imf::FrameBuffer buffer;
     for (const ExrLayer& layer : file.layers) {
-        for (int i = 0; i < 3; ++i) {
-            const std::string name = channel_name(layer.name, channel_names[i]);
+        for (int i = 0; i < channel_count(layer.channels); ++i) {
+            const std::string name = channel_name({layer.name, layer.channels}, i);
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
             buffer.insert(name, slice(layer.image, i));
         }
@@ -72,21 +84,51 @@ void write_layers(const std::filesystem::path& path, const ExrFile& file) {
     output.writePixels(first.height());
 }
 
-/// The names of the layers that `channels` makes up, in the order of the file: the plain one first.
-std::vector<std::string> layer_names(const Imf::ChannelList& channels) {
-    std::vector<std::string> names;
-    if ((channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B")) ||
-        channels.findChannel("Y"))
-        names.push_back("");
+/// Whether the plain picture is a lone Y.
+bool is_grey(const Imf::ChannelList& channels) {
+    return !channels.findChannel("R") && channels.findChannel("Y");
+}
+
+/// Whether the file has all channels of a layer.
+bool has_layer(const Imf::ChannelList& channels, const LayerName& layer) {
+    for (int i = 0; i < channel_count(layer.channels); ++i)
+        if (!channels.findChannel(channel_name(layer, i)))
+            return false;
+    return true;
+}
+
+/// Returns the layers that have three channels, the plain one first, in the order of the file.
+std::vector<LayerName> layers_of_three(const Imf::ChannelList& channels) {
+    std::vector<LayerName> layers;
+    if (has_layer(channels, {""}) || channels.findChannel("Y"))
+        layers.push_back({""});
+    for (const auto& [suffix, kind] : {std::pair(".R", ExrChannels::rgb), std::pair(".X", ExrChannels::xyz)})
+        for (auto c = channels.begin(); c != channels.end(); ++c) {
+            const std::string name = c.name();
+            if (!name.ends_with(suffix))
+                continue;
+            const LayerName layer{name.substr(0, name.size() - 2), kind};
+            if (!layer.name.empty() && has_layer(channels, layer))
+                layers.push_back(layer);
+        }
+    return layers;
+}
+
+/// Returns all layers: those of three channels, then a layer for each other channel but alpha.
+std::vector<LayerName> layers_in(const Imf::ChannelList& channels) {
+    std::vector<LayerName> layers = layers_of_three(channels);
+    std::set<std::string> taken;
+    for (const LayerName& layer : layers)
+        for (int i = 0; i < channel_count(layer.channels); ++i)
+            taken.insert(channel_name(layer, i));
+    if (is_grey(channels))
+        taken.insert("Y");
     for (auto c = channels.begin(); c != channels.end(); ++c) {
         const std::string name = c.name();
-        if (!name.ends_with(".R"))
-            continue;
-        const std::string layer = name.substr(0, name.size() - 2);
-        if (channels.findChannel(layer + ".G") && channels.findChannel(layer + ".B"))
-            names.push_back(layer);
+        if (!taken.contains(name) && name != "A" && !name.ends_with(".A"))
+            layers.push_back({name, ExrChannels::single});
     }
-    return names;
+    return layers;
 }
 
 struct Size {
@@ -130,8 +172,8 @@ void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
                    "its pixels");
 }
 
-/// The layers, of those that there are, that `choose` picks.
-using LayerChoice = std::function<std::vector<std::string>(const std::vector<std::string>& there)>;
+/// Chooses the layers to read among those of the file.
+using LayerChoice = std::function<std::vector<LayerName>(const std::vector<LayerName>& there)>;
 
 ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, const ReadWatch& watch,
                     const LayerChoice& choose) {
@@ -139,25 +181,31 @@ ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, c
     const Imf::Header& header = part.header();
     const Imath::Box2i window = header.dataWindow();
     const Size size = size_of(window, file_bytes);
-    const std::vector<std::string> there = layer_names(header.channels());
-    if (there.empty())
+    const Imf::ChannelList& channels = header.channels();
+    const std::vector<LayerName> there = layers_in(channels);
+    if (there.empty() || there.front().channels != ExrChannels::rgb)
         throw std::runtime_error("it has no R, G and B channels");
-    const std::vector<std::string> names = choose(there);
-    ask_for_layers(header, size, names.size());
+    const std::vector<LayerName> chosen = choose(there);
+    ask_for_layers(header, size, chosen.size());
     ExrFile file;
-    for (const std::string& name : names)
-        file.layers.push_back({name, RgbImage(size.width, size.height)});
+    for (const LayerName& layer : chosen)
+        file.layers.push_back({layer.name, RgbImage(size.width, size.height), layer.channels});
+    const auto is_single = [&](const ExrLayer& layer) {
+        return layer.channels == ExrChannels::single || (layer.name.empty() && is_grey(channels));
+    };
     Imf::FrameBuffer buffer;
     for (const ExrLayer& layer : file.layers) {
-        const bool is_grey = layer.name.empty() && !header.channels().findChannel("R");
-        for (int i = 0; i < (is_grey ? 1 : 3); ++i)
-            buffer.insert(is_grey ? "Y" : channel_name(layer.name, channel_names[i]),
-                          slice(layer.image, i, window.min.x, window.min.y));
+        // A lone Y is the single channel of the layer "".
+        const LayerName name = is_single(layer)
+                                   ? LayerName{layer.name.empty() ? "Y" : layer.name, ExrChannels::single}
+                                   : LayerName{layer.name, layer.channels};
+        for (int i = 0; i < channel_count(name.channels); ++i)
+            buffer.insert(channel_name(name, i), slice(layer.image, i, window.min.x, window.min.y));
     }
     part.setFrameBuffer(buffer);
     read_rows(part, window.min.y, window.max.y, watch);
     for (ExrLayer& layer : file.layers)
-        if (layer.name.empty() && !header.channels().findChannel("R"))
+        if (is_single(layer))
             for (Rgb& pixel : layer.image)
                 pixel = Rgb(pixel.r);
     file.attributes = attributes_of(header);
@@ -218,8 +266,8 @@ bool is_exr(std::string_view bytes) {
 RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
     MemoryStream stream(bytes);
     Imf::MultiPartInputFile input(stream);
-    ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<std::string>& there) {
-        return std::vector<std::string>{there.front()}; // the plain one, if there is one
+    ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<LayerName>& there) {
+        return std::vector<LayerName>{there.front()}; // the plain one, where the file has it
     });
     return std::move(file.layers.front().image);
 }
@@ -230,12 +278,12 @@ ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
         open_file(path); // says why it cannot be
         Imf::MultiPartInputFile input(path.c_str());
         return read_layers(input, std::filesystem::file_size(path), watch,
-                           [&](const std::vector<std::string>& there) {
-                               std::vector<std::string> names;
-                               for (const std::string& name : there)
-                                   if (wanted.empty() || std::ranges::find(wanted, name) != wanted.end())
-                                       names.push_back(name);
-                               return names;
+                           [&](const std::vector<LayerName>& there) {
+                               std::vector<LayerName> layers;
+                               for (const LayerName& layer : there)
+                                   if (wanted.empty() || std::ranges::find(wanted, layer.name) != wanted.end())
+                                       layers.push_back(layer);
+                               return layers;
                            });
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot read " + path.string() + ": " + message_of(error));

@@ -11,10 +11,18 @@
 
 namespace tessera {
 
-/// One named RGB image of an EXR file; the empty name is the file's plain R, G, B.
+/// The channels of an EXR layer.
+enum class ExrChannels {
+    rgb,   ///< NAME.R, NAME.G, NAME.B; R, G, B for the empty name
+    xyz,   ///< NAME.X, NAME.Y, NAME.Z: a vector
+    single ///< one channel, NAME: a number, which the image holds in red, green and blue
+};
+
+/// One named image of an EXR file; the empty name is the file's plain R, G, B.
 struct ExrLayer {
-    std::string name; ///< "primal" becomes the channels primal.R, primal.G, primal.B
+    std::string name;
     RgbImage image;
+    ExrChannels channels = ExrChannels::rgb;
 };
 
 /// A single-part EXR in 32-bit floats: layers of one size and string attributes of the header.
@@ -37,18 +45,19 @@ void write_exr(const std::filesystem::path& path, const ExrFile& file);
 /// False: the file is wanted no more.
 using ReadWatch = std::function<bool(float share)>;
 
-/// Reads layers with R, G and B channels (a lone Y counts as grey; of a multi-part file the first part), and the
-/// header's string attributes. `wanted` names those that are read if they are there, all the others cost nothing;
-/// empty: all. Throws std::runtime_error that names the file, also where `watch`, which may be empty, wants it no
-/// more, and where there is no memory for it (ask_for_memory).
+/// Reads the first part of a file: layers with R, G and B channels (a lone plain Y counts as grey), named layers
+/// with X, Y and Z, every other channel but alpha as a layer of its own, and the header's string attributes.
+/// `wanted` names the layers to read, where the file has them; empty: all. Other layers cost no memory. Throws
+/// std::runtime_error that names the file: where it has no R, G and B, where `watch` (may be empty) ends the read,
+/// and where memory is short (ask_for_memory).
 ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {},
                  const std::vector<std::string>& wanted = {});
 
 /// Whether the bytes begin as an OpenEXR file does.
 bool is_exr(std::string_view bytes);
 
-/// Reads the plain layer of a file in memory, or the first where there is none, and nothing else. Throws as
-/// read_exr does, but names nothing.
+/// Reads the plain layer of a file in memory, or its first RGB layer where it has no plain one. Throws as read_exr
+/// does, without the file's name.
 RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch);
 
 /// The string attributes alone, without reading a pixel. Throws std::runtime_error that names the file.

@@ -114,7 +114,7 @@ RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& w
             throw std::runtime_error("it is wanted no more");
         read_row(bytes, row);
         for (int x = 0; x < width; ++x)
-            image(x, y) = color_of(row[static_cast<std::size_t>(x)]);
+            image(x, y) = color_of(row[x]);
     }
     return image;
 }

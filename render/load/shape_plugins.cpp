@@ -259,10 +259,9 @@ void note_missing_attributes(LoadContext& context) {
         const Shape& shape = (*loaded.shapes)[loaded.index];
         if (shape.mesh.triangles.empty())
             continue; // that has its own note
-        std::vector<const Texture*> textures =
-            scene.materials[static_cast<std::size_t>(shape.material)].textures();
+        std::vector<const Texture*> textures = scene.materials[shape.material].textures();
         if (shape.area_light >= 0)
-            textures.push_back(&scene.area_lights[static_cast<std::size_t>(shape.area_light)].radiance);
+            textures.push_back(&scene.area_lights[shape.area_light].radiance);
         for (const Texture* texture : textures) {
             const auto* wanted = std::get_if<AttributeTexture>(&texture->kind);
             if (wanted && !shape.mesh.attribute(wanted->name))

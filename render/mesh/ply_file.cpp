@@ -114,8 +114,9 @@ private:
             throw std::runtime_error("there is no x, y and z");
         const bool has_normals = layout.has({Slot::nx, Slot::ny, Slot::nz});
         const bool has_uvs = layout.has({Slot::u, Slot::v});
-        ask_for_memory(element.count * (2 * sizeof(glm::vec3) + // positions and normals: its own, or computed ones
-                                        (has_uvs ? sizeof(glm::vec2) : 0) + layout.attributes().size() * sizeof(Rgb)),
+        ask_for_memory(element.count *
+                           (2 * sizeof(glm::vec3) + // positions and normals: its own, or computed ones
+                            (has_uvs ? sizeof(glm::vec2) : 0) + layout.attributes().size() * sizeof(Rgb)),
                        "its " + std::to_string(element.count) + " vertices");
         mesh_.positions.reserve(element.count);
         mesh_.normals.reserve(has_normals ? element.count : 0);
@@ -148,7 +149,7 @@ private:
         for (const PlyAttribute& attribute : layout.attributes()) {
             glm::vec3 value;
             for (int i = 0; i < 3; ++i) {
-                const std::size_t property = attribute.properties[static_cast<std::size_t>(i)];
+                const std::size_t property = attribute.properties[i];
                 value[i] = attribute.is_color ? decoded(numbers[property], element.properties[property].type)
                                               : numbers[property];
             }

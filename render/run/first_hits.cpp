@@ -1,7 +1,7 @@
 #include "render/run/first_hits.h"
 
-#include "render/estimator/base_path.h"
-#include "render/estimator/tracer.h"
+#include "render/paths/base_path.h"
+#include "render/paths/tracer.h"
 #include "render/inspect/path_differentials.h"
 
 #include <array>
@@ -46,7 +46,7 @@ void write_footprints(const Tracer& tracer, const Projection& projection, int x,
         differentiate(tracer.scene, projection, pixel, glm::vec2(0), path, met, along,
                       [&](int i, const PathDerivatives& d) {
                           if (i < 2)
-                              widths[static_cast<std::size_t>(i)][k] = std::sqrt(footprint(d, {}).area());
+                              widths[i][k] = std::sqrt(footprint(d, {}).area());
                       });
     }
     for (auto& of_paths : widths)

@@ -1,7 +1,5 @@
 #include "render/run/fitting_reconstruction.h"
 
-#include "recon/picture/demodulation.h"
-#include "recon/picture/spikes.h"
 #include "render/io/available_memory.h"
 
 #include <algorithm>
@@ -18,14 +16,9 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const int width = images.primal.width(), height = images.primal.height();
     const Norm norm = applied(settings.norm, images.has_gradients());
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
-    const std::uint64_t remodulation = images.demodulation.empty() ? 0 : bytes_to_remodulate(width, height);
-    const bool is_limited = holds_back(images, settings);
-    const std::uint64_t limits =
-        is_limited ? images.primal.size() * bytes_to_limit(images.has_gradients(), !images.demodulation.empty())
-                   : 0;
-    const auto parts = static_cast<int>(images.parts.size());
-    const std::uint64_t all =
-        reconstructor.bytes_for(width, height, norm, threads, parts, is_limited) + remodulation + limits;
+    const ReconstructionSize size{width,   height, images.has_gradients(), !images.demodulation.empty(),
+                                  static_cast<int>(images.parts.size()), threads};
+    const std::uint64_t all = reconstructor.bytes_for(size, norm);
     const auto beside_kept = [&](std::uint64_t bytes) {
         return bytes - std::min(bytes, reconstructor.bytes_kept());
     };

@@ -23,8 +23,7 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
                         {"width", size.x},
                         {"height", size.y},
                         {"spp", spp},
-                        {"alpha", reconstruction.alpha},
-                        {"spikes", to_string(reconstruction.spikes)}};
+                        {"alpha", reconstruction.alpha}};
     std::vector<Setting> settings = settings_of(s);
     settings.push_back(method_setting(s.method));
     settings.push_back(seed_setting(s.seed));
@@ -35,7 +34,7 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size) {
     nlohmann::json identity = settings_json(subject.source, settings, size, 0, {});
-    for (const char* other : {"spp", "alpha", "spikes", "variables"})
+    for (const char* other : {"spp", "alpha", "variables"})
         identity.erase(other);
     identity["camera"] = parse_json(camera_json(subject.camera));
     identity["scene"] = to_string(checksums_of(subject.scene->description(), subject.camera));

@@ -1,11 +1,12 @@
 #include "render/run/reference_image.h"
 
-#include "recon/picture/spikes.h"
+#include "recon/guided/fireflies.h"
 #include "render/io/json_text.h"
 #include "render/io/memory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -18,7 +19,8 @@ namespace {
 constexpr const char* reference_attribute = "tessera:reference";
 constexpr const char* scene_attribute = "tessera:scene";
 
-/// Whether there is nothing, or a surface that is black, whose Bsdf::albedo is 0.01, or a mirror that shows either.
+/// Whether there is nothing, or a surface that is black, whose Bsdf::albedo is 0.01, or a mirror that shows
+/// either.
 bool sees_black(const GradientImages& images, std::size_t i) {
     if (images.demodulation.empty())
         return false;
@@ -27,6 +29,28 @@ bool sees_black(const GradientImages& images, std::size_t i) {
 }
 
 } // namespace
+
+ReferenceOrigin origin_of(const ReferenceImage& reference) {
+    const nlohmann::json settings = nlohmann::json::parse(reference.settings, nullptr, false);
+    if (!settings.is_object())
+        return {};
+    const auto text_of = [&](const char* key) {
+        const auto found = settings.find(key);
+        return found != settings.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    const std::string method = text_of("method");
+    const auto known = std::ranges::find(all_methods, method, short_name);
+    return {known == std::end(all_methods) ? std::nullopt : std::optional(*known), text_of("recon")};
+}
+
+std::string to_string(const ReferenceOrigin& origin) {
+    if (!origin.method)
+        return "an unknown method";
+    std::string text(short_name(*origin.method));
+    if (has_gradients(*origin.method) && !origin.reconstruction.empty())
+        text += ", reconstructed by " + origin.reconstruction;
+    return text;
+}
 
 FloorFreeError error_of(const ReferenceImage& reference) {
     return measure_reference_error(reference.halves[0], reference.halves[1]);
@@ -42,9 +66,9 @@ RgbImage variance_of(const ReferenceImage& reference) {
 }
 
 void KnownPixels::look_at(const GradientImages& images) {
-    const RgbImage held = held_light(images);
+    const RgbImage clamped = clamped_radiance(images);
     for (std::size_t i = 0; i < ruled_.size(); ++i) {
-        if (!is_black(held.data()[i]))
+        if (!is_black(clamped.data()[i]))
             ruled_.data()[i] = 1;
         if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
             sees_black(images, i))
@@ -108,7 +132,8 @@ std::uint32_t checksum_of(const ReferenceImage& reference) {
 
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference) {
     const FloorFreeError error = error_of(reference);
-    const nlohmann::ordered_json about{{"seeds", reference.seeds},
+    const nlohmann::ordered_json about{{"made_by", to_string(origin_of(reference))},
+                                       {"seeds", reference.seeds},
                                        {"relmse", error.relative_mse},
                                        {"relmse_standard_error", error.standard_error},
                                        {"untrusted", untrusted_share(reference.doubt)}};

@@ -4,6 +4,7 @@
 #include "recon/metrics/metrics.h"
 #include "render/io/exr.h"
 #include "render/scene/scene_checksums.h"
+#include "render/settings/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -18,9 +19,10 @@ namespace tessera {
 /// The layers of the two halves in a reference's file.
 inline constexpr const char* half_names[] = {"half1", "half2"};
 
-/// What pictures are measured by: two renders of a scene that are independent of each other and alike in all
-/// else, and their mean. The difference of the halves tells how far the mean is from the truth, whatever method
-/// and reconstruction made them; and against both, an error has no floor (recon/metrics/metrics.h).
+/// A reference: two independent renders of a scene that differ in the seed alone, and their mean. The difference
+/// of the halves gives the variance of the mean, for any method and reconstruction. An error against both halves
+/// does not contain their noise (measure_floor_free_error in recon/metrics/metrics.h). A bias of the method or the
+/// reconstruction is in both halves, and shows in neither.
 struct ReferenceImage {
     RgbImage mean;
     std::array<RgbImage, 2> halves;
@@ -31,7 +33,20 @@ struct ReferenceImage {
     Image<float> doubt = {};                  ///< doubt_of() the halves; empty where it was read from a file
 };
 
-/// How far the mean is from the truth, by what the halves differ.
+/// The method and the reconstruction of a reference, as its settings name them.
+struct ReferenceOrigin {
+    std::optional<Method> method; ///< empty: unknown, as another program made the file
+    std::string reconstruction;   ///< "l2", "none"; empty: unknown
+
+    bool operator==(const ReferenceOrigin&) const = default;
+};
+
+ReferenceOrigin origin_of(const ReferenceImage& reference);
+
+/// Returns "gpr, reconstructed by l2", "pt", or "an unknown method".
+std::string to_string(const ReferenceOrigin& origin);
+
+/// Estimates the error of the mean from the difference of the halves.
 FloorFreeError error_of(const ReferenceImage& reference);
 
 /// The variance of the mean, in each pixel and channel: ((h1 - h2) / 2)^2 [radiance^2], which is unbiased where
@@ -73,9 +88,9 @@ RgbImage mean_of(const RgbImage& a, const RgbImage& b);
 /// A checksum of the halves' pixels.
 std::uint32_t checksum_of(const ReferenceImage& reference);
 
-/// An EXR file: the mean as plain RGB, the layers half1, half2, variance and doubt (see above), and in its header
-/// the mean's error, the share of untrusted pixels and the scene's checksums. Throws std::runtime_error that names
-/// the file.
+/// Writes an EXR file: the mean as plain RGB, the layers half1, half2, variance and doubt (see above). The header
+/// holds the method and the reconstruction, the mean's error, the fraction of untrusted pixels and the scene's
+/// checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
 /// Whether the file is one of these, as its header says: no pixels are read. Throws std::runtime_error that names

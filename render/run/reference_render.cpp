@@ -7,14 +7,14 @@
 #include "render/run/reference_share.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
+#include "render/settings/settings_table.h"
 
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -25,55 +25,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The pictures of both halves, by the norm of a recipe that serves best.
-struct Halves {
-    std::array<RgbImage, 2> images;
-    Norm norm = Norm::none;
-};
-
-/// By how much two pictures of the same differ: relMSE with an epsilon in units of their own brightness, so that
-/// which of several pairs differ less does not depend on the unit of light.
-double difference_of(const std::array<RgbImage, 2>& halves) {
-    double brightness = 0;
-    for (const RgbImage& half : halves)
-        for (Rgb c : half)
-            brightness += static_cast<double>(luminance(c)) / static_cast<double>(2 * half.size());
-    const double epsilon = relative_mse_epsilon * brightness * brightness;
-    double sum = 0;
-    for (std::size_t i = 0; i < halves[0].size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const auto a = static_cast<double>(halves[0].data()[i][c]),
-                       b = static_cast<double>(halves[1].data()[i][c]);
-            if (const double scale = (a + b) * (a + b) / 4 + epsilon; scale > 0)
-                sum += (a - b) * (a - b) / scale;
-        }
-    return sum;
-}
-
-/// What there is to choose from: without gradients all norms make the same picture.
-std::vector<Norm> norms_of(const ReferenceRecipe& recipe) {
-    return has_gradients(recipe.settings.method) ? recipe.norms : std::vector{Norm::none};
-}
-
-/// @param images_of  of half 0, then of half 1, to be reconstructed
+/// Reconstructs both halves.
+/// @param images_of  returns the images of half 0, then of half 1
 template <class ImagesOf>
-Halves best_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
-    const std::vector<Norm> norms = norms_of(recipe);
-    std::vector<Halves> candidates(norms.size());
+std::array<RgbImage, 2> reconstructed_halves(const ReferenceRecipe& recipe, ImagesOf&& images_of) {
+    const ReconstructionSettings settings = reconstruction_of(recipe);
+    std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < 2; ++i) {
         const GradientImages images = images_of(i);
-        for (std::size_t n = 0; n < candidates.size(); ++n) {
-            ReconstructionSettings settings = recipe.reconstruction;
-            settings.norm = candidates[n].norm = norms[n];
-            Reconstructor reconstructor;
-            candidates[n].images[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
-        }
+        Reconstructor reconstructor; // no warm start: the halves are independent
+        halves[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
     }
-    if (candidates.size() == 1)
-        return std::move(candidates.front());
-    return std::move(*std::min_element(candidates.begin(), candidates.end(), [](const Halves& a, const Halves& b) {
-        return difference_of(a.images) < difference_of(b.images);
-    }));
+    return halves;
 }
 
 Render half(const PictureSubject& subject, const ReferenceRecipe& recipe, unsigned i) {
@@ -89,8 +52,12 @@ RenderSettings reference_settings() {
     settings.method = Method::gpr;
     settings.tile = 8;
     settings.seed = first_reference_seed;
-    settings.path_guiding = Guiding::off; // what it learns is in no checkpoint
+    settings.path_guiding = Guiding::off;
     return settings;
+}
+
+ReconstructionSettings reconstruction_of(const ReferenceRecipe& recipe) {
+    return applied(recipe.reconstruction, has_gradients(recipe.settings.method));
 }
 
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
@@ -116,13 +83,13 @@ PassRange passes_of(const ReferenceRecipe& recipe) {
 
 ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject subject,
                                  const ReferenceRecipe& recipe, ThreadPool& pool)
-    : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe),
-      pool_(pool), halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)},
-      identity_(share_identity(subject_, recipe)),
+    : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe), pool_(pool),
+      halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)}, identity_(share_identity(subject_, recipe)),
       wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
     if (recipe.settings.path_guiding != Guiding::off)
-        throw std::invalid_argument("path guiding is not off: references are made without it, as what they would have "
-                                    "learnt is not in their checkpoints");
+        throw std::invalid_argument(
+            "path guiding is not off: references are made without it, as what they would have "
+            "learnt is not in their checkpoints");
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();
 }
@@ -149,30 +116,27 @@ double ReferenceRender::seconds_left() const {
 }
 
 FloorFreeError ReferenceRender::error_so_far() const {
-    const Halves best = best_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); });
-    return measure_reference_error(best.images[0], best.images[1]);
+    const auto halves = reconstructed_halves(recipe_, [&](std::size_t i) { return halves_[i].images(); });
+    return measure_reference_error(halves[0], halves[1]);
 }
 
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene) {
     ReferenceImage reference;
     KnownPixels known(recipe.size);
-    Halves best = best_halves(recipe, [&](std::size_t i) {
+    reference.halves = reconstructed_halves(recipe, [&](std::size_t i) {
         GradientImages images = halves[i].take_images();
         known.look_at(images);
         return images;
     });
-    for (std::size_t i = 0; i < 2; ++i) {
-        reference.halves[i] = std::move(best.images[i]);
+    for (std::size_t i = 0; i < 2; ++i)
         reference.seeds[i] = halves[i].settings().seed;
-    }
     reference.mean = mean_of(reference.halves[0], reference.halves[1]);
     reference.doubt = doubt_of(reference.halves, known.unknown());
-    ReconstructionSettings reconstruction = recipe.reconstruction;
-    reconstruction.norm = best.norm;
+    const ReconstructionSettings reconstruction = reconstruction_of(recipe);
     auto settings =
         settings_json(source, recipe.settings, recipe.size, halves[0].spp() + halves[1].spp(), reconstruction);
-    settings["recon"] = to_string(best.norm);
+    settings["recon"] = to_string(reconstruction.norm);
     reference.settings = to_text(settings);
     reference.camera = camera_json(halves[0].camera());
     reference.scene = scene;

@@ -10,7 +10,6 @@
 #include <functional>
 #include <stop_token>
 #include <string>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -19,10 +18,11 @@ namespace tessera {
 /// The seeds of a reference are this and the next, unless others are asked for.
 inline constexpr std::uint64_t first_reference_seed = 1001;
 
-/// G-PR with large tiles, which few samples of a reference make up for.
+/// The settings of a reference's halves: G-PR with tiles of 8x8 pixels (not tuned) and without path guiding, whose
+/// state is not in checkpoints.
 RenderSettings reference_settings();
 
-/// One of so many parts into which the passes of a reference are divided.
+/// A shard of a reference: one of `count` parts of its passes.
 struct PassShare {
     int number = 1; ///< from 1 to `count`
     int count = 1;
@@ -35,24 +35,25 @@ struct PassShare {
 struct ReferenceRecipe {
     RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
     glm::ivec2 size{640, 360};
-    int spp = 512; ///< of both halves together; one more if it is odd
-    /// Its norm does not count, but `norms`. Spikes count in full, so that what is linear has no bias.
-    ReconstructionSettings reconstruction{.spikes = Spikes::off};
-    /// What pictures are made by: the one whose two halves differ least, in relMSE, of the whole picture. L2 makes
-    /// rings of light that few samples find, as through glass, where the primal alone is better.
-    std::vector<Norm> norms{Norm::l2, Norm::none};
+    int spp = 512; ///< samples a pixel of both halves together; one more if it is odd
+    /// Of both halves. L2 is linear in the raw samples, and so unbiased.
+    ReconstructionSettings reconstruction{.norm = Norm::l2};
     double checkpoint_seconds = 60; ///< wall time between checkpoints
-    PassShare share;                ///< the part that is rendered; others may be, elsewhere (reference_share.h)
+    PassShare share;                ///< the shard to render (reference_share.h)
 };
 
-/// The passes of a share in each of the two halves.
+/// Returns the settings of the reconstruction: `none` for a method without gradients. The choice depends on
+/// nothing that was rendered, so the default, l2, has no bias (recon/norm.h).
+ReconstructionSettings reconstruction_of(const ReferenceRecipe& recipe);
+
+/// The passes of a shard in each of the two halves.
 struct PassRange {
     int first, count;
 };
-/// Throws std::invalid_argument for a share that there is not, and where there are more shares than passes.
+/// Throws std::invalid_argument for a shard number above the count, and for more shards than passes.
 PassRange passes_of(const ReferenceRecipe& recipe);
 
-/// What two halves come to that have all passes of the recipe, and give up what they have summed.
+/// Makes the reference of two halves that have all passes of the recipe. Empties their films.
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene);
 
@@ -84,8 +85,7 @@ public:
     int spp_resumed() const { return spp_resumed_; }                          ///< those of the checkpoint
     double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time of passes since
     double seconds_left() const;                                              ///< infinite before the first pass
-    /// The error of the mean, were it to be complete now; both halves need a sample. Costs two reconstructions a
-    /// norm.
+    /// Returns the error of the mean of the halves so far; both need a sample. Costs two reconstructions.
     FloorFreeError error_so_far() const;
     /// The two renders as they are so far.
     const std::array<Render, 2>& halves() const { return halves_; }

@@ -55,12 +55,6 @@ ReferenceRecipe recipe_from(const json& header) {
     method_setting(recipe.settings.method).set_text(header.at("method").get<std::string>());
     header.at("seed").get_to(recipe.settings.seed);
     set_texts(recipe.reconstruction, header.at("reconstruction"));
-    recipe.norms.clear();
-    for (const json& norm : header.at("norms")) {
-        ReconstructionSettings settings;
-        setting_named(settings_of(settings), "norm").set_text(norm.get<std::string>());
-        recipe.norms.push_back(settings.norm);
-    }
     header.at("spp").get_to(recipe.spp);
     header.at("share").get_to(recipe.share.number);
     header.at("shares").get_to(recipe.share.count);
@@ -100,7 +94,7 @@ void check_belongs(const ShareFile& share, const ShareFile& first) {
         refuse(other);
     if (share.recipe.share.count != first.recipe.share.count)
         refuse(fmt::format("{} shares, not {}", share.recipe.share.count, first.recipe.share.count));
-    for (const char* key : {"spp", "norms", "reconstruction"})
+    for (const char* key : {"spp", "reconstruction"})
         if (share.header[key] != first.header[key])
             refuse(fmt::format("{} {}, not {}", key, to_text(share.header[key]), to_text(first.header[key])));
 }
@@ -150,15 +144,11 @@ std::string share_identity(const PictureSubject& subject, const ReferenceRecipe&
 std::string share_header(const PictureSubject& subject, const ReferenceRecipe& recipe) {
     RenderSettings settings = recipe.settings;
     ReconstructionSettings reconstruction = recipe.reconstruction;
-    json norms = json::array();
-    for (const Norm norm : recipe.norms)
-        norms.push_back(to_string(norm));
     return to_text(json{{"identity", parse_json(picture_identity(subject, recipe.settings, recipe.size))},
                         {"settings", texts_of(settings)},
                         {"method", method_setting(settings.method).text()},
                         {"seed", settings.seed},
                         {"reconstruction", texts_of(reconstruction)},
-                        {"norms", norms},
                         {"camera", camera_json(subject.camera)},
                         {"source",
                          {{"file", subject.source.file.string()},

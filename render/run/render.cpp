@@ -1,8 +1,11 @@
 #include "render/run/render.h"
 
 #include "render/estimator/basis.h"
+#include "render/estimator/methods.h"
 #include "render/estimator/pass.h"
 #include "render/estimator/pilot.h"
+#include "render/estimator/pre_pass.h"
+#include "render/estimator/worker.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/settings/settings_table.h"
@@ -48,8 +51,8 @@ glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
 Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
                const RenderSettings& settings, int first_pass)
     : scene_(std::move(scene)), camera_(camera), size_(checked(size, settings)), settings_(settings),
-      film_(size.x, size.y, buffers_of(settings)), plan_(size, settings_), next_plan_(plan_),
-      newest_plan_(std::make_shared<const ReusePlan>(plan_)), first_pass_(first_pass) {
+      film_(size.x, size.y, buffers_of(settings)), learned_(size, settings_), next_learned_(learned_),
+      newest_learned_(std::make_shared<const LearnedReuse>(learned_)), first_pass_(first_pass) {
     check(settings);
     done_blocks_.resize(most_blocks(size, settings));
     found_.resize(done_blocks_.size());
@@ -59,16 +62,16 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
     // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
     const std::size_t a_pixel =
         sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
-        sizeof(Rgb) + GuideImages::bytes_a_pixel +
-        static_cast<std::size_t>(buffers_of(settings).parts) * CoefficientPart::bytes_a_pixel;
+        FeatureImages::bytes_a_pixel +
+        static_cast<std::size_t>(buffers_of(settings).parts) * BasisComponent::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const bool learns = settings.path_guiding != Guiding::off;
     const std::uint64_t found = learns ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
     const std::uint64_t learnt = learns ? GuidingLearner::bytes_of_learnt() : 0;
-    const bool looks = has_positions(settings); // before the first pass, with nothing found yet
-    const std::uint64_t first = looks ? PixelLooks::bytes(size.x, size.y) : 0;
+    const bool pre_pass = has_positions(settings); // its feature samples are freed before the first pass
+    const std::uint64_t first = pre_pass ? PixelFeatures::bytes(size.x, size.y) : 0;
     const std::uint64_t mixed =
-        looks ? static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) : 0;
+        pre_pass ? static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) : 0;
     return Film::bytes(size.x, size.y, buffers_of(settings)) + learnt + mixed +
            std::max(means, bytes_of_threads(threads, settings) + std::max(found, first));
 }
@@ -110,7 +113,7 @@ public:
     Workers(const Render& render, ThreadPool& pool, std::stop_token stop) : pool_(pool), stop_(std::move(stop)) {
         for (int i = 0; i < pool.size(); ++i)
             all_.push_back(std::make_unique<Worker>(*render.scene_, render.camera_, render.size_, render.settings_,
-                                                    render.plan_.guiding()));
+                                                    render.learned_.guiding()));
     }
 
     /// Has `work(i, worker)` done for all i below count. False: stopped on the way.
@@ -119,7 +122,7 @@ public:
         pool_.parallel_for(
             static_cast<int>(count),
             [&](int i, int w) {
-                Worker& worker = *all_[static_cast<std::size_t>(w)];
+                Worker& worker = *all_[w];
                 const double before = thread_cpu_seconds();
                 work(i, worker);
                 worker.cpu_seconds += thread_cpu_seconds() - before;
@@ -136,57 +139,56 @@ private:
     std::vector<std::unique_ptr<Worker>> all_;
 };
 
-/// The edges of lamps, and the projections: what is to be known before the first pass, whichever that is. False:
-/// stopped; a part of it tells nothing.
-bool Render::look_first(Workers& workers) {
-    const Pass pass(*scene_, camera_, size_, settings_, plan_, 0);
+/// Pre-pass: finds the edges of directly visible emitters and the projections before the first pass. Returns false
+/// if it was stopped; its results are then incomplete.
+bool Render::pre_pass(Workers& workers) {
+    const Pass pass(*scene_, camera_, size_, settings_, learned_, 0);
     const std::vector<PixelRect> blocks = blocks_of(pass);
-    const int looks = very_direct_looks(pass);
-    for (int look = 0; look < looks; ++look) {
+    const int views = very_direct_views(pass);
+    for (int view = 0; view < views; ++view) {
         RgbImage lamps(size_.x + 2, size_.y + 2);
         if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {
-                show_very_direct(pass, look, blocks[static_cast<std::size_t>(i)], worker.tracer, lamps);
+                show_very_direct(pass, view, blocks[i], worker.tracer, lamps);
             }))
             return false;
         film_.find_lamp_edges(lamps);
     }
     return !is_expanded(settings_) || workers.for_each(blocks.size(), [&](int i, Worker& worker) {
-        find_projections(pass, blocks[static_cast<std::size_t>(i)], worker.tracer, film_);
+        find_projections(pass, blocks[i], worker.tracer, film_);
     });
 }
 
-/// Which pixels see several things: by the first looks at each, which are the same whatever was looked at since,
-/// so that a render that goes on from a checkpoint finds the same. False: stopped.
+/// Finds the mixed pixels from the first feature samples of each pixel. These do not depend on later samples, so a
+/// render that continues from a checkpoint finds the same pixels. Returns false if it was stopped.
 bool Render::find_mixed_pixels(Workers& workers) {
-    const Pass pass(*scene_, camera_, size_, settings_, plan_, 0);
+    const Pass pass(*scene_, camera_, size_, settings_, learned_, 0);
     const std::vector<PixelRect> blocks = blocks_of(pass);
-    PixelLooks first(size_.x, size_.y, is_demodulated(settings_));
-    if (!workers.for_each(blocks.size(), [&](int i, Worker& worker) {
-            take_first_looks(pass, blocks[static_cast<std::size_t>(i)], worker, first);
-        }))
+    PixelFeatures first(size_.x, size_.y, is_demodulated(settings_));
+    if (!workers.for_each(blocks.size(),
+                          [&](int i, Worker& worker) { take_feature_samples(pass, blocks[i], worker, first); }))
         return false;
-    film_.take_looks(first);
-    plan_.set_mixed(std::make_shared<const Image<std::uint8_t>>(first.mixed()));
-    next_plan_.set_mixed(plan_.mixed());
+    film_.take_features(first);
+    learned_.set_mixed(std::make_shared<const Image<std::uint8_t>>(first.mixed()));
+    next_learned_.set_mixed(learned_.mixed());
     return true;
 }
 
-/// What sharing would bring, which the plan wants to know. Its samples are no part of the picture, so that their
-/// counts are none of the render's.
+/// Pilot pass: measures the gain of path reuse. Its samples are not part of the picture, and its counters are not
+/// part of the render's.
 bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share) {
-    if (!plan_.wants_pilot())
+    if (!learned_.wants_pilot())
         return true;
-    ReusePlan plan(size_, settings_); // not plan_, which may have been told before, if no pass followed
-    const Pilot pilot(*scene_, camera_, size_, settings_, plan);
+    LearnedReuse learned(size_, settings_); // not learned_, which may have been told before, if no pass followed
+    const Pilot pilot(*scene_, camera_, size_, settings_, learned);
     Workers workers(*this, pool, stop);
-    std::vector<PlanEvidence> found(static_cast<std::size_t>(plan.cell_count()));
+    std::vector<CellStatistics> found(static_cast<std::size_t>(learned.cell_count()));
     if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
-            found[static_cast<std::size_t>(i)] = pilot.explore(plan.cell(i), worker);
+            found[i] = pilot.explore(learned.cell(i), worker);
             share.add(1);
         }))
         return false;
-    plan.learn(found);
-    plan_ = next_plan_ = plan;
+    learned.learn(found);
+    learned_ = next_learned_ = learned;
     for (const auto& worker : workers.all())
         cpu_seconds_ += worker->cpu_seconds;
     return true;
@@ -198,35 +200,35 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     if (spp_ == 0)
         ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
     const bool is_begun = spp_ > 0 || done_before > 0;
-    const bool has_pilot = !is_begun && plan_.wants_pilot();
-    const std::size_t cells = has_pilot ? static_cast<std::size_t>(plan_.cell_count()) : 0;
+    const bool has_pilot = !is_begun && learned_.wants_pilot();
+    const std::size_t cells = has_pilot ? static_cast<std::size_t>(learned_.cell_count()) : 0;
     Share told(share, cells + done_blocks_.size());
     told.add(done_before);
     if (!is_begun && !send_pilot(pool, stop, told))
         return false;
-    const Pass pass(*scene_, camera_, size_, settings_, plan_, first_pass_ + spp_);
+    const Pass pass(*scene_, camera_, size_, settings_, learned_, first_pass_ + spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
     told.expect(cells + blocks.size());
     Workers workers(*this, pool, stop);
-    if (!is_begun && !look_first(workers))
+    if (!is_begun && !pre_pass(workers))
         return false;
-    if (has_positions(settings_) && (!is_begun || !plan_.mixed())) {
-        Workers again(*this, pool, stop); // of a render that goes on, these looks are counted already
+    if (has_positions(settings_) && (!is_begun || !learned_.mixed())) {
+        Workers again(*this, pool, stop); // a render that continues has counted these samples
         if (!find_mixed_pixels(is_begun ? again : workers))
             return false;
     }
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
-        std::uint8_t& is_done = done_blocks_[static_cast<std::size_t>(i)];
+        std::uint8_t& is_done = done_blocks_[i];
         if (is_done)
             return; // before the pass was stopped
-        render_block(pass, blocks[static_cast<std::size_t>(i)], worker, film_);
-        found_[static_cast<std::size_t>(i)] = worker.found;
+        render_block(pass, blocks[i], worker, film_);
+        found_[i] = worker.found;
         is_done = 1;
         told.add(1);
     });
     const auto done = std::ranges::count(done_blocks_, 1);
     if (done == done_before)
-        return false; // and the look, if there was one, is to be had again
+        return false; // the next call repeats the pre-pass, if there was one
     for (const auto& worker : workers.all()) {
         counters_ += worker->counters;
         cpu_seconds_ += worker->cpu_seconds;
@@ -243,17 +245,17 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
 void Render::learn_from_pass() {
     const double before = thread_cpu_seconds();
     std::ranges::fill(done_blocks_, std::uint8_t{0});
-    newest_plan_ = std::make_shared<const ReusePlan>(plan_);
+    newest_learned_ = std::make_shared<const LearnedReuse>(learned_);
     guiding_.learn(found_);
     for (std::vector<FoundLight>& found : found_)
         found = {};
-    next_plan_.learn(film_.path_luminance());
+    next_learned_.learn(film_.path_luminance());
     film_.finish(first_pass_ + spp_);
     ++spp_;
     if (std::has_single_bit(unsigned(spp_))) {
-        next_plan_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
-        film_.ask_for_looks(first_pass_ + 2 * spp_);
-        plan_.take(next_plan_, first_pass_ + spp_);
+        next_learned_.set_guiding(guiding_.make_guiding(settings_.path_guiding));
+        film_.request_features(first_pass_ + 2 * spp_);
+        learned_.take(next_learned_, first_pass_ + spp_);
     }
     cpu_seconds_ += thread_cpu_seconds() - before;
 }
@@ -262,10 +264,10 @@ ReuseMaps Render::reuse_maps() const {
     ReuseMaps maps = film_.reuse_maps(spp_);
     if (maps.empty() || spp_ == 0 || !reuses_paths(settings_.method))
         return maps;
-    maps.sharers = sharers_of(Pass(*scene_, camera_, size_, settings_, plan_, first_pass_ + spp_));
+    maps.reuse_set_size = reuse_set_sizes(Pass(*scene_, camera_, size_, settings_, learned_, first_pass_ + spp_));
     maps.gain = Image<float>(size_.x, size_.y);
-    for (int i = 0; i < plan_.cell_count(); ++i)
-        for_each_square(plan_.cell(i), 1, [&](PixelRect p) { maps.gain(p.x0, p.y0) = plan_.gain(i); });
+    for (int i = 0; i < learned_.cell_count(); ++i)
+        for_each_square(learned_.cell(i), 1, [&](PixelRect p) { maps.gain(p.x0, p.y0) = learned_.gain(i); });
     return maps;
 }
 
@@ -279,8 +281,8 @@ void Render::add(const Render& other) {
 
 Memory Render::memory() {
     Memory memory = film_.memory();
-    append(memory, plan_.memory());
-    append(memory, next_plan_.memory());
+    append(memory, learned_.memory());
+    append(memory, next_learned_.memory());
     append(memory, {std::as_writable_bytes(std::span(done_blocks_))});
     append(memory, {memory_of(counters_), memory_of(spp_), memory_of(seconds_), memory_of(cpu_seconds_)});
     return memory;

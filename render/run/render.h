@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/estimator/guiding_learner.h"
-#include "render/estimator/reuse_policy.h"
+#include "render/estimator/learned_reuse.h"
 #include "render/film/film.h"
 #include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
@@ -17,7 +17,7 @@ namespace tessera {
 class Pass;
 class Scene;
 
-/// A render in progress: a film and the passes it has seen.
+/// A render in progress: a film and the state from which the next pass continues.
 class Render {
 public:
     /// Throws std::runtime_error for a size, OutOfMemory where its film cannot be had, std::invalid_argument for
@@ -47,19 +47,19 @@ public:
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Camera& camera() const { return camera_; }
     glm::ivec2 size() const { return size_; }
-    /// Means of the passes so far.
+    /// Returns means over the passes so far.
     GradientImages images() const { return with_patch(film_.means(spp_)); }
-    /// What images() returns, giving up all that the render has summed, reuse_maps() with it: no pass may follow.
-    /// Times and counts stay.
+    /// Returns images() and frees all sums, including those of reuse_maps(). No pass may follow. Times and
+    /// counters remain.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const;
-    /// What the newest pass knew of where tiles are to be cut.
-    std::shared_ptr<const ReusePlan> newest_plan() const { return newest_plan_; }
-    /// Adds the passes of another render of the same scene, view, size and settings, which are none of this one's:
-    /// its pictures are then those of all of them. The bits depend on the order. No pass may follow.
+    /// Returns the state that the newest pass used.
+    std::shared_ptr<const LearnedReuse> newest_learned() const { return newest_learned_; }
+    /// Adds the passes of another render of the same scene, view, size and settings. The two renders must have no
+    /// pass in common. The bits depend on the order. No pass may follow.
     void add(const Render& other);
-    /// All that the passes have changed, but for what guides their paths. A render of the same scene, view, size
-    /// and settings, without path guiding, whose memory is filled with this goes on with the same bits.
+    /// Returns all memory that passes change, except that of path guiding. Another render of the same scene, view,
+    /// size and settings, without path guiding, continues from a copy of this memory with the same bits.
     Memory memory();
 
 private:
@@ -67,7 +67,7 @@ private:
     class Workers;
 
     bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share);
-    bool look_first(Workers& workers);
+    bool pre_pass(Workers& workers);
     bool find_mixed_pixels(Workers& workers);
     void learn_from_pass();
     GradientImages with_patch(GradientImages images) const;
@@ -77,14 +77,14 @@ private:
     glm::ivec2 size_;
     RenderSettings settings_;
     Film film_;
-    std::vector<std::uint8_t> done_blocks_;      // of the pass under way: 1 for each that it has done
-    std::vector<std::vector<FoundLight>> found_; // by each of these
+    std::vector<std::uint8_t> done_blocks_;      // of the current pass: 1 for each finished block
+    std::vector<std::vector<FoundLight>> found_; // by block
     GuidingLearner guiding_;
-    ReusePlan plan_, next_plan_;                   // what passes go by, and what they tell it
-    std::shared_ptr<const ReusePlan> newest_plan_; // plan_ of the newest pass
+    LearnedReuse learned_, next_learned_;                // used by the current passes, and learned from them
+    std::shared_ptr<const LearnedReuse> newest_learned_; // learned_ of the newest pass
     Counters counters_;
     int first_pass_;
-    int spp_ = 0; // how many it has made
+    int spp_ = 0; // finished passes
     double seconds_ = 0;
     double cpu_seconds_ = 0;
 };

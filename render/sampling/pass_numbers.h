@@ -113,9 +113,7 @@ private:
                          Random::mix(Random::mix(seed_ + 1) + number) + variant);
     }
 
-    const Position& at(int position) const {
-        return position == only ? only_ : several_[static_cast<std::size_t>(position)];
-    }
+    const Position& at(int position) const { return position == only ? only_ : several_[position]; }
     Position position(int i, int count) const {
         const auto index = static_cast<std::uint32_t>(pass_ * count + i);
         const std::uint64_t key = Random::mix(seed_ + 3);

@@ -182,7 +182,7 @@ inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(wei
     // The probabilities that the table has, after this rounding.
     std::vector<double> kept(weights.size(), 0.0);
     for (const Entry& entry : entries_) {
-        kept[static_cast<std::size_t>(&entry - entries_.data())] += entry.threshold;
+        kept[&entry - entries_.data()] += entry.threshold;
         kept[entry.alias] += 1 - entry.threshold;
     }
     for (std::size_t i = 0; i < entries_.size(); ++i)

@@ -67,7 +67,7 @@ glm::mat4 read_matrix(const JsonText& text, const json& value) {
                               : fmt::format("'to_world' must be 16 numbers, not {}", value.type_name()));
     glm::mat4 m;
     for (int i = 0; i < 16; ++i)
-        m[i % 4][i / 4] = number(text, "to_world", value[static_cast<std::size_t>(i)]);
+        m[i % 4][i / 4] = number(text, "to_world", value[i]);
     for (int column = 0; column < 4; ++column)
         if (m[column][3] != (column == 3 ? 1.0f : 0.0f))
             fail(text, "to_world", "the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row");
@@ -141,7 +141,7 @@ std::array<std::string, 16> rows(glm::mat4 m) {
         m = glm::row(m, 3, glm::vec4(0, 0, 0, 1));
     std::array<std::string, 16> numbers;
     for (int i = 0; i < 16; ++i)
-        numbers[static_cast<std::size_t>(i)] = exact(m[i % 4][i / 4]);
+        numbers[i] = exact(m[i % 4][i / 4]);
     return numbers;
 }
 

@@ -109,7 +109,7 @@ void Environment::build_cells() {
         for (int x = 0; x < bitmap.width; ++x) {
             const int column = static_cast<int>((x + 0.5) / bitmap.width * cell_count_.x);
             const double flux = mean_luminance(bitmap, x, y) * solid_angle * description_.map->scale;
-            weights[static_cast<std::size_t>(row * cell_count_.x + column)] += flux;
+            weights[row * cell_count_.x + column] += flux;
             map_flux_ += flux;
         }
     }
@@ -139,7 +139,7 @@ float Environment::map_pdf_w(glm::vec2 uv) const {
     const int column = std::min(static_cast<int>(uv.x * static_cast<float>(cell_count_.x)), cell_count_.x - 1);
     const int row = std::min(static_cast<int>(uv.y * static_cast<float>(cell_count_.y)), cell_count_.y - 1);
     const auto cell = static_cast<std::size_t>(row << column_bits_ | column);
-    return (1 - sun_share_) * cells_.probability(cell) * rows_[static_cast<std::size_t>(row)].density;
+    return (1 - sun_share_) * cells_.probability(cell) * rows_[row].density;
 }
 
 bool Environment::is_on_sun(glm::vec3 direction) const {

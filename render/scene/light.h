@@ -169,7 +169,7 @@ public:
     }
 
     /// LightPoint::pdf at any point of an area light.
-    float pdf_a(int area_light) const { return pdf_a_[static_cast<std::size_t>(area_light)]; }
+    float pdf_a(int area_light) const { return pdf_a_[area_light]; }
 
     /// What a ray meets that leaves the scene in a unit direction. Black without an environment.
     LightPoint environment_toward(glm::vec3 direction) const;

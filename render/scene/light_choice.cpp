@@ -107,7 +107,7 @@ void learn_from(const Scene& scene, Ray ray, const Random& random, std::vector<G
         if (!at)
             break;
         for (int i = 0; i < samples * count; ++i) {
-            Group& group = groups[static_cast<std::size_t>(i % count)];
+            Group& group = groups[i % count];
             Brought brought = sample_group(scene, group.table, *at, random, 1 + vertex * samples * count + i);
             brought.light *= throughput;
             total += brought.light / samples;

@@ -18,7 +18,7 @@ namespace {
 
 ShapeRecord make_record(const Shape& shape, const SceneDescription& description, const LightTable& lights) {
     const Mesh& mesh = shape.mesh;
-    const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
+    const Material& material = description.materials[shape.material];
     ShapeRecord record{};
     record.triangles = mesh.triangles.data();
     record.positions = mesh.positions.data();
@@ -27,7 +27,7 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
         record.normals = mesh.normals.data();
     bool is_textured = material.is_textured();
     if (shape.area_light >= 0) {
-        const Texture& radiance = description.area_lights[static_cast<std::size_t>(shape.area_light)].radiance;
+        const Texture& radiance = description.area_lights[shape.area_light].radiance;
         record.emitter_pdf_a = lights.pdf_a(shape.area_light);
         record.emitted = radiance.mean();
         if (!radiance.is_constant())
@@ -47,7 +47,7 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
 std::vector<const Texture*> opacities_of(const SceneDescription& description) {
     std::vector<const Texture*> opacities;
     for_each_shape(description, [&](const Shape& shape) {
-        const Material& material = description.materials[static_cast<std::size_t>(shape.material)];
+        const Material& material = description.materials[shape.material];
         opacities.push_back(material.is_mask() && shape.area_light < 0 ? &*material.opacity : nullptr);
     });
     return opacities;
@@ -107,7 +107,7 @@ void Scene::measure() {
     for (std::size_t i = 0; i < of_groups.size(); ++i)
         add(description_.groups[i].shapes, of_groups[i]);
     for (const Instance& instance : description_.instances)
-        add(of_groups[static_cast<std::size_t>(instance.group)], instance.to_world, box);
+        add(of_groups[instance.group], instance.to_world, box);
     if (!box.is_empty()) {
         center_ = 0.5f * (box.low + box.high);
         radius_ = std::max(0.5f * glm::length(box.high - box.low), std::numeric_limits<float>::min());

@@ -22,7 +22,7 @@ public:
     TextureView() = default;
     /// @param spares_first  x_1 is not filtered, nor what it is a mirror of: light is divided by its albedo, and
     ///                      the mean albedo of many points of each pixel knows more than any footprint
-    ///                      (PixelLooks)
+    ///                      (PixelFeatures)
     TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size)
         : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(spares_first) {
         const Projection projection(camera, size);

@@ -140,7 +140,7 @@ SceneTraits traits_of(const SceneDescription& scene) {
     SceneTraits traits;
     std::vector<bool> used(scene.materials.size());
     for_each_shape(scene, [&](const Shape& shape) {
-        used[static_cast<std::size_t>(shape.material)] = true;
+        used[shape.material] = true;
         traits.shading_normals += !shape.mesh.normals.empty();
         traits.area_lights += shape.area_light >= 0;
     });

@@ -1,29 +1,27 @@
 #pragma once
 
-#include "render/run/thread_pool.h"
 #include "render/scene/camera.h"
 #include "render/session/snapshot.h"
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace tessera {
 
 class Scene;
-class Render;
+class ReconstructionWorker;
+class RenderWorker;
+struct SessionPane;
+struct SessionState;
 
-/// How the panes share the cores, and when they rest. No change of it renders anything anew.
+/// How the panes share the cores, and when they rest. A change of it restarts no render.
 struct Pace {
     enum class Equal { time, spp };
-    Equal equal = Equal::time; ///< what each pane is to have had as much of as the others
+    Equal equal = Equal::time; ///< measure that is equal in all panes
     int spp_limit = 0;         ///< passes after which a pane rests; 0: none
     double seconds_limit = 0;  ///< wall seconds of its passes after which a pane rests; 0: none
 
@@ -34,7 +32,7 @@ struct Pace {
     bool operator==(const Pace&) const = default;
 };
 
-/// What a pane asks for. Any change is a new request, which starts the pane's render anew.
+/// A render that a pane asks for. Any change is a new request, which restarts the pane's render.
 struct RenderRequest {
     std::shared_ptr<const Scene> scene;
     Camera camera;
@@ -44,14 +42,14 @@ struct RenderRequest {
 
 /// A reconstruction under way.
 struct ReconstructionUnderWay {
-    int spp = 0;        ///< of the snapshot that it is made from
-    double seconds = 0; ///< that it has taken so far
-    float share = 0;    ///< of its steps that are done, [0, 1]
+    int spp = 0;        ///< samples per pixel of its snapshot
+    double seconds = 0; ///< since its start
+    float share = 0;    ///< fraction of its steps that are done, [0, 1]
 };
 
-/// Renders the panes of a viewer in the background: passes of the panes in turn, so that each has had about the
-/// same time (or samples), and their reconstructions on a thread of their own (newest snapshot wins). No call
-/// waits for a worker: all may be made from the UI's thread at every frame.
+/// Renders the panes of a viewer in the background: a RenderWorker renders passes of the panes in turn, at equal
+/// time or equal samples, and a ReconstructionWorker reconstructs the newest snapshots. No call waits for a
+/// worker: the UI's thread may make all of them at every frame.
 class Session {
 public:
     /// `threads` as in ThreadPool. `on_publish` is called from a worker whenever a pane has a new snapshot or a
@@ -59,85 +57,56 @@ public:
     Session(int panes, int threads, std::function<void()> on_publish = {});
     ~Session();
 
-    /// Replaces the pane's request; work on the old one ends within a tile and its results are dropped, all but a
-    /// first preview. Returns the generation that snapshots of this request will carry.
+    /// Replaces the pane's request. Work on the old one ends within a tile, and its results are dropped, except a
+    /// first preview. Returns the generation of the request's snapshots.
     std::uint64_t submit(int pane, RenderRequest request);
 
-    /// Lets a pane show the passes of another, which renders, with a reconstruction of its own: it renders nothing
-    /// itself until it is submitted. To be called anew after a submit of the other, of which it has no more than
-    /// previews before. Returns the other's generation.
+    /// Lets a pane show the passes of another pane with a reconstruction of its own. It renders nothing itself
+    /// until its next submit. To be called again after a submit of the other pane; it shows only that one's
+    /// previews until then. Returns the other pane's generation.
     std::uint64_t follow(int pane, int other);
 
-    /// Ends the pane's work and forgets its picture; until the next submit it takes no turns.
+    /// Ends the pane's work and drops its picture. It gets no turns until its next submit.
     void withdraw(int pane);
 
-    /// Settings of the pane's reconstruction; a change ends the one under way and reconstructs the newest snapshot
-    /// again, renders nothing. Of Norm::oidn without its library there is a message, and the picture is that of
-    /// Norm::guided.
+    /// Sets how the pane is reconstructed. A change ends the reconstruction under way, reconstructs the newest
+    /// snapshot again, and renders nothing. Norm::oidn without its library becomes Norm::guided, with a message.
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
-    /// The reconstruction under way in the pane; empty: there is none.
+    /// Returns the reconstruction under way in the pane; empty: none is.
     std::optional<ReconstructionUnderWay> reconstructing(int pane) const;
-    /// Ends the reconstruction under way. What is rendered so far stays without one, until there are other
-    /// settings.
+    /// Ends the reconstruction under way. The newest snapshot stays without one until the settings change.
     void give_up_reconstruction(int pane);
 
     void set_paused(bool paused);
     bool paused() const;
     void set_pace(const Pace& pace);
-    /// Asks for one more pass of every pane, also while paused or beyond a limit.
+    /// Requests one more pass of every pane, even if it is paused or at a limit.
     void step();
 
-    /// The pane's newest snapshot; null before the first. It may answer an older request: compare generations.
+    /// Returns the pane's newest snapshot; null before the first. It may be of an older request: compare
+    /// generations.
     std::shared_ptr<const Snapshot> latest(int pane) const;
 
-    /// Whether the render of the pane's request went wrong (there is a message): nothing more will come of it.
+    /// Whether the render of the pane's request failed, with a message. No more snapshots of it follow.
     bool has_failed(int pane) const;
-    /// Why it did; empty: it has not.
+    /// Returns the reason of the failure; empty: the render has not failed.
     std::string failure(int pane) const;
 
-    /// The share of the blocks of pixels that the pane's pass under way has done, or its last one had, [0, 1].
+    /// Returns the fraction of the pixel blocks that are done in the pane's pass under way, or its last one, [0,
+    /// 1].
     float pass_share(int pane) const;
 
-    /// Messages of errors in workers since the last call (what, with pixel, sample and seed where there is one).
+    /// Returns the error messages of workers since the last call, with pixel, sample and seed where they are
+    /// known.
     std::vector<std::string> take_messages();
 
 private:
-    struct Pane;
-    void render_loop(std::stop_token stop);
-    void reconstruct_loop(std::stop_token stop);
-    const Pane& rendering(int pane) const;
-    void hand_on(const Pane& pane);
-    Pane* next_pane();
-    std::unique_ptr<Render> withdrawn_render();
-    Pane* unpublished_pane();
-    void render_pass(Pane& pane, std::stop_token session_stop);
-    void tell();
-    void report(std::string message);
-    void preview(Pane& pane, const RenderRequest& request, std::uint64_t generation, std::stop_token stop);
-    double preview_budget() const;
-    void give_up(Pane& pane, std::uint64_t generation, const std::string& why);
-    void count_step(Pane& pane, std::uint64_t generation);
-    static std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor);
-    void publish(Pane& pane, const std::shared_ptr<Snapshot>& snapshot);
-    void publish_passes(Pane& pane);
-    ReconstructionSettings possible_reconstruction(Pane& pane);
-    void reconstruct_snapshot(Pane& pane, const Snapshot& snapshot, const ReconstructionSettings& settings,
-                              bool anew, std::stop_token stop);
+    SessionPane& pane(int index) const;
 
-    mutable std::mutex mutex_;
-    std::condition_variable_any render_wake_;
-    std::condition_variable_any reconstruct_wake_;
-    std::vector<std::unique_ptr<Pane>> panes_;
-    std::vector<std::string> messages_;
-    std::function<void()> on_publish_;
-    bool paused_ = false;
-    Pace pace_;
-    std::uint64_t generation_ = 0;
-    std::uint64_t turn_ = 0;
-    ThreadPool pool_;
-    std::jthread render_thread_;
-    std::jthread reconstruct_thread_;
+    std::unique_ptr<SessionState> shared_;
+    std::unique_ptr<RenderWorker> render_;
+    std::unique_ptr<ReconstructionWorker> reconstruct_;
 };
 
 } // namespace tessera

@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-class ReusePlan;
+class LearnedReuse;
 class Scene;
 
 /// What a pane shows: the state of a render after a whole number of passes. Immutable once published.
@@ -25,7 +25,8 @@ struct Snapshot {
     RenderSettings settings;
     std::weak_ptr<const Scene> scene; ///< gone once no other has a use for it: a picture keeps none alive
     Camera camera;
-    std::shared_ptr<const ReusePlan> plan; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
+    std::shared_ptr<const LearnedReuse>
+        learned; ///< of the newest pass: with the settings, its tiles (tile_grid.h)
     Counters counters;
     std::shared_ptr<const GradientImages> images;
     std::shared_ptr<const ReuseMaps> reuse; ///< null where pixels share nothing (path tracing)

@@ -84,12 +84,11 @@ Setting setting_named(std::span<const Setting> settings, std::string_view id) {
 }
 
 std::string Setting::text() const {
-    return std::visit(
-        Cases{[](const Switch& on) { return std::string(*on.value ? "on" : "off"); },
-              [](const OneOf& one) { return std::string(one.choices[static_cast<std::size_t>(one.get())].id); },
-              [](const Size& size) { return fmt::format("{}x{}", size.value->x, size.value->y); },
-              [](const auto& number) { return fmt::format("{}", *number.value); }},
-        kind);
+    return std::visit(Cases{[](const Switch& on) { return std::string(*on.value ? "on" : "off"); },
+                            [](const OneOf& one) { return std::string(one.choices[one.get()].id); },
+                            [](const Size& size) { return fmt::format("{}x{}", size.value->x, size.value->y); },
+                            [](const auto& number) { return fmt::format("{}", *number.value); }},
+                      kind);
 }
 
 void Setting::set_text(std::string_view text) const {

@@ -55,7 +55,7 @@ struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
     float shift_threshold =
         0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]; no option changes it
-    float shift_distance = 6;       ///< least length of an edge that is joined, in pixels' widths at its beginning
+    float shift_distance = 6; ///< least length of an edge that is joined, in pixels' widths at its beginning
 
     bool operator==(const ShiftSettings&) const = default;
 };
@@ -77,7 +77,7 @@ enum class Pattern : std::uint8_t {
 
 /// What decides on the probability with which a base path is reused.
 enum class RouletteKind : std::uint8_t {
-    relative, ///< its luminance against the noise of its sampling set (reuse_policy.h)
+    relative, ///< its luminance relative to the noise of its sampling set (reuse_roulette.h)
     absolute, ///< its luminance against rr_delta [Bauszat 2017, 3.3]
     none      ///< every path is reused
 };
@@ -97,10 +97,10 @@ enum class Basis : std::uint8_t {
 struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
     int tile = 6;           ///< pixels along a tile's edge [1, most_tile]
-    bool adapt_tile = true; ///< tiles are cut into smaller ones where that is more efficient (reuse_policy.h)
+    bool adapt_tile = true; ///< adaptive tile splitting (learned_reuse.h)
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
-    float rr_delta = 0.1f;      ///< absolute roulette's delta, a radiance
+    float rr_delta = 0.1f; ///< absolute roulette's delta, a radiance
     bool edge_rays =
         true; ///< several camera rays per sample at edges: edge_positions and edge_emitter_rays, or one
     Basis basis = Basis::albedo;
@@ -145,8 +145,8 @@ inline bool has_tiles_to_cut(const RenderSettings& s) {
     return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
 }
 
-/// Whether its plan finds out where sharing brings nothing: gradients tell, and of parts there are means of one
-/// path only.
+/// Returns whether the pilot pass measures the gain of path reuse (learned_reuse.h). It measures gradients, and
+/// basis components do not support pixels without reuse.
 inline bool finds_gain_of_sharing(const RenderSettings& s) {
     return s.method == Method::gpr && s.adapt_tile && s.tile > 1 && !is_expanded(s);
 }

@@ -1,7 +1,9 @@
 #include "render/settings/settings_table.h"
 
 #include <array>
+#include <cctype>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <type_traits>
 
@@ -88,44 +90,70 @@ std::span<const SettingChoice> method_choices() {
     return methods;
 }
 
-std::span<const SettingChoice> norm_choices() {
-    static const std::array<SettingChoice, all_norms.size()> norms = {{
-        {to_string(Norm::none), "none", "The primal picture as it is."},
-        {to_string(Norm::l2), "L2", "Least squares: quick and unbiased; outliers leave blobs."},
-        {to_string(Norm::l1), "L1",
-         "Least absolute differences: outliers vanish; at few samples it follows the median and darkens."},
-        {to_string(Norm::mixed), "mixed",
-         "Least absolute differences of the gradients, least squares of the primal: few outliers, and as bright "
-         "as the primal."},
-        {to_string(Norm::uniform), "uniform",
-         "Fifty times the mean of a pixel and its neighbours with the gradients added (uniform control "
-         "variates)."},
-        {to_string(Norm::weighted), "weighted",
-         "Least squares, where gradients count the less the noisier they are (control variates weighted by "
-         "variances): few outliers, and as bright as the primal."},
-        {to_string(Norm::guided), "guided",
-         "Weighted, then smoothed where pixels look alike, as far as two halves of the samples disagree: clean at "
-         "few samples, and the more like weighted the more there are."},
-        {to_string(Norm::smoothed), "smoothed",
-         "The primal, smoothed as guided is: for methods without gradients, too."},
-        {to_string(Norm::oidn), "OIDN",
-         "Intel's Open Image Denoise, where its library is found: the denoiser that most would take. With "
-         "gradients, guided, drawn to what it makes of each pixel's own paths, as far as noise goes: the cleanest "
-         "at few samples."},
-    }};
-    return norms;
+namespace {
+
+/// Label and description of a reconstruction, without what guarantee_of() says.
+struct NormText {
+    std::string_view label, description;
+};
+
+NormText text_of(Norm norm) {
+    switch (norm) {
+    case Norm::none:
+        return {"raw samples", "The raw primal image."};
+    case Norm::l2:
+        return {"L2",
+                "Least squares of gradients and primal, on raw samples [Kettunen 2015]. Outliers leave blobs."};
+    case Norm::l1:
+        return {
+            "L1",
+            "Least absolute misfits of gradients and primal, on raw samples [Kettunen 2015]. Outliers vanish."};
+    case Norm::mixed:
+        return {"mixed", "Least absolute misfits of the gradients, least squares of the primal, on raw samples."};
+    case Norm::uniform:
+        return {"uniform",
+                "Uniform control variates on raw samples: 50 times the mean of a pixel and its neighbours "
+                "plus the gradients [Rousselle 2016]."};
+    case Norm::weighted:
+        return {"weighted", "Control variates weighted by variances, on raw samples: noisy gradients have less "
+                            "weight [Rousselle 2016]."};
+    case Norm::guided:
+        return {"guided", "Tessera's denoiser on the weighted reconstruction: firefly suppression, and a "
+                          "cross-bilateral filter guided by albedo, normal, depth and roughness."};
+    case Norm::smoothed:
+        return {"smoothed", "Tessera's denoiser on the primal image alone, for methods without gradients, too."};
+    case Norm::oidn:
+        return {"OIDN", "Intel's Open Image Denoise on the raw primal image, with albedo and normals, where its "
+                        "library is found."};
+    }
+    return {};
 }
 
-Setting spikes_setting(Spikes& spikes) {
-    static const std::array<SettingChoice, 2> choices = {{
-        {to_string(Spikes::off), "off",
-         "They count in full: nothing is smoothed, and what is linear is unbiased."},
-        {to_string(Spikes::consistent), "held back",
-         "What they are too bright by is held back from their pixels, and given to all around; the less, the more "
-         "samples there are."},
-    }};
-    return {"spikes", "Spikes", "What becomes of samples that are far brighter than the others of their pixel.",
-            one_of(choices, spikes)};
+/// "Consistent: at few samples ...".
+std::string guarantee_text(Norm norm) {
+    const Guarantee guarantee = guarantee_of(norm);
+    std::string kind(to_string(guarantee.convergence)), reason(guarantee.reason);
+    kind[0] = static_cast<char>(std::toupper(kind[0]));
+    reason[0] = static_cast<char>(std::tolower(reason[0]));
+    return kind + ": " + reason;
+}
+
+} // namespace
+
+std::span<const SettingChoice> norm_choices() {
+    static const std::array<std::string, all_norms.size()> help = [] {
+        std::array<std::string, all_norms.size()> texts;
+        for (const Norm norm : all_norms)
+            texts[static_cast<int>(norm)] = std::string(text_of(norm).description) + " " + guarantee_text(norm);
+        return texts;
+    }();
+    static const std::array<SettingChoice, all_norms.size()> choices = [] {
+        std::array<SettingChoice, all_norms.size()> rows;
+        for (const Norm norm : all_norms)
+            rows[static_cast<int>(norm)] = {to_string(norm), text_of(norm).label, help[static_cast<int>(norm)]};
+        return rows;
+    }();
+    return choices;
 }
 
 Setting method_setting(Method& method) {
@@ -207,8 +235,7 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
          "Weight of the primal against the gradients (no unit). Small: gradients alone decide on all but the "
          "mean, as far as they are trusted; with weights of their own alpha counts half.",
          Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10},
-         s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed},
-        spikes_setting(s.spikes),
+         s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed && s.norm != Norm::oidn},
     };
 }
 
@@ -216,7 +243,7 @@ std::vector<Setting> settings_of(ReconstructionSettings& s, bool has_gradients) 
     std::vector<Setting> all = settings_of(s);
     const bool smooths = applied(s.norm, false) != Norm::none;
     for (Setting& setting : all) {
-        const bool is_of_all = setting.id == "spikes" || (setting.id == "norm" && smooths);
+        const bool is_of_all = setting.id == "norm" && smooths;
         setting.matters = setting.matters && (has_gradients || is_of_all);
     }
     return all;
@@ -225,7 +252,7 @@ std::vector<Setting> settings_of(ReconstructionSettings& s, bool has_gradients) 
 ReconstructionSettings applied(const ReconstructionSettings& settings, bool has_gradients) {
     if (has_gradients)
         return settings;
-    return {.norm = applied(settings.norm, false), .spikes = settings.spikes};
+    return {.norm = applied(settings.norm, false)};
 }
 
 void check(const RenderSettings& settings) {

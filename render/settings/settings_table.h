@@ -23,13 +23,12 @@ inline constexpr int most_threads = 1024;    ///< of a renderer
 /// All members of RenderSettings but method and seed, in the order of the panel.
 std::vector<Setting> settings_of(RenderSettings& settings);
 
-/// Norm, alpha and spikes, in this order. What matters is so for methods that have gradients.
+/// Norm and alpha, in this order. Setting::matters is that of methods with gradients.
 std::vector<Setting> settings_of(ReconstructionSettings& settings);
 /// The same, where it is known whether there are gradients: without them, there is nothing to solve.
 std::vector<Setting> settings_of(ReconstructionSettings& settings, bool has_gradients);
 
-/// What of them makes the picture: without gradients, the norm that is then applied and spikes; all else is as by
-/// default.
+/// The settings that a method uses: without gradients, the norm that is applied, and defaults otherwise.
 ReconstructionSettings applied(const ReconstructionSettings& settings, bool has_gradients);
 
 Setting method_setting(Method& method);

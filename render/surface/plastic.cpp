@@ -88,8 +88,8 @@ Coating::Coating(float eta_, MicrofacetDistribution distribution, float alpha) :
     const Microfacets facets{distribution, alpha > 0 ? std::max(alpha, smallest_alpha) : 0};
     for (int i = 0; i < resolution; ++i) {
         const float cosine = std::max(static_cast<float>(i) / (resolution - 1), 1e-4f);
-        table[static_cast<std::size_t>(i)] = facets.alpha > 0 ? transmittance_of_facets(cosine, eta, facets)
-                                                              : 1 - fresnel_dielectric(cosine, eta).reflectance;
+        table[i] = facets.alpha > 0 ? transmittance_of_facets(cosine, eta, facets)
+                                    : 1 - fresnel_dielectric(cosine, eta).reflectance;
     }
     internal_reflectance = diffuse_reflectance_of(1 / eta, facets);
 }
@@ -104,7 +104,7 @@ float Coating::transmittance(float cosine) const {
     const float scaled = std::clamp(cosine, 0.0f, 1.0f) * (resolution - 1);
     const int i = std::min(static_cast<int>(scaled), resolution - 2);
     const float t = scaled - static_cast<float>(i);
-    return (1 - t) * table[static_cast<std::size_t>(i)] + t * table[static_cast<std::size_t>(i + 1)];
+    return (1 - t) * table[i] + t * table[i + 1];
 }
 
 Plastic::Plastic(const Coating& coating_, Microfacets facets_, Rgb specular, Rgb diffuse, bool nonlinear)

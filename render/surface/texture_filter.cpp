@@ -104,7 +104,7 @@ Rgb filtered(const BitmapTexture& texture, glm::vec2 uv, glm::vec2 along, glm::v
         if (i == 0)
             return look_up(texture, point);
         point = {wrap(point.x, texture.wrap), wrap(point.y, texture.wrap)};
-        return bilinear(mips[static_cast<std::size_t>(i - 1)], point, texture.wrap);
+        return bilinear(mips[i - 1], point, texture.wrap);
     };
     Rgb sum(0);
     for (int i = 0; i < row.count; ++i) {

@@ -277,7 +277,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
         of_groups.push_back(extents(group.shapes));
     float largest = largest_component(extents(shapes));
     for (const Instance& instance : instances)
-        largest = std::max(largest, extent(instance, of_groups[static_cast<std::size_t>(instance.group)]));
+        largest = std::max(largest, extent(instance, of_groups[instance.group]));
     smallest_coordinate_ = largest / 8;
 }
 

@@ -27,8 +27,8 @@ template <class T>
 struct alignas(64) LaneArray {
     std::array<T, most_lanes> values{};
 
-    T& operator[](int lane) { return values[static_cast<std::size_t>(lane)]; }
-    const T& operator[](int lane) const { return values[static_cast<std::size_t>(lane)]; }
+    T& operator[](int lane) { return values[lane]; }
+    const T& operator[](int lane) const { return values[lane]; }
 };
 
 using FloatLanes = LaneArray<float>;

@@ -82,7 +82,9 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
 
     const std::string page = text("out/bench.html");
     for (const char* part : {"<svg xmlns", "data:image/png;base64,", "PT over G-PR", "gpr l1", "max_depth",
-                             "<th>FLIP</th>", "PSNR, dB", "seed 0", "itself at relMSE", "</html>"})
+                             "<th>FLIP</th>", "PSNR, dB", "seed 0", "</html>",
+                             "Reference box-32x18-d8.exr: by G-PR, reconstructed by l2; relMSE of its own",
+                             "G-PR is also judged here. No picture has a seed of the reference."})
         EXPECT_THAT(page, HasSubstr(part));
     for (const char* part : {"<option value=\"0\" selected>reference</option>", "alt=\"gpr l1\"", "<canvas>",
                              "value=\"flicker\"", "querySelectorAll('.compare')"})
@@ -95,6 +97,21 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
     EXPECT_EQ(again.exit_code, 0);
     EXPECT_THAT(again.output, HasSubstr("box-pt.exr"));
     EXPECT_THAT(text("out/bench.html"), HasSubstr("alt=\"gpr l1\"")) << "the other pictures";
+}
+
+/// By samples nothing is told of equal time. By time the page says how much lower the error of the reference's
+/// method is.
+TEST_F(BenchCommand, SaysByWhichMethodReferencesAre) {
+    ASSERT_EQ(
+        run(folder(), "bench box.xml -m pt,gpr --recon l2 --seeds 2 --reference-method pt" + small_).exit_code, 0);
+    EXPECT_THAT(text("out/bench.html"), HasSubstr("Reference box-32x18-d8.exr: by PT; relMSE of its own"));
+    EXPECT_THAT(text("out/bench.html"), Not(HasSubstr("is also judged here")));
+    const Outcome o =
+        run(folder(), "bench box.xml -m pt,gpr --recon l2 --seeds 2 --size 32x18 --time 0.05 --halvings 0 "
+                      "--reference gpr --reference-spp 1024 --threads 1 -o timed");
+    ASSERT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_THAT(text("timed/bench.html"), HasSubstr("G-PR is also judged here; "));
+    EXPECT_THAT(text("timed/bench.html"), HasSubstr("at equal time its error is "));
 }
 
 TEST_F(BenchCommand, AQuickOneTakesLessWhereNothingIsSaid) {

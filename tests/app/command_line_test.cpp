@@ -228,8 +228,8 @@ TEST_F(CommandLine, RendersLayersSettingsAndStats) {
         EXPECT_EQ(layer.image.height(), 16);
     }
     for (const char* name :
-         {"", "l1", "none", "primal", "coefficient", "coefficient_dx", "coefficient_dy", "direct", "mean_albedo",
-          "reused", "failed", "survival", "sharers", "gain", "samples"})
+         {"", "l1", "none", "primal", "primal_without_direct", "coefficient", "coefficient_dx", "coefficient_dy",
+          "direct", "mean_albedo", "reused", "failed", "survival", "reuse_set_size", "gain", "samples"})
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 
     const auto settings = nlohmann::json::parse(file.attributes.at("tessera:settings"));

@@ -74,7 +74,7 @@ TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
     EXPECT_EQ(nlohmann::json::parse(r.settings)["spp"], 8) << "four in each half";
     ASSERT_EQ(run(folder(),
                   "render " + box +
-                      " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 --spikes off -o half.exr")
+                      " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 -o half.exr")
                   .exit_code,
               0);
     const ExrFile half = read_exr(folder() / "half.exr");
@@ -85,8 +85,16 @@ TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
     EXPECT_GT(error.relative_mse, 0);
     const auto about = nlohmann::json::parse(read_exr(folder() / "a.exr").attributes.at("tessera:reference"));
     EXPECT_NEAR(about["relmse"], error.relative_mse, 1e-12);
-    EXPECT_THAT(o.output, HasSubstr("relMSE of the reference itself"));
+    EXPECT_EQ(about["made_by"], "pt");
+    EXPECT_THAT(o.output, HasSubstr("a.exr: by pt; relMSE of the reference itself"));
     EXPECT_FALSE(fs::exists(checkpoint_));
+}
+
+TEST_F(ReferenceCommand, SaysHowItWasMade) {
+    EXPECT_THAT(reference("--spp 2 -o a.exr").output, HasSubstr("a.exr: by gpr, reconstructed by l2;"));
+    EXPECT_THAT(reference("-m gpt --recon none --spp 2 -o b.exr").output,
+                HasSubstr("b.exr: by gpt, reconstructed by none;"));
+    EXPECT_EQ(origin_of(read_reference(folder() / "b.exr")), (ReferenceOrigin{Method::gpt, "none"}));
 }
 
 TEST_F(ReferenceCommand, RemembersItsSceneWhereverThatLies) {
@@ -188,7 +196,8 @@ TEST_F(ReferenceCommand, MergesAnyNumberOfSharesInTheMemoryForTwo) {
 TEST_F(ReferenceCommand, BadInputGetsAMessage) {
     EXPECT_THAT(reference("-o a.png").output, HasSubstr("a.png: the name must end in .exr"));
     EXPECT_THAT(reference("-o none/a.exr").output, HasSubstr("none/a.exr: cannot be written"));
-    EXPECT_THAT(reference("--recon l2,l3 -o a.exr").output, HasSubstr("--recon l3"));
+    EXPECT_EQ(reference("--recon l3 -o a.exr").exit_code, 2);
+    EXPECT_EQ(reference("--recon l2,none -o a.exr").exit_code, 2); // one reconstruction
     EXPECT_EQ(reference("--spp 1 -o a.exr").exit_code, 2);
 }
 

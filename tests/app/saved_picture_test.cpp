@@ -6,7 +6,7 @@
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 #include "ui/state/companions.h"
-#include "ui/viewer/viewer.h"
+#include "ui/viewer/viewer_options.h"
 
 #include <atomic>
 #include <filesystem>
@@ -72,7 +72,7 @@ TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     EXPECT_EQ(stats.at("camera_paths"), 1344);
     EXPECT_EQ(exr.attributes.count("tessera:camera"), 1u);
     EXPECT_NE(find_layer(exr, "dx"), nullptr);
-    EXPECT_EQ(find_layer(exr, "albedo"), nullptr); // of what scene?
+    EXPECT_EQ(find_layer(exr, "first_hit_albedo"), nullptr); // there is no scene
     EXPECT_EQ(find_layer(exr, "error_relMSE"), nullptr);
 }
 
@@ -142,9 +142,9 @@ TEST_F(SavedPictureTest, HasWhatTheCameraSeesFirst) {
     snapshot->camera = scene->camera();
     const ExrFile exr = saved({snapshot, settings, {}, scene, nullptr});
     const FirstHits hits = trace_first_hits(*scene, scene->camera(), {16, 12});
-    EXPECT_NEAR((*find_layer(exr, "albedo"))(8, 6).r, 0.6f, 0.02f);
-    EXPECT_EQ((*find_layer(exr, "normal"))(8, 6), hits.normal(8, 6));
-    EXPECT_EQ((*find_layer(exr, "depth"))(8, 6), Rgb(hits.depth(8, 6)));
+    EXPECT_NEAR((*find_layer(exr, "first_hit_albedo"))(8, 6).r, 0.6f, 0.02f);
+    EXPECT_EQ((*find_layer(exr, "first_hit_normal"))(8, 6), hits.normal(8, 6));
+    EXPECT_EQ((*find_layer(exr, "first_hit_depth"))(8, 6), Rgb(hits.depth(8, 6)));
     EXPECT_GT(hits.depth(8, 6), 0);
 }
 

@@ -107,6 +107,10 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
                 1, 1e-6);
 
     EXPECT_THAT(text("out/sweep.md"), HasSubstr("| scene | method | tile 2 | tile 3 |"));
+    EXPECT_THAT(text("out/sweep.md"),
+                HasSubstr("- box: Reference box-32x18-d8.exr: by G-PR, reconstructed by l2; relMSE of its own"));
+    EXPECT_THAT(text("out/sweep.md"),
+                HasSubstr("G-PR is also judged here. No picture has a seed of the reference."));
     pugi::xml_document chart;
     EXPECT_TRUE(chart.load_file((folder() / "out/sweep-box.svg").c_str()));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "out"), fs::directory_iterator()), 5)

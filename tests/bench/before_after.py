@@ -35,11 +35,12 @@ def call(*command):
 
 
 def render(program, scene, seed, options, picture):
-    """Writes the picture of one seed; its pixels, and its CPU seconds."""
+    """Renders the picture of one seed. Returns the pixels of its plain RGB, and its CPU seconds."""
     stats = picture.with_suffix(".json")
     call(program, "render", scene, "--threads", "1", "--seed", seed, "-o", picture, "--stats", stats, *options)
     seconds = json.loads(stats.read_text())["seconds"]
-    bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+    plain = dict(mi.Bitmap(str(picture)).split())["<root>"]
+    bitmap = plain.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
     cpu = seconds["render"]["cpu"] + sum(r["cpu"] for r in seconds["reconstruct"])
     return np.array(bitmap).astype(float), cpu
 

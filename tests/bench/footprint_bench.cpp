@@ -4,7 +4,7 @@
 //     footprint_bench [CHART.svg [SAMPLES [SCENE.xml...]]]
 //
 // Without scenes of three rooms, where they are there, and of metal.
-#include "render/estimator/base_path.h"
+#include "render/paths/base_path.h"
 #include "render/inspect/path_differentials.h"
 #include "render/load/mitsuba_xml.h"
 

@@ -9,7 +9,7 @@
 // evenly spread. Writes pictures of all three and of the reference, of many rays with point lookups, all-RAYS.png;
 // says relMSE to that, free of the noise it has itself, and CPU seconds of a thread.
 #include "recon/metrics/metrics.h"
-#include "render/estimator/base_path.h"
+#include "render/paths/base_path.h"
 #include "render/inspect/path_differentials.h"
 #include "render/io/plain_images.h"
 #include "render/load/mitsuba_xml.h"

@@ -83,7 +83,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
         settings.seed = std::uint64_t(i / 2);
         Render render(scene, scene->camera(), size, settings);
         const auto left = [&] {
-            const PathGuiding* of_last_pass = render.newest_plan()->guiding();
+            const PathGuiding* of_last_pass = render.newest_learned()->guiding();
             return of_last_pass ? of_last_pass->left_of_squares() : 1.0;
         };
         render.pass(pool);

@@ -2,7 +2,12 @@
 // Embree leaves to be had), shifts by kind, and the light of whole tiles. Arguments beside Google Benchmark's:
 // names of scenes, ../shared/scenes/NAME/scene.xml or assets/NAME.xml.
 
+#include "render/estimator/base_block.h"
 #include "render/estimator/method_sets.h"
+#include "render/estimator/methods.h"
+#include "render/estimator/pass.h"
+#include "render/estimator/set_reuse.h"
+#include "render/estimator/worker.h"
 #include "render/load/mitsuba_xml.h"
 
 #include <algorithm>
@@ -59,8 +64,8 @@ struct Stage {
 
     const Scene& scene;
     RenderSettings settings;
-    ReusePlan plan{image_size, settings};
-    Pass pass{scene, scene.camera(), image_size, settings, plan, 0};
+    LearnedReuse learned{image_size, settings};
+    Pass pass{scene, scene.camera(), image_size, settings, learned, 0};
     Worker worker;
     std::vector<PixelRect> blocks;
 };
@@ -159,7 +164,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
         const PixelRect pixels = stage.traced(tile);
         tiles[i].trace(stage.pass, worker.tracer, pixels, {pixels.x0, pixels.y0});
         sets[i].assign(pixels);
-        sets[i].collect(stage.pass, tiles[i]);
+        collect(stage.pass, tiles[i], sets[i]);
     }
     worker.counters = {};
     for (auto _ : state)
@@ -173,7 +178,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
 }
 
 /// What G-PR does with the base paths of whole blocks. Paths: of sets, those at tiles' borders once for each set.
-void share_light(benchmark::State& state, const Scene& scene, int tile, RouletteKind roulette) {
+void reuse_paths(benchmark::State& state, const Scene& scene, int tile, RouletteKind roulette) {
     Stage stage(scene, settings_of(tile, ShiftKind::half_vector, roulette), 6);
     Worker& worker = stage.worker;
     std::vector<BaseBlock> base(stage.blocks.size());
@@ -185,7 +190,7 @@ void share_light(benchmark::State& state, const Scene& scene, int tile, Roulette
         for (std::size_t i = 0; i < base.size(); ++i) {
             std::swap(worker.base, base[i]);
             for_each_gpr_set(stage.pass, stage.blocks[i], worker.set, [&](PixelRect, PixelRect, int) {
-                tessera::share_light(stage.pass, roulette, worker);
+                tessera::reuse_paths(stage.pass, roulette, worker);
             });
             std::swap(worker.base, base[i]);
         }
@@ -215,9 +220,9 @@ void add_benchmarks(const std::string& scene) {
     add("share/replay", scene, share, ShiftKind::replay);
     add("share/replay_reconnection", scene, share, ShiftKind::replay_reconnection);
     for (int tile : {2, 6, 8}) {
-        const std::string name = "share_light/tile_" + std::to_string(tile);
-        add(name + "/roulette", scene, share_light, tile, RouletteKind::relative);
-        add(name + "/no_roulette", scene, share_light, tile, RouletteKind::none);
+        const std::string name = "reuse_paths/tile_" + std::to_string(tile);
+        add(name + "/roulette", scene, reuse_paths, tile, RouletteKind::relative);
+        add(name + "/no_roulette", scene, reuse_paths, tile, RouletteKind::none);
     }
 }
 

@@ -2,7 +2,7 @@
 // 1000 alpha).
 
 #include "recon/picture/reconstruct.h"
-#include "recon/poisson_direct.h"
+#include "recon/solvers/poisson_direct.h"
 
 #include <atomic>
 #include <cstdint>

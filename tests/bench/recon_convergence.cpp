@@ -4,9 +4,9 @@
 // BUFFERS, and go on with the n + 1 samples of both.
 
 #include "app/commands/commands.h"
-#include "recon/picture/edge_weights.h"
-#include "recon/poisson_l1.h"
-#include "recon/poisson_weighted.h"
+#include "recon/solvers/edge_weights.h"
+#include "recon/solvers/poisson_l1.h"
+#include "recon/solvers/poisson_weighted.h"
 #include "ui/charts/chart.h"
 
 #include <algorithm>

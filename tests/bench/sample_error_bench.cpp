@@ -29,11 +29,10 @@ Render render_of(const std::shared_ptr<const Scene>& scene, Method method, unsig
 }
 
 /// Without emission that the camera sees.
-RgbImage picture(GradientImages images, Norm norm, Spikes spikes, ThreadPool& pool) {
+RgbImage picture(GradientImages images, Norm norm, ThreadPool& pool) {
     images.very_direct = {};
     ReconstructionSettings settings;
     settings.norm = norm;
-    settings.spikes = spikes;
     return reconstruct(images, settings, pool.row_loops()).image;
 }
 
@@ -44,7 +43,7 @@ void measure(const std::shared_ptr<const Scene>& scene, int samples) {
         Render render = render_of(scene, Method::gpr, 100 + half);
         for (int i = 0; i < samples; ++i)
             render.pass(pool);
-        truth[half] = picture(render.images(), Norm::l2, Spikes::off, pool);
+        truth[half] = picture(render.images(), Norm::l2, pool);
     }
     for (const Method method : {Method::pt, Method::pr, Method::gpt, Method::gpr}) {
         Render render = render_of(scene, method, 1);
@@ -54,10 +53,10 @@ void measure(const std::shared_ptr<const Scene>& scene, int samples) {
             if (std::find(std::begin(told), std::end(told), spp) == std::end(told))
                 continue;
             const GradientImages images = render.images();
-            const RgbImage primal = picture(images, Norm::none, Spikes::off, pool);
+            const RgbImage primal = picture(images, Norm::none, pool);
             const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
             const auto estimate =
-                estimate_sample_error(images, picture(images, Norm::guided, Spikes::consistent, pool));
+                estimate_sample_error(images, picture(images, Norm::guided, pool));
             std::printf("%-3s %2d spp  relMSE %.4g", short_name(method).data(), spp, error);
             if (estimate)
                 std::printf("  estimate %.4g +- %.2g  ratio %.2f\n", estimate->relative_mse,

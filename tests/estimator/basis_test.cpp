@@ -56,8 +56,9 @@ TEST(Basis, IsUnbiasedInTheMeanOfManyRendersOfTwoPasses) {
             s.tile = 4;
             s.max_depth = 3;
             s.seed = 77'000;
-            const ZResult z =
-                z_test(measure(t.scene, size, s, renders, 2).picture, sum(truth.light, truth.very_direct));
+            constexpr Norm l2[] = {Norm::l2};
+            const ZResult z = z_test(measure(t.scene, size, s, renders, 2, l2).pictures.at(Norm::l2),
+                                     sum(truth.light, truth.very_direct));
             EXPECT_TRUE(z.passes()) << name << ' ' << short_name(method) << ": " << z.to_string();
         }
     }

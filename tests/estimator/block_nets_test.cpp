@@ -73,7 +73,7 @@ TEST(BlockNets, AreOverPixelsSideBySideInEachPass) {
     const RenderSettings s = settings_of(Method::gpr);
     for (const int index : {0, 5})
         for (const int path : {0, 2}) {
-            const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), index);
+            const Pass pass(*scene, scene->camera(), large, s, LearnedReuse(large, s), index);
             const glm::ivec2 corner = first_block(pass, path);
             for (const Draw purpose : at_x1) {
                 for (int wide = 1; wide <= edge * edge; wide *= 2) // rectangles of any one shape
@@ -94,7 +94,7 @@ TEST(BlockNets, OverPixelsAreOthersInEachBlockAndForEachPurpose) {
     constexpr int blocks = 12;
     constexpr glm::ivec2 large((blocks + 1) * edge), cells(edge);
     const RenderSettings s = settings_of(Method::gpr);
-    const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), 3);
+    const Pass pass(*scene, scene->camera(), large, s, LearnedReuse(large, s), 3);
     const glm::ivec2 first = first_block(pass);
     std::set<int> numbers, steps, relations;
     for (int y = 0; y < blocks; ++y)
@@ -126,8 +126,8 @@ TEST(BlockNets, OfBlocksHaveVariants) {
     const auto scene = floor();
     constexpr glm::ivec2 large(24 * edge);
     const RenderSettings s = settings_of(Method::gpr);
-    const Pass first(*scene, scene->camera(), large, s, ReusePlan(large, s), 2),
-        second(*scene, scene->camera(), large, s, ReusePlan(large, s), 3); // of the same nets
+    const Pass first(*scene, scene->camera(), large, s, LearnedReuse(large, s), 2),
+        second(*scene, scene->camera(), large, s, LearnedReuse(large, s), 3); // of the same nets
     std::set<int> of_direction, of_lobe, of_both;
     for (int y = edge / 2; y < large.y; y += edge)
         for (int x = edge / 2; x < large.x; x += edge) {
@@ -151,7 +151,8 @@ TEST(BlockNets, BeginBlocksElsewhereWithEachPlan) {
     const RenderSettings s = settings_of(Method::pt); // whose nets begin with powers of two
     std::set<std::pair<int, int>> corners;
     for (const int index : {1, 2, 4, 8, 16, 32}) {
-        const glm::ivec2 corner = first_block(Pass(*scene, scene->camera(), large, s, ReusePlan(large, s), index));
+        const glm::ivec2 corner =
+            first_block(Pass(*scene, scene->camera(), large, s, LearnedReuse(large, s), index));
         corners.emplace(corner.x, corner.y);
     }
     EXPECT_GT(corners.size(), 3u);
@@ -162,7 +163,7 @@ TEST(BlockNets, ExchangeRowsAndColumnsOfChoices) {
     const auto scene = floor();
     constexpr glm::ivec2 large(3 * edge);
     const RenderSettings s = settings_of(Method::gpr);
-    const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), 3);
+    const Pass pass(*scene, scene->camera(), large, s, LearnedReuse(large, s), 3);
     const glm::ivec2 corner = first_block(pass);
     for (const Draw purpose : at_x1) {
         const bool is_choice = purpose == Draw::emitter || purpose == Draw::lobe;
@@ -179,7 +180,7 @@ TEST(BlockNets, OverPixelsHaveAnyNumberAtAPlaceOfABlock) {
     constexpr int blocks = 40;
     constexpr glm::ivec2 large(blocks * edge);
     const RenderSettings s = settings_of(Method::gpr);
-    const Pass pass(*scene, scene->camera(), large, s, ReusePlan(large, s), 2);
+    const Pass pass(*scene, scene->camera(), large, s, LearnedReuse(large, s), 2);
     for (const Draw purpose : at_x1) {
         std::array<int, 16> counts{};
         for (int y = 0; y < blocks; ++y)

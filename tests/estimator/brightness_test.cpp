@@ -69,7 +69,7 @@ TEST(Brightness, NothingGlowsBeforeNothing) {
             const RgbImage picture = reconstruct(images, {.norm = norm}).image;
             int nothing = 0;
             for (std::size_t i = 0; i < picture.size(); ++i)
-                if (images.guides.nearness.data()[i] == 0 && is_black(images.radiance().data()[i])) {
+                if (images.features.nearness.data()[i] == 0 && is_black(images.radiance().data()[i])) {
                     ++nothing;
                     EXPECT_EQ(picture.data()[i], images.very_direct.data()[i]) << short_name(method);
                 }

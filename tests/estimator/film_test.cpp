@@ -1,5 +1,4 @@
 // The film: what it refuses, and sums that hold 10^5 passes.
-#include "render/estimator/pass.h"
 #include "render/film/film.h"
 
 #include <algorithm>
@@ -25,8 +24,8 @@ bool is_black_everywhere(const RgbImage& image) {
 
 TEST(Film, RefusesWhatIsNotFinite) {
     for (const float bad : {infinity, -infinity, nan})
-        for (Rgb PixelSample::*part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
-                                       &PixelSample::very_direct, &PixelSample::albedo})
+        for (Rgb PixelSample::* part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
+                                        &PixelSample::very_direct, &PixelSample::albedo})
             for (int channel = 0; channel < 3; ++channel) {
                 Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .luminance = true});
                 Counters counters;
@@ -44,7 +43,7 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
-                EXPECT_EQ(film.path_luminance()(1, 0), 1); // so that a plan depends on base paths alone
+                EXPECT_EQ(film.path_luminance()(1, 0), 1); // so that LearnedReuse depends on base paths alone
             }
 }
 
@@ -168,9 +167,9 @@ TEST(Film, RefusesAlbedosThatAreNotFinite) {
     for (const float bad : {infinity, -infinity, nan}) {
         Film film(2, 1, {.albedo = true});
         Counters counters;
-        film.add_look(0, 0, 3, {Rgb(0.5f), {}}, counters);
-        film.add_look(0, 0, 3, {Rgb(0.5f, bad, 0.5f), {}}, counters);
-        EXPECT_EQ(film.looks().count(0, 0), 2);
+        film.add_feature_sample(0, 0, 3, {Rgb(0.5f), {}}, counters);
+        film.add_feature_sample(0, 0, 3, {Rgb(0.5f, bad, 0.5f), {}}, counters);
+        EXPECT_EQ(film.features().count(0, 0), 2);
         EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
         ASSERT_EQ(counters.refused_samples, 1u);
         EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{3, 0, 0}));

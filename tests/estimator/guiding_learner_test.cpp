@@ -151,7 +151,7 @@ TEST(GuidingLearner, TellsByTheGuideThatPathsWereDrawnWith) {
 
 TEST(GuidingLearner, LearnsOfTheFirstPassesMost) {
     const auto paths = [](int pixels, int index, bool draws) {
-        return pixels * static_cast<double>(GuidingLearner::share_of_paths(pixels, index, draws));
+        return pixels * static_cast<double>(GuidingLearner::fraction_of_paths(pixels, index, draws));
     };
     EXPECT_EQ(paths(1000, 0, false), 1000);
     EXPECT_EQ(paths(1000, 7, true), 1000);

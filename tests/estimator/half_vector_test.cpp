@@ -1,5 +1,5 @@
 // Half vectors copied between vertices: the shift is its own inverse, and its Jacobian is the derivative.
-#include "render/estimator/shift.h"
+#include "render/paths/shift.h"
 #include "tests/surface/bsdf_cases.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Jacobians of single steps of a shift against finite differences: half vectors copied from every kind of glossy
 // surface to every other, and reconnection.
-#include "render/estimator/shift.h"
+#include "render/paths/shift.h"
 #include "tests/support/one_shift.h"
 #include "tests/support/rooms.h"
 #include "tests/surface/bsdf_cases.h"

@@ -50,7 +50,8 @@ Variant variant(std::string name, Method method, int tile,
     return {std::move(name), s};
 }
 
-/// Every method and shift, tiles of all kinds, and every option that changes what is sampled or weighted.
+/// Every method and shift, tiles of all kinds, and every option that changes what is sampled or weighted. Most
+/// variants switch adaptive tile splitting off: in these small pictures, it leaves many pixels that share nothing.
 std::vector<Variant> all_variants() {
     using S = RenderSettings;
     return {
@@ -59,34 +60,43 @@ std::vector<Variant> all_variants() {
         variant("pt, path guiding, RR depth 1", Method::pt, 1,
                 [](S& s) { s.path_guiding = Guiding::on, s.roulette_depth = 1; }),
         variant("pr, path guiding", Method::pr, 4, [](S& s) { s.path_guiding = Guiding::on; }),
+        variant("pr, tiles whole", Method::pr, 4, [](S& s) { s.adapt_tile = false; }),
+        variant("gpr, tiles whole", Method::gpr, 6, [](S& s) { s.adapt_tile = false; }),
         variant("gpt, path guiding", Method::gpt, 1, [](S& s) { s.path_guiding = Guiding::on; }),
         variant("gpr, path guiding", Method::gpr, 6, [](S& s) { s.path_guiding = Guiding::on; }),
-        variant("gpr, path guiding, replay", Method::gpr, 3,
-                [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay; }),
-        variant("gpr, path guiding, replay-reconnection", Method::gpr, 4,
-                [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay_reconnection; }),
-        variant("pr, absolute roulette", Method::pr, 4, [](S& s) { s.roulette = RouletteKind::absolute; }),
+        variant("gpr, path guiding, replay, tiles whole", Method::gpr, 3,
+                [](S& s) { s.path_guiding = Guiding::on, s.shift = ShiftKind::replay, s.adapt_tile = false; }),
+        variant("gpr, path guiding, replay-reconnection, tiles whole", Method::gpr, 4,
+                [](S& s) {
+                    s.path_guiding = Guiding::on, s.shift = ShiftKind::replay_reconnection, s.adapt_tile = false;
+                }),
+        variant("pr, absolute roulette, tiles whole", Method::pr, 4,
+                [](S& s) { s.roulette = RouletteKind::absolute, s.adapt_tile = false; }),
         variant("pr, 5-rooks, reconnection", Method::pr, 5,
                 [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::reconnection; }),
         variant("pr, 8-rooks", Method::pr, 8, [](S& s) { s.pattern = Pattern::rooks; }),
         variant("pr, 4-rooks, replay, RR depth 2", Method::pr, 4,
                 [](S& s) { s.pattern = Pattern::rooks, s.shift = ShiftKind::replay, s.roulette_depth = 2; }),
-        variant("pr, reconnection, RR depth 2", Method::pr, 4,
-                [](S& s) { s.shift = ShiftKind::reconnection, s.roulette_depth = 2; }),
+        variant("pr, reconnection, RR depth 2, tiles whole", Method::pr, 4,
+                [](S& s) { s.shift = ShiftKind::reconnection, s.roulette_depth = 2, s.adapt_tile = false; }),
         variant("gpt, RR depth 1", Method::gpt, 1, [](S& s) { s.roulette_depth = 1; }),
         variant("gpt, replay, no basis", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay, s.basis = Basis::none; }),
         variant("gpt, replay-reconnection", Method::gpt, 1,
                 [](S& s) { s.shift = ShiftKind::replay_reconnection; }),
         variant("gpr", Method::gpr, 1),
-        variant("gpr, absolute roulette", Method::gpr, 2, [](S& s) { s.roulette = RouletteKind::absolute; }),
-        variant("gpr, replay", Method::gpr, 3, [](S& s) { s.shift = ShiftKind::replay; }),
+        variant("gpr, absolute roulette, tiles whole", Method::gpr, 2,
+                [](S& s) { s.roulette = RouletteKind::absolute, s.adapt_tile = false; }),
+        variant("gpr, replay, tiles whole", Method::gpr, 3,
+                [](S& s) { s.shift = ShiftKind::replay, s.adapt_tile = false; }),
         variant("gpr, tiles whole, no basis", Method::gpr, 6,
                 [](S& s) { s.adapt_tile = false, s.basis = Basis::none; }),
         variant("gpr", Method::gpr, 6),
-        variant("gpr, replay-reconnection, RR depth 2", Method::gpr, 6,
-                [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2; }),
-        variant("gpr, reconnection", Method::gpr, 8, [](S& s) { s.shift = ShiftKind::reconnection; }),
+        variant(
+            "gpr, replay-reconnection, RR depth 2, tiles whole", Method::gpr, 6,
+            [](S& s) { s.shift = ShiftKind::replay_reconnection, s.roulette_depth = 2, s.adapt_tile = false; }),
+        variant("gpr, reconnection, tiles whole", Method::gpr, 8,
+                [](S& s) { s.shift = ShiftKind::reconnection, s.adapt_tile = false; }),
         variant("gpr, no roulette, RR depth 2", Method::gpr, 16,
                 [](S& s) {
                     s.roulette = RouletteKind::none, s.adapt_tile = false;
@@ -118,7 +128,7 @@ Image<std::uint8_t> ever_mixed(const std::shared_ptr<const Scene>& scene, glm::i
     for (settings.seed = 0; settings.seed < 32; ++settings.seed) {
         Render render(scene, scene->camera(), size, settings);
         render.pass(pool);
-        const Image<std::uint8_t>& mixed = *render.newest_plan()->mixed();
+        const Image<std::uint8_t>& mixed = *render.newest_learned()->mixed();
         std::transform(all.begin(), all.end(), mixed.begin(), all.begin(), std::bit_or());
     }
     return all;
@@ -127,7 +137,8 @@ Image<std::uint8_t> ever_mixed(const std::shared_ptr<const Scene>& scene, glm::i
 /// Each method in one form, and of the other variants every second: half of the scenes have the one half, the
 /// others the other.
 std::vector<Variant> variants_of(const std::string& scene) {
-    constexpr std::string_view always[] = {"pt", "pr, absolute roulette", "gpt, RR depth 1", "gpr"};
+    constexpr std::string_view always[] = {"pt", "pr, absolute roulette, tiles whole", "gpt, RR depth 1", "gpr",
+                                           "gpr, tiles whole"};
     std::vector<Variant> some;
     std::size_t number = std::accumulate(scene.begin(), scene.end(), std::size_t{0});
     for (Variant& v : all_variants())
@@ -146,7 +157,7 @@ protected:
     }
 
     struct Test {
-        const char* what;
+        std::string what;
         ZResult z;
     };
 
@@ -176,14 +187,18 @@ protected:
                        : measured;
         };
         std::vector<Test> tests;
-        const auto add = [&](const char* what, const ZResult& z) {
-            std::printf("  %-26s %-58s tile %2d %4d runs %-11s %s\n", t.name.c_str(), v.name.c_str(),
-                        v.settings.tile, count, what, z.to_string().c_str());
+        const auto add = [&](const std::string& what, const ZResult& z) {
+            std::printf("  %-26s %-58s tile %2d, %3.0f %% of the pixels share, %4d runs %-11s %s\n",
+                        t.name.c_str(), v.name.c_str(), v.settings.tile, 100 * m.sharing, count, what.c_str(),
+                        z.to_string().c_str());
             tests.push_back({what, z});
         };
         add("primal", z_test(floored(m.primal), truth.light));
         add("very direct",
             z_test(no_surer_than_by_chance(m.very_direct, truth.very_direct, count, nullptr), truth.very_direct));
+        for (const auto& [norm, picture] : m.pictures)
+            add("picture " + std::string(to_string(norm)),
+                z_test(floored(picture), sum(truth.light, truth.very_direct)));
         if (!has_gradients(v.settings.method))
             return tests;
         const bool is_demodulated = v.settings.basis == Basis::albedo;
@@ -192,7 +207,6 @@ protected:
         const Measured& of = is_demodulated ? truth.coefficient : truth.light;
         add("dx", z_test(m.dx, difference_x(of)));
         add("dy", z_test(m.dy, difference_y(of)));
-        add("l2", z_test(floored(m.picture), sum(truth.light, truth.very_direct)));
         return tests;
     }
 };

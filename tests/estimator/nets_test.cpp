@@ -41,9 +41,9 @@ RenderSettings settings_of(Method method, std::uint64_t seed = 0) {
 }
 
 /// In which of so many equal parts a pass' numbers for a pixel are: its position and what is drawn at x_1.
-std::vector<int> parts_of(const Scene& scene, const RenderSettings& s, const ReusePlan& plan, int pass, int parts,
-                          int path = 0) {
-    const Pass p(scene, scene.camera(), size, s, plan, pass);
+std::vector<int> parts_of(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int pass,
+                          int parts, int path = 0) {
+    const Pass p(scene, scene.camera(), size, s, learned, pass);
     std::vector<glm::vec2> numbers{p.camera_sample({5, 7}, path).subpixel};
     for (const Draw purpose :
          {Draw::emitter, Draw::emitter_position, Draw::emitter_cell, Draw::lobe, Draw::direction})
@@ -58,11 +58,11 @@ std::vector<int> parts_of(const Scene& scene, const RenderSettings& s, const Reu
 constexpr std::size_t positions = 2, all_numbers = 12;
 
 /// How many of the numbers lie evenly: in each of as many parts as there are passes.
-int count_even(const Scene& scene, const RenderSettings& s, const ReusePlan& plan, int from, int to,
+int count_even(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int from, int to,
                int path = 0) {
     std::array<std::set<int>, all_numbers> parts;
     for (int pass = from; pass < to; ++pass) {
-        const std::vector<int> found = parts_of(scene, s, plan, pass, to - from, path);
+        const std::vector<int> found = parts_of(scene, s, learned, pass, to - from, path);
         for (std::size_t i = 0; i < found.size(); ++i)
             parts[i].insert(found[i]);
     }
@@ -125,11 +125,11 @@ TEST(Nets, GoOverPassesUntilThereAreTwiceAsMany) {
     const auto scene = lit_floor();
     for (const Method method : {Method::pt, Method::gpt})
         for (const int path : {0, 3}) {
-            ReusePlan plan(size, settings_of(method));
-            plan.take(ReusePlan(size, settings_of(method)), 4);
-            EXPECT_EQ(plan.first_pass(), 0); // nothing was learnt, as nothing can be
-            EXPECT_EQ(count_even(*scene, settings_of(method), plan, 32, 64, path), all_numbers);
-            EXPECT_LT(count_even(*scene, settings_of(method), plan, 0, 64, path), all_numbers);
+            LearnedReuse learned(size, settings_of(method));
+            learned.take(LearnedReuse(size, settings_of(method)), 4);
+            EXPECT_EQ(learned.first_pass(), 0); // nothing was learnt, as nothing can be
+            EXPECT_EQ(count_even(*scene, settings_of(method), learned, 32, 64, path), all_numbers);
+            EXPECT_LT(count_even(*scene, settings_of(method), learned, 0, 64, path), all_numbers);
         }
 }
 
@@ -138,12 +138,13 @@ TEST(Nets, BeginWhetherOrNotThereIsSomethingToLearn) {
     const auto scene = lit_floor();
     RenderSettings guided = settings_of(Method::pt);
     guided.path_guiding = Guiding::where_it_pays;
-    ReusePlan learnt(size, guided);
-    learnt.take(ReusePlan(size, guided), 8);
+    LearnedReuse learnt(size, guided);
+    learnt.take(LearnedReuse(size, guided), 8);
     EXPECT_EQ(learnt.first_pass(), 8);
     for (const int pass : {8, 9, 15})
-        EXPECT_EQ(parts_of(*scene, guided, learnt, pass, 4096),
-                  parts_of(*scene, settings_of(Method::pt), ReusePlan(size, settings_of(Method::pt)), pass, 4096));
+        EXPECT_EQ(
+            parts_of(*scene, guided, learnt, pass, 4096),
+            parts_of(*scene, settings_of(Method::pt), LearnedReuse(size, settings_of(Method::pt)), pass, 4096));
 }
 
 TEST(Nets, AreAnewWherePassesGoByWhatOthersFound) {
@@ -151,18 +152,18 @@ TEST(Nets, AreAnewWherePassesGoByWhatOthersFound) {
     int even_over_both = 0, repeated = 0;
     for (std::uint64_t seed = 0; seed < 16; ++seed) {
         const RenderSettings s = settings_of(Method::gpr, seed);
-        const ReusePlan before(size, s); // whose net begins with pass 8
-        ReusePlan plan(size, s);
-        plan.take(before, 12); // in a render that began with pass 8
-        EXPECT_EQ(plan.first_pass(), 12);
-        EXPECT_EQ(count_even(*scene, s, plan, 12, 16), all_numbers);
+        const LearnedReuse before(size, s); // whose net begins with pass 8
+        LearnedReuse learned(size, s);
+        learned.take(before, 12); // in a render that began with pass 8
+        EXPECT_EQ(learned.first_pass(), 12);
+        EXPECT_EQ(count_even(*scene, s, learned, 12, 16), all_numbers);
         std::array<std::set<int>, all_numbers> quarters; // all four of one net, if no other had begun
         for (const int pass : {12, 13, 14, 15}) {
-            const std::vector<int> found = parts_of(*scene, s, pass < 14 ? before : plan, pass, 4);
+            const std::vector<int> found = parts_of(*scene, s, pass < 14 ? before : learned, pass, 4);
             for (std::size_t i = 0; i < found.size(); ++i)
                 quarters[i].insert(found[i]);
         }
-        const auto first = parts_of(*scene, s, plan, 12, 1024), of_last = parts_of(*scene, s, before, 8, 1024);
+        const auto first = parts_of(*scene, s, learned, 12, 1024), of_last = parts_of(*scene, s, before, 8, 1024);
         for (std::size_t i = positions; i < all_numbers; ++i) {
             even_over_both += quarters[i].size() == 4;
             repeated += first[i] == of_last[i];
@@ -175,7 +176,7 @@ TEST(Nets, AreAnewWherePassesGoByWhatOthersFound) {
 TEST(Nets, OfPixelsAndPathsDiffer) {
     const auto scene = lit_floor();
     const RenderSettings s = settings_of(Method::pt);
-    const Pass pass(*scene, scene->camera(), size, s, ReusePlan(size, s), 3);
+    const Pass pass(*scene, scene->camera(), size, s, LearnedReuse(size, s), 3);
     std::set<float> positions_seen, directions_seen;
     for (int x = 0; x < 20; ++x)
         for (const int path : {0, 1, 2}) {
@@ -192,10 +193,10 @@ TEST(Nets, DoNotDependOnTheSizeOfTheImage) {
     const glm::ivec2 wide(size.x + 7, size.y + 3);
     for (const Method method : {Method::pt, Method::gpr}) {
         const RenderSettings s = settings_of(method);
-        const ReusePlan plan(size, s), wide_plan(wide, s);
+        const LearnedReuse learned(size, s), wide_learned(wide, s);
         for (int pass = 0; pass < 3; ++pass) {
-            const Pass a(*scene, scene->camera(), size, s, plan, pass),
-                b(*scene, scene->camera(), wide, s, wide_plan, pass);
+            const Pass a(*scene, scene->camera(), size, s, learned, pass),
+                b(*scene, scene->camera(), wide, s, wide_learned, pass);
             EXPECT_EQ(a.camera_sample({5, 7}).subpixel, b.camera_sample({5, 7}).subpixel);
             for (int vertex = 1; vertex < 4; ++vertex)
                 EXPECT_EQ(a.random(5, 7).digits(vertex, Draw::lobe), b.random(5, 7).digits(vertex, Draw::lobe));
@@ -233,7 +234,7 @@ TEST(Nets, RendersChangePlansWhenTheyHaveTwiceAsManyPasses) {
         Render render(scene, scene->camera(), size, s);
         for (const int first : {0, 1, 2, 2, 4, 4, 4, 4, 8}) {
             render.pass(pool);
-            EXPECT_EQ(render.newest_plan()->first_pass(), first);
+            EXPECT_EQ(render.newest_learned()->first_pass(), first);
         }
     }
 }

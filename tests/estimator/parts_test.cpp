@@ -210,7 +210,7 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
     for (const Variant& v : variants) {
         RenderSettings settings = settings_of(v, t);
         const int parts = part_count(v.basis);
-        const std::vector<CoefficientPart> of_film = images_of(t, settings, size, 1).parts;
+        const std::vector<BasisComponent> of_film = images_of(t, settings, size, 1).parts;
         const PartsOf parts_of = [&](glm::ivec2 p, Rgb albedo, std::span<const ByDirection> light,
                                      std::span<Rgb> result) {
             ArrivingLight arriving;
@@ -260,7 +260,7 @@ TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
     const GradientImages images = images_of(t, settings_of(variants[1], t), {9, 7}, 1);
     for (std::size_t i = 0; i < images.primal.size(); ++i) {
         double squares = 0;
-        for (const CoefficientPart& part : images.parts)
+        for (const BasisComponent& part : images.parts)
             squares += static_cast<double>(part.projection.data()[i] * part.projection.data()[i]);
         EXPECT_GT(squares, 0.06); // of a pixel that sees black at three of four points
         EXPECT_LT(squares, 1.1);
@@ -276,7 +276,7 @@ TEST(Parts, NothingIsLost) {
             double largest = 0, difference = 0;
             for (std::size_t i = 0; i < images.primal.size(); ++i) {
                 Rgb sum(0);
-                for (const CoefficientPart& part : images.parts)
+                for (const BasisComponent& part : images.parts)
                     sum += part.projection.data()[i] * part.primal.data()[i];
                 largest = std::max(largest, static_cast<double>(glm::length(images.primal.data()[i])));
                 difference = std::max(difference, static_cast<double>(glm::length(sum - images.primal.data()[i])));

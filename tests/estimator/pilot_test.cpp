@@ -1,4 +1,4 @@
-// What the pilot tells of a cell. (That it is no bias: the judge. What is made of it: reuse_plan_test.)
+// What the pilot tells of a cell. (That it is no bias: the judge. What is made of it: learned_reuse_test.)
 #include "render/estimator/pilot.h"
 #include "tests/support/scene_builder.h"
 
@@ -26,10 +26,10 @@ std::shared_ptr<const Scene> corner(float brightness) {
     return b.build();
 }
 
-PlanEvidence explore(const Scene& scene, PixelRect cell) {
+CellStatistics explore(const Scene& scene, PixelRect cell) {
     const RenderSettings settings;
-    const ReusePlan plan(size, settings);
-    const Pilot pilot(scene, scene.camera(), size, settings, plan);
+    const LearnedReuse learned(size, settings);
+    const Pilot pilot(scene, scene.camera(), size, settings, learned);
     Worker worker(scene, scene.camera(), size, settings, nullptr);
     return pilot.explore(cell, worker);
 }
@@ -38,8 +38,8 @@ PlanEvidence explore(const Scene& scene, PixelRect cell) {
 
 TEST(Pilot, TellsOfEachSetByTheRootOfItsNoise) {
     const auto scene = corner(1);
-    const PlanEvidence whole = explore(*scene, {0, 0, 16, 16}), left = explore(*scene, {0, 0, 8, 16}),
-                       right = explore(*scene, {8, 0, 16, 16}), brighter = explore(*corner(4), {0, 0, 16, 16});
+    const CellStatistics whole = explore(*scene, {0, 0, 16, 16}), left = explore(*scene, {0, 0, 8, 16}),
+                         right = explore(*scene, {8, 0, 16, 16}), brighter = explore(*corner(4), {0, 0, 16, 16});
     EXPECT_GT(whole.own_noise, whole.shared_noise);
     EXPECT_GT(whole.shared_noise, 0);
     EXPECT_NEAR(whole.own_noise, left.own_noise + right.own_noise, 1e-9 * whole.own_noise);

@@ -1,5 +1,6 @@
 // Pixels that see several things, and the positions from which a pass sees them. (That it is no bias: the judge.)
 #include "render/estimator/pass.h"
+#include "render/estimator/set_reuse.h"
 #include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 
@@ -47,7 +48,7 @@ std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const std::shared_ptr<co
     Render render(scene, scene->camera(), size, settings);
     ThreadPool pool(1);
     render.pass(pool);
-    return render.newest_plan()->mixed();
+    return render.newest_learned()->mixed();
 }
 
 RgbImage picture(const std::shared_ptr<const Scene>& scene, const RenderSettings& settings, int passes) {
@@ -154,9 +155,9 @@ TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
 TEST(Positions, HaveAsManyBasePathsEach) {
     const auto scene = pole_before_a_wall();
     const RenderSettings s = settings_of(true);
-    ReusePlan plan(size, s);
-    plan.set_mixed(std::make_shared<const Image<std::uint8_t>>(size.x, size.y, std::uint8_t{1}));
-    const Pass pass(*scene, scene->camera(), size, s, plan, 0);
+    LearnedReuse learned(size, s);
+    learned.set_mixed(std::make_shared<const Image<std::uint8_t>>(size.x, size.y, std::uint8_t{1}));
+    const Pass pass(*scene, scene->camera(), size, s, learned, 0);
     Worker worker(*scene, scene->camera(), size, s, nullptr);
     worker.base.trace(pass, worker.tracer, {0, 0, 8, 8}, {0, 0});
     for (const int edge : {1, 2, 3, 5, 7}) {
@@ -164,7 +165,7 @@ TEST(Positions, HaveAsManyBasePathsEach) {
         set.assign({1, 0, 1 + edge, edge});
         set.positions = edge_positions;
         std::map<int, float> counts; // of each position
-        set.collect(pass, worker.base);
+        collect(pass, worker.base, set);
         for (int i = 0; i < set.size(); ++i)
             counts[pass.turn(set.pixels[static_cast<std::size_t>(i)])] += set.counts[static_cast<std::size_t>(i)];
         float sum = 0;
@@ -179,8 +180,8 @@ TEST(Positions, HaveAsManyBasePathsEach) {
 TEST(Positions, GoThroughPointsOfTheLensOfTheirOwn) {
     const auto scene = pole_before_a_wall(0.5f);
     const RenderSettings s = settings_of(true);
-    const ReusePlan plan(size, s);
-    const Pass pass(*scene, scene->camera(), size, s, plan, 5);
+    const LearnedReuse learned(size, s);
+    const Pass pass(*scene, scene->camera(), size, s, learned, 5);
     EXPECT_NE(pass.sample_at(0, {3, 3}, 0).lens.x, pass.sample_at(1, {3, 3}, 0).lens.x);
 }
 

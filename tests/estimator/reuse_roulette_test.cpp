@@ -1,6 +1,6 @@
 // The roulette that decides on reuse, on base paths made by hand.
 #include "render/estimator/path_reuse.h"
-#include "render/estimator/reuse_policy.h"
+#include "render/estimator/reuse_roulette.h"
 #include "tests/support/rooms.h"
 
 #include <algorithm>

@@ -124,7 +124,7 @@ TEST(SettingsTable, SaysWhatMatters) {
     for (Norm norm : all_norms) {
         reconstruction.norm = norm;
         EXPECT_EQ(setting_named(settings_of(reconstruction), "alpha").matters,
-                  norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed)
+                  norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed && norm != Norm::oidn)
             << to_string(norm);
     }
     RenderSettings render;

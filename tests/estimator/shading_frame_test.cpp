@@ -1,5 +1,5 @@
 // Frames of shading: along the texture's u where roughness differs by direction, seen from either side.
-#include "render/estimator/tracer.h"
+#include "render/paths/tracer.h"
 #include "tests/support/scene_builder.h"
 
 #include <cmath>

@@ -23,8 +23,8 @@ sys.dont_write_bytecode = True  # the tests leave nothing in the sources
 import header_names
 
 # From the inside out: a file includes only files of its own room and of those before it.
-ROOMS = """recon recon/picture recon/metrics
-    render/io render/settings render/sampling render/surface render/trace render/scene render/mesh render/load render/film render/estimator
+ROOMS = """recon recon/solvers recon/guided recon/picture recon/metrics
+    render/io render/settings render/sampling render/surface render/trace render/scene render/mesh render/load render/film render/paths render/estimator
     render/inspect render/run render/session
     ui/gl ui/state ui/settings ui/inside ui/charts ui/panes ui/jobs ui/panels ui/viewer ui/window
     app/cli app/experiment app/report app/commands app""".split()

@@ -67,9 +67,7 @@ TEST_F(ImageOutput, APngThatItsEncoderCannotCountIsRefused) {
     const std::vector<std::uint8_t> pixel(3);
     const std::string message = message_of([&] { write_png(file("a.png"), {32768, 32768}, pixel); });
     EXPECT_NE(message.find("a.png: an image of 32768 by 32768 pixels is too large"), std::string::npos) << message;
-    EXPECT_NE(message_of([&] {
-                  write_png(file("a.png"), {100, 100}, pixel);
-              }).find("three bytes"),
+    EXPECT_NE(message_of([&] { write_png(file("a.png"), {100, 100}, pixel); }).find("three bytes"),
               std::string::npos);
     EXPECT_EQ(files_in_folder(), 0u);
 }
@@ -101,6 +99,24 @@ TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {
     EXPECT_EQ(read.attributes.at("tessera:method"), "gpr");
     EXPECT_EQ(read.attributes.at("empty"), "");
     EXPECT_EQ(files_in_folder(), 1u);
+}
+
+/// Vectors and single channels keep their names and kinds; a single channel is read as grey.
+TEST_F(ImageOutput, VectorsAndSingleChannelsComeBack) {
+    const RgbImage picture = test::random_image(9, 7, 1), normal = test::random_image(9, 7, 2),
+                   numbers = test::random_image(9, 7, 3);
+    write_exr(file("a.exr"),
+              {{{"", picture}, {"N", normal, ExrChannels::xyz}, {"Z", numbers, ExrChannels::single}}, {}});
+    const ExrFile read = read_exr(file("a.exr"));
+    ASSERT_EQ(read.layers.size(), 3u);
+    EXPECT_EQ(read.layers[1].channels, ExrChannels::xyz);
+    EXPECT_TRUE(same_bits(*find_layer(read, "N"), normal));
+    EXPECT_EQ(read.layers[2].channels, ExrChannels::single);
+    EXPECT_EQ((*find_layer(read, "Z"))(3, 4), Rgb(numbers(3, 4).r));
+    EXPECT_EQ(read_exr(file("a.exr"), {}, {"Z"}).layers.size(), 1u);
+    write_exr(file("b.exr"), {{{"Z", numbers, ExrChannels::single}}, {}});
+    EXPECT_NE(message_of([&] { read_exr(file("b.exr")); }).find("it has no R, G and B channels"),
+              std::string::npos);
 }
 
 TEST_F(ImageOutput, ReadingIsWatchedAndGivenUp) {

@@ -1,9 +1,8 @@
-// Pictures of a coefficient: what remodulation leaves as it is, what it corrects, and what it trusts.
-#include "recon/picture/demodulation.h"
+// Pictures of a coefficient: recombine(), which is unbiased, and remodulate(), which has less noise.
+#include "recon/guided/demodulation.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
-#include <cstring>
 #include <limits>
 #include <random>
 
@@ -41,24 +40,26 @@ Demodulation demodulation_by(const RgbImage& primal, const RgbImage& albedo) {
     return d;
 }
 
-TEST(Remodulation, ByAnAlbedoOfOneChangesNoBit) {
+TEST(Remodulation, ByAnAlbedoOfOneChangesNothing) {
     const GradientImages plain = random_gradients();
     GradientImages demodulated = plain;
     demodulated.demodulation = demodulation_by(plain.primal, RgbImage(width, height, Rgb(1)));
     for (const Norm norm : all_norms) {
         if (norm == Norm::oidn)
-            continue; // takes a library that may not be there
-        if (is_linear(norm))
-            continue; // exact, but for the rounding of value - primal + image
+            continue; // needs a library that may be missing
         const RgbImage a = reconstruct(plain, {norm}).image, b = reconstruct(demodulated, {norm}).image;
-        EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)), 0) << to_string(norm);
+        if (norm == Norm::guided || norm == Norm::smoothed)
+            EXPECT_TRUE(has_same_bits(a, b)) << to_string(norm);
+        else
+            // recombine() rounds value - primal + image.
+            EXPECT_LT(relative_difference(b, a), 1e-6) << to_string(norm);
     }
 }
 
 TEST(Remodulation, OfThePrimalIsTheValue) {
     GradientImages images = random_gradients();
     images.demodulation = demodulation_by(images.primal, random_image(5, 0.1f, 1));
-    images.demodulation.value = random_image(6, 0, 1); // whatever it is: albedo and light changed together
+    images.demodulation.value = random_image(6, 0, 1); // any covariance of albedo and coefficient
     images.demodulation.albedo = random_image(7, 0.1f, 1);
     const RgbImage image = reconstruct(images, {Norm::none}).image;
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -67,8 +68,7 @@ TEST(Remodulation, OfThePrimalIsTheValue) {
                         images.demodulation.value.data()[i][c] + images.very_direct.data()[i][c], 1e-6f);
 }
 
-/// l2's picture of light that is alike everywhere, under any albedo, is the light times the albedo.
-TEST(Remodulation, OfEvenLightIsTheAlbedo) {
+TEST(Remodulation, OfAConstantCoefficientIsItTimesTheAlbedo) {
     GradientImages images;
     images.primal = RgbImage(width, height, Rgb(3, 2, 1));
     images.dx = images.dy = RgbImage(width, height, Rgb(0));
@@ -76,14 +76,14 @@ TEST(Remodulation, OfEvenLightIsTheAlbedo) {
     images.demodulation = demodulation_by(images.primal, albedo);
     for (const Norm norm : all_norms) {
         if (norm == Norm::oidn)
-            continue; // takes a library that may not be there
+            continue; // needs a library that may be missing
         const RgbImage image = reconstruct(images, {norm}).image;
         for (std::size_t i = 0; i < image.size(); ++i)
             EXPECT_LT(glm::distance(image.data()[i], albedo.data()[i] * Rgb(3, 2, 1)), 1e-4f) << to_string(norm);
     }
 }
 
-/// Images of n samples of albedo and light at every pixel, which change together or not.
+/// Images of n samples of albedo and coefficient at every pixel, with the correlation `together`.
 GradientImages sampled(int n, float together, unsigned seed) {
     std::mt19937 engine(seed);
     std::normal_distribution<float> normal;
@@ -126,24 +126,24 @@ double mean_of(const RgbImage& image) {
     return sum / (3 * static_cast<double>(image.size()));
 }
 
-/// Of albedo and light that are independent, rho is noise, and hardly any of it is left; what of it is a
-/// covariance comes into the picture as samples grow.
-TEST(Remodulation, TrustsTheCovarianceThatStandsOutFromNoise) {
+/// Where albedo and coefficient are independent, rho is noise, and a tenth of it may stay. Where they are not, the
+/// covariance is added as samples grow.
+TEST(Remodulation, AddsACovarianceThatStandsOutFromNoise) {
     RgbImage independent(width, height, Rgb(1)), many = independent;
-    remodulate(sampled(16, 0, 1), false, independent, serial_for);
+    remodulate(sampled(16, 0, 1), GuidedParameters(), independent, serial_for);
     double squares = 0;
     for (const Rgb& c : independent)
         squares += static_cast<double>(glm::dot(c - Rgb(0.5f), c - Rgb(0.5f))) / 3;
     EXPECT_LT(squares / static_cast<double>(independent.size()), 0.1 * 0.01 * 0.04 / 16); // a tenth of rho's noise
-    remodulate(sampled(400, 0.9f, 3), false, many, serial_for);
+    remodulate(sampled(400, 0.9f, 3), GuidedParameters(), many, serial_for);
     EXPECT_NEAR(mean_of(many), 0.5 + 0.9 * 0.02, 0.0005); // E[a e]
 }
 
-/// Two samples that fell on the same of two surfaces, beside others that did not: what is known of these tells
-/// what the pixel has, and what is rounding tells nothing.
-TEST(Remodulation, KnowsOfTwoSurfacesFromThePixelsAround) {
+/// All samples of a pixel fell on one of its two surfaces: the slope comes from the pixels around, and not from
+/// rounding errors.
+TEST(Remodulation, TakesTheSlopeOfTwoSurfacesFromThePixelsAround) {
     const float a[] = {0.8f, 0.1f},
-                e[] = {0.25f, 2}; // as bright: without the covariance the mean is 2.5 times that
+                e[] = {0.25f, 2}; // equal radiance: without the covariance the mean is 2.5 times as large
     for (const float rounding : {0.0f, 1e-12f}) {
         GradientImages images;
         images.primal = RgbImage(3, 1);
@@ -159,17 +159,16 @@ TEST(Remodulation, KnowsOfTwoSurfacesFromThePixelsAround) {
             d.value_covariance(x, 0) = Rgb(x == 1 ? 0 : rounding * 1e6f);
         }
         images.demodulation = d;
-        RgbImage image = images.primal; // as light that is reconstructed follows the samples
-        remodulate(images, false, image, serial_for);
+        RgbImage image = images.primal;
+        remodulate(images, GuidedParameters(), image, serial_for);
         for (int x = 0; x < 3; ++x)
             EXPECT_NEAR(image(x, 0).r, 0.2f, 0.02f) << x << ", " << rounding;
     }
 }
 
-/// A pixel of 3 that sees nothing of its brighter surface in its samples, beside one whose albedo varies by little
-/// while its light does by much: that one's slope, a hundred, is none of its own. Nor is anything no number where
-/// a file has variances without end.
-TEST(Remodulation, AsksNoPixelsWhoseAlbedoVariesByLittle) {
+/// The samples of the middle pixel missed its brighter surface. Its neighbour has a slope of 100, but an albedo
+/// that hardly varies: the middle pixel must not use that slope. Huge variances give finite pictures.
+TEST(Remodulation, TakesNoSlopeFromPixelsWhoseAlbedoHardlyVaries) {
     GradientImages images;
     images.primal = RgbImage(3, 1, Rgb(1.3f));
     images.primal_variance = Image<float>(3, 1);
@@ -185,32 +184,31 @@ TEST(Remodulation, AsksNoPixelsWhoseAlbedoVariesByLittle) {
         d.albedo_variance(1, 0) = variance;
         images.demodulation = d;
         RgbImage image = images.primal;
-        remodulate(images, false, image, serial_for);
+        remodulate(images, GuidedParameters(), image, serial_for);
         EXPECT_NEAR(image(1, 0).r, 0.014f * 1.3f, 0.006f) << variance;
     }
 }
 
-/// Where albedo and light change together in all pixels, one that is noisy takes hardly anything of it from those
-/// around.
-TEST(Remodulation, OneNoisyPixelDoesNotHideACovariance) {
+/// The mean of the noise around a pixel is a mean of roots.
+TEST(Remodulation, KeepsTheCovarianceBesideANoisyPixel) {
     RgbImage image(width, height, Rgb(1)), with_noise = image;
     GradientImages images = sampled(400, 0.9f, 5);
-    remodulate(images, false, image, serial_for);
+    remodulate(images, GuidedParameters(), image, serial_for);
     images.demodulation.unexplained_variance(10, 8) *= 3000;
-    remodulate(images, false, with_noise, serial_for);
+    remodulate(images, GuidedParameters(), with_noise, serial_for);
     for (int y = 7; y <= 9; ++y)
         for (int x = 9; x <= 11; ++x)
             EXPECT_NEAR(with_noise(x, y).r, image(x, y).r, 0.001f) << x << ", " << y;
 }
 
-/// Unbiased at any number of samples, even two, and even if the albedo that it is given is wrong.
-TEST(Remodulation, IsUnbiasedWhereItIsToBe) {
+/// At two samples a pixel, and for a wrong albedo.
+TEST(Recombination, IsUnbiasedForAnyAlbedo) {
     double sum = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
         GradientImages images = sampled(2, 0.9f, seed);
         images.demodulation.albedo = RgbImage(width, height, Rgb(0.7f));
         RgbImage image(width, height, Rgb(1)); // the coefficient without noise
-        remodulate(images, true, image, serial_for);
+        recombine(images, image, serial_for);
         sum += mean_of(image) / 200;
     }
     EXPECT_NEAR(sum, 0.5 + 0.9 * 0.02, 0.0006);

@@ -12,9 +12,7 @@ enum class Colour : unsigned char { red, green, blue };
 enum class Single { only };
 
 template <class Table>
-concept HasEntries = requires(const Table& table) {
-    entry_of(table, Colour::red);
-};
+concept HasEntries = requires(const Table& table) { entry_of(table, Colour::red); };
 
 static_assert(enumerator_count<Colour> == 3);
 static_assert(enumerator_count<Single> == 1);

@@ -1,5 +1,5 @@
-// Sums over kernels: what they are, for pictures of all sizes, beyond whose borders nothing counts.
-#include "recon/picture/kernel_sums.h"
+// Means over kernels, compared with their definition.
+#include "recon/guided/kernel_sums.h"
 #include "tests/recon/test_images.h"
 
 #include <array>
@@ -21,7 +21,7 @@ Plane plane_of(int width, int height, std::uint32_t seed) {
     return plane;
 }
 
-/// Of pairs; anything where one of the two is beyond the picture.
+/// Weights of pairs, also of those that reach beyond the picture.
 PairWeights random_weights(int width, int height) {
     PairWeights weights;
     std::mt19937 numbers(10);
@@ -33,7 +33,7 @@ PairWeights random_weights(int width, int height) {
     return weights;
 }
 
-/// The mean around (x, y), pair by pair from both ends.
+/// Returns the mean around (x, y), by its definition.
 double mean_around(const Plane& plane, const PairWeights& weights, int step, int x, int y) {
     double all = static_cast<double>(KernelPair{0, 0}.share()), sum = all * static_cast<double>(plane(x, y));
     for (std::size_t k = 0; k < weights.size(); ++k)
@@ -49,7 +49,7 @@ double mean_around(const Plane& plane, const PairWeights& weights, int step, int
     return sum / all;
 }
 
-TEST(KernelSums, AreOfThePixelsAround) {
+TEST(KernelSums, EqualTheirDefinition) {
     for (const auto& [width, height, step] : {std::tuple{1, 1, 1},
                                               {5, 3, 1},
                                               {16, 9, 3},

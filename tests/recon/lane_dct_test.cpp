@@ -1,4 +1,4 @@
-#include "recon/lane_dct.h"
+#include "recon/solvers/lane_dct.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "recon/poisson_direct.h"
+#include "recon/solvers/poisson_direct.h"
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
 
@@ -52,7 +52,7 @@ TEST_P(PoissonSizes, EqualsTheSparseSolve) {
     }
 }
 
-TEST_P(PoissonSizes, SpikesDoNoHarm) {
+TEST_P(PoissonSizes, SolvesProblemsWithOutliers) {
     const auto [width, height] = GetParam();
     for (const float alpha : {0.001f, 0.2f, 10.0f}) {
         Inputs inputs(width, height);
@@ -63,7 +63,7 @@ TEST_P(PoissonSizes, SpikesDoNoHarm) {
     }
 }
 
-TEST_P(PoissonSizes, ExactGradientsGiveTheImageBack) {
+TEST_P(PoissonSizes, ReturnsTheImageOfExactGradients) {
     const auto [width, height] = GetParam();
     const RgbImage image = random_image(width, height, 5, 1);
     const RgbImage dx = x_differences(image), dy = y_differences(image);

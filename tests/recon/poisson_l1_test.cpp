@@ -1,4 +1,4 @@
-#include "recon/poisson_l1.h"
+#include "recon/solvers/poisson_l1.h"
 #include "tests/recon/test_images.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ RgbImage solve_cold(const GradientImages& images, const L1Settings& settings) {
     return image;
 }
 
-/// What is minimised, in double.
+/// Returns the sum that the solver minimises, in double precision.
 double objective(const GradientImages& g, const RgbImage& image, const L1Settings& settings) {
     const auto norm = [](Rgb c) { return glm::length(glm::dvec3(c)); };
     const double typical = typical_value(g.primal);
@@ -47,11 +47,11 @@ double objective(const GradientImages& g, const RgbImage& image, const L1Setting
     return sum;
 }
 
-/// `share` of b in a, as when some samples are added to a mean.
-GradientImages blend(GradientImages a, const GradientImages& b, float share) {
+/// Blends a with a fraction of b, as further samples change a mean.
+GradientImages blend(GradientImages a, const GradientImages& b, float fraction) {
     for (const auto image : {&GradientImages::primal, &GradientImages::dx, &GradientImages::dy})
         for (std::size_t i = 0; i < (a.*image).size(); ++i)
-            (a.*image).data()[i] = (1 - share) * (a.*image).data()[i] + share * (b.*image).data()[i];
+            (a.*image).data()[i] = (1 - fraction) * (a.*image).data()[i] + fraction * (b.*image).data()[i];
     return a;
 }
 
@@ -97,22 +97,22 @@ TEST(PoissonL1, MixedKeepsTheMeanOfThePrimal) {
     }
 }
 
-TEST(PoissonL1, SpikesLeaveTheRestAsItIs) {
+TEST(PoissonL1, OutliersChangeNoOtherPixels) {
     const GradientImages images = noisy_images(80, 60);
     const RgbImage expected = solve_cold(images, {});
     GradientImages in_primal = images, in_dx = images, in_dy = images;
     in_primal.primal(40, 30) = Rgb(1e6f);
     in_dx.dx(20, 10) = Rgb(-1e6f, 1e6f, 0);
     in_dy.dy(60, 50) = Rgb(1e6f);
-    for (const GradientImages* spiked : {&in_primal, &in_dx, &in_dy}) {
-        const RgbImage image = solve_cold(*spiked, {});
+    for (const GradientImages* changed : {&in_primal, &in_dx, &in_dy}) {
+        const RgbImage image = solve_cold(*changed, {});
         double sum = 0, expected_sum = 0;
         for (std::size_t i = 0; i < image.size(); ++i) {
             sum += glm::length(image.data()[i] - expected.data()[i]);
             expected_sum += glm::length(expected.data()[i]);
         }
         EXPECT_LE(sum, 0.01 * expected_sum);
-        EXPECT_LE(relative_difference(image, expected), 0.2); // the spike's own pixel knows less
+        EXPECT_LE(relative_difference(image, expected), 0.2); // the pixel of the outlier has less data
     }
     GradientImages in_gradients = in_dx;
     in_gradients.dy = in_dy.dy;
@@ -121,7 +121,7 @@ TEST(PoissonL1, SpikesLeaveTheRestAsItIs) {
               0.2);
 }
 
-TEST(PoissonL1, ThreadsDoNotMatter) {
+TEST(PoissonL1, HasTheSameBitsWithThreads) {
     const GradientImages images = noisy_images(79, 61);
     L1Solver solver(79, 61);
     RgbImage image;

@@ -1,5 +1,5 @@
-#include "recon/picture/parts.h"
 #include "recon/picture/reconstruct.h"
+#include "recon/solvers/component_solver.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void add(RgbImage& image, const RgbImage& noise, float scale) {
 Truth uneven_images(float primal_noise, float part_noise, unsigned seed = 1) {
     Truth t{{}, RgbImage(width, height)};
     for (int l = 0; l < parts; ++l) {
-        CoefficientPart part{Image<float>(width, height), RgbImage(width, height), {}, {}};
+        BasisComponent part{Image<float>(width, height), RgbImage(width, height), {}, {}};
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const auto u = static_cast<float>(x) / width, v = static_cast<float>(y) / height;
@@ -63,14 +63,14 @@ void give_variances(GradientImages& images, float of_primal, float of_parts) {
     const Image<float> large(width, height, 3 * of_primal * of_primal),
         small(width, height, 3 * of_parts * of_parts);
     images.primal_variance = images.dx_variance = images.dy_variance = large;
-    for (CoefficientPart& part : images.parts) {
+    for (BasisComponent& part : images.parts) {
         part.primal_variance = large;
         part.dx_variance = part.dy_variance = small;
     }
 }
 
 RgbImage solve(const GradientImages& images, Norm norm, const ParallelFor& parallel_for = serial_for) {
-    PartsSolver solver(width, height);
+    ComponentSolver solver(width, height);
     RgbImage image;
     EXPECT_GT(solver.solve(images, norm, alpha, image, parallel_for), 0);
     return image;
@@ -150,7 +150,7 @@ TEST(PoissonParts, GivesTheSameBitsInAnyOrder) {
 TEST(PoissonParts, StopsBetweenSteps) {
     std::stop_source stop;
     stop.request_stop();
-    PartsSolver solver(width, height);
+    ComponentSolver solver(width, height);
     RgbImage image;
     EXPECT_EQ(solver.solve(uneven_images(0.1f, 0.1f).images, Norm::l2, alpha, image, serial_for,
                            SolveWatch(stop.get_token())),

@@ -1,5 +1,5 @@
-#include "recon/picture/edge_weights.h"
-#include "recon/poisson_weighted.h"
+#include "recon/solvers/edge_weights.h"
+#include "recon/solvers/poisson_weighted.h"
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
 
@@ -85,8 +85,7 @@ TEST(PoissonWeighted, AWarmStartComesNearerToNewerData) {
     EXPECT_EQ(relative_difference(image, cold), 0);
 }
 
-/// Snapshots of a render, each with more samples: the mean is that of the primal at once, and blobs of the first
-/// snapshot do not stay.
+/// Snapshots of a render, each with more samples. The blobs of the first one must vanish.
 TEST(PoissonWeighted, WarmStartsFollowTheirData) {
     for (const float alpha : {0.2f, 0.08f}) {
         WeightedSolver solver(120, 70);
@@ -108,7 +107,7 @@ TEST(PoissonWeighted, WarmStartsFollowTheirData) {
     }
 }
 
-TEST(PoissonWeighted, WhatIsStoppedStartsAnew) {
+TEST(PoissonWeighted, StartsFromNothingAfterAStop) {
     const GradientImages images = noisy_images(60, 40);
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
     WeightedSolver solver(60, 40);
@@ -120,19 +119,19 @@ TEST(PoissonWeighted, WhatIsStoppedStartsAnew) {
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0);
 }
 
-/// Values that floats cannot square leave no trace once they are gone, whether rows fill whole vectors or not.
-TEST(PoissonWeighted, WhatIsTooLargeIsForgotten) {
+/// Values that floats cannot square, in rows that fill whole vectors and in others.
+TEST(PoissonWeighted, LeavesNoTraceOfHugeValues) {
     for (const int width : {60, 67}) {
         const GradientImages images = noisy_images(width, 40);
         const EdgeWeights weights = weights_of_gradients(images, 0.2f);
         WeightedSolver solver(width, 40);
         RgbImage image;
         for (const float large : {1e25f, 3e38f}) {
-            GradientImages spiked = images;
-            for (Rgb& c : spiked.primal)
+            GradientImages huge = images;
+            for (Rgb& c : huge.primal)
                 c = Rgb(large);
-            spiked.dx(30, 20) = Rgb(large);
-            solver.solve(problem_of(spiked), weights, {}, image);
+            huge.dx(30, 20) = Rgb(large);
+            solver.solve(problem_of(huge), weights, {}, image);
             solver.solve(problem_of(images), weights, {}, image);
             EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0)
                 << width << " " << large;
@@ -152,7 +151,7 @@ TEST(PoissonWeighted, AfterABlackImageASolveIsCold) {
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0);
 }
 
-/// One channel is black, and one very dark: each has its own steps.
+/// One channel is black, and one very dark: each channel has step lengths of its own.
 TEST(PoissonWeighted, ChannelsOfAnyBrightnessStayFinite) {
     for (const auto& [width, height] : {std::pair{3, 1}, {9, 1}, {30, 1}, {8, 8}})
         for (const float alpha : {1e-4f, 0.2f}) {
@@ -174,9 +173,9 @@ TEST(PoissonWeighted, KeepsTheMeanOfThePrimal) {
     EXPECT_LE(glm::length(mean_color(image) - mean_color(images.primal)), 1e-4 * glm::length(mean_color(image)));
 }
 
-TEST(PoissonWeighted, ThreadsDoNotMatter) {
+TEST(PoissonWeighted, HasTheSameBitsWithThreads) {
     const GradientImages images = noisy_images(79, 61);
-    const EdgeWeights weights = weights_of_gradients(images, 0.2f, nullptr, backwards_for);
+    const EdgeWeights weights = weights_of_gradients(images, 0.2f, {}, backwards_for);
     WeightedSolver solver(79, 61);
     RgbImage image;
     solver.solve(problem_of(images), weights, {}, image, backwards_for);

@@ -1,13 +1,12 @@
-// Pictures shrunk toward others: what that gains, and that it is consistent.
-#include "recon/picture/shrinkage.h"
+// Trust in the difference between a picture and a smoother one.
+#include "recon/guided/shrinkage.h"
 #include "tests/recon/test_images.h"
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <random>
-#include <thread>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,104 +14,128 @@ namespace tessera::test {
 
 namespace {
 
-constexpr int width = 80, height = 60;
+constexpr int width = 80, height = 60, radius = 4;
 
-RgbImage ramp() {
-    RgbImage image(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            image(x, y) = Rgb(1 + 0.02f * static_cast<float>(x), 1, 0.5f);
-    return image;
-}
+/// A picture and its noise, of which the smoother version has neither detail nor noise.
+struct Case {
+    NoisyPlanes finer = black_planes<NoisyPlanes>(width, height, serial_for), coarser = finer;
+    Plane dark = Plane(width, height, 0.2f);
 
-RgbImage with_noise(const RgbImage& image, unsigned seed, float deviation) {
-    std::mt19937 random(seed);
-    std::normal_distribution<float> noise(0, deviation);
-    RgbImage result = image;
-    for (Rgb& c : result)
-        c += Rgb(noise(random), noise(random), noise(random));
-    return result;
-}
-
-/// A picture of the ramp with noise, and other noise of the same size.
-NoisyPicture noisy(float deviation) {
-    return {with_noise(ramp(), 1, deviation), with_noise(RgbImage(width, height), 2, deviation)};
-}
-
-double error_of(const RgbImage& image) {
-    return relative_rms_difference(image, ramp());
-}
-
-RgbImage shrunk(const RgbImage& target, const NoisyPicture& picture) {
-    return shrink_toward(target, picture, {}, serial_for);
-}
-
-/// Half of two pictures that err alike, in different ways, has 0.71 of their error.
-TEST(Shrinkage, OfTwoPicturesAsGoodIsTheMean) {
-    const RgbImage target = with_noise(ramp(), 3, 0.1f);
-    EXPECT_NEAR(error_of(shrunk(target, noisy(0.1f))) / error_of(target), 0.71, 0.03);
-}
-
-/// A target that is wrong by as much as noise still helps; one that is far off does next to no harm.
-TEST(Shrinkage, HardlyFollowsWhatIsWrong) {
-    for (const float wrong : {0.1f, 0.3f, 1.0f, 10.0f}) {
-        RgbImage target = ramp();
-        for (Rgb& c : target)
-            c += Rgb(wrong);
-        const NoisyPicture picture = noisy(0.1f);
-        EXPECT_LT(error_of(shrunk(target, picture)), (wrong > 0.1f ? 1.01 : 0.8) * error_of(picture.image))
-            << wrong;
+    /// Detail and noise with these deviations, on a brightness of 1.
+    Case(float detail, float noise, std::uint32_t seed = 1) {
+        const RgbImage of_detail = random_image(width, height, seed, 0, detail),
+                       in_picture = random_image(width, height, seed + 1, 0, noise),
+                       in_halves = random_image(width, height, seed + 2, 0, noise);
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < dark.size(); ++i) {
+                coarser[c].data()[i] = 1;
+                finer[c].data()[i] = 1 + of_detail.data()[i][c] + in_picture.data()[i][c];
+                finer[c + 3].data()[i] = in_halves.data()[i][c];
+            }
     }
+
+    void scale(float factor) {
+        for (NoisyPlanes* planes : {&finer, &coarser})
+            for (Plane& plane : *planes)
+                for (float& value : plane)
+                    value *= factor;
+        for (float& d : dark)
+            d *= factor;
+    }
+
+    Plane trust(const ParallelFor& parallel_for = serial_for) const {
+        const Plane any(width, height);
+        ShrinkageScratch scratch{any, any, any};
+        Plane trust = any;
+        write_trust(finer, coarser, dark, radius, parallel_for, scratch, trust);
+        return trust;
+    }
+
+    double mean_trust() const {
+        double sum = 0;
+        for (const float t : trust())
+            sum += static_cast<double>(t);
+        return sum / static_cast<double>(dark.size());
+    }
+};
+
+TEST(Trust, IsSmallWhereTheDifferenceIsNoise) {
+    EXPECT_LT(Case(0, 0.1f).mean_trust(), 0.2);
 }
 
-/// With noise that goes, the picture stays.
-TEST(Shrinkage, IsConsistent) {
-    RgbImage target = ramp();
-    for (Rgb& c : target)
-        c *= 1.2f;
+TEST(Trust, IsAboutAHalfWhereDetailAndNoiseAreEqual) {
+    EXPECT_NEAR(Case(0.1f, 0.1f).mean_trust(), 0.5, 0.1);
+}
+
+TEST(Trust, GoesToOneAsNoiseVanishes) {
     double last = 1;
-    for (const float deviation : {0.1f, 0.01f, 0.001f}) {
-        const double error = error_of(shrunk(target, noisy(deviation)));
-        EXPECT_LT(error, 0.3 * last);
-        last = error;
+    for (const float noise : {0.1f, 0.03f, 0.01f}) {
+        const double mistrust = 1 - Case(0.1f, noise).mean_trust();
+        EXPECT_LT(mistrust, 0.6 * last) << noise;
+        last = mistrust;
     }
-    EXPECT_EQ(error_of(shrunk(target, {ramp(), RgbImage(width, height)})), 0);
+    for (const float t : Case(0.1f, 0).trust())
+        ASSERT_EQ(t, 1);
 }
 
-TEST(Shrinkage, OfUnknownNoiseIsTheTarget) {
-    const RgbImage target = with_noise(ramp(), 3, 0.1f), picture = shrunk(target, {ramp(), {}});
-    EXPECT_TRUE(std::equal(target.begin(), target.end(), picture.begin()));
+TEST(Trust, IsZeroWhereThereIsNoDifference) {
+    for (const float t : Case(0, 0).trust())
+        ASSERT_EQ(t, 0);
 }
 
-TEST(Shrinkage, TakesAnyPictureWithTheSameBitsByThreads) {
-    const ParallelFor in_threads = [](int count, const std::function<void(int)>& body) {
-        std::vector<std::jthread> threads;
-        for (int i = count - 1; i >= 0; --i)
-            threads.emplace_back(body, i);
-    };
-    for (const float scale : {0.0f, 1e-30f, 1.0f, 1e30f}) {
-        NoisyPicture picture = noisy(0.1f);
-        RgbImage target = with_noise(ramp(), 3, 0.1f);
-        for (RgbImage* image : {&picture.image, &picture.noise, &target})
-            for (Rgb& c : *image)
-                c *= scale;
-        const RgbImage alone = shrunk(target, picture), there = shrink_toward(target, picture, {}, in_threads);
-        EXPECT_TRUE(std::all_of(alone.begin(), alone.end(), is_finite)) << scale;
-        EXPECT_TRUE(std::equal(alone.begin(), alone.end(), there.begin())) << scale;
+TEST(Trust, IsBetweenZeroAndOne) {
+    for (const float detail : {0.0f, 0.1f, 1e10f})
+        for (const float t : Case(detail, 0.1f).trust())
+            ASSERT_TRUE(t >= 0 && t <= 1) << detail;
+}
+
+TEST(Trust, IsIndependentOfTheUnitOfRadiance) {
+    Case scaled(0.1f, 0.1f);
+    const Plane expected = scaled.trust();
+    for (const float factor : {1e-10f, 1e20f}) {
+        scaled.scale(factor);
+        const Plane trust = scaled.trust();
+        for (std::size_t i = 0; i < trust.size(); ++i)
+            ASSERT_NEAR(trust.data()[i], expected.data()[i], 1e-3) << factor;
+        scaled.scale(1 / factor);
     }
 }
 
-/// What is not a number stays where it is.
-TEST(Shrinkage, OnePixelSpoilsNoOthers) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    NoisyPicture picture = noisy(0.1f);
-    picture.noise(20, 20) = Rgb(infinity, 0, -infinity);
-    RgbImage target = with_noise(ramp(), 3, 0.1f);
-    target(50, 30) = Rgb(infinity);
-    target(60, 30) = Rgb(std::numeric_limits<float>::quiet_NaN());
-    const RgbImage result = shrunk(target, picture);
-    EXPECT_TRUE(std::all_of(result.begin(), result.end(), is_finite));
-    EXPECT_LT(error_of(result), error_of(picture.image));
+/// A lamp beside a wall: sizes are relative to brightness, and means are of roots.
+TEST(Trust, IsHardlyChangedByABrightNoisyPixel) {
+    Case wall(0.3f, 0.1f);
+    const float before = wall.trust()(40, 30);
+    for (int c = 0; c < 3; ++c) {
+        wall.finer[c](41, 30) = wall.coarser[c](41, 30) = 1e6f;
+        wall.finer[c + 3](41, 30) = 1e5f;
+    }
+    EXPECT_NEAR(wall.trust()(40, 30), before, 0.15);
+}
+
+/// Far from an invalid pixel, trust is what it is without it.
+TEST(Trust, OfOneInvalidPixelIsLocal) {
+    const Case valid(0.1f, 0.1f);
+    const Plane expected = valid.trust();
+    for (const float value : {1e30f, std::numeric_limits<float>::infinity()}) {
+        Case invalid = valid;
+        invalid.finer[0](20, 20) = invalid.finer[4](50, 30) = value;
+        const Plane trust = invalid.trust();
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int distance = std::min(std::max(std::abs(x - 20), std::abs(y - 20)),
+                                              std::max(std::abs(x - 50), std::abs(y - 30)));
+                ASSERT_TRUE(trust(x, y) >= 0 && trust(x, y) <= 1) << x << ' ' << y;
+                if (distance > radius) {
+                    ASSERT_EQ(trust(x, y), expected(x, y)) << x << ' ' << y;
+                }
+            }
+    }
+}
+
+TEST(Trust, HasTheSameBitsWithThreads) {
+    const Case c(0.1f, 0.1f);
+    const Plane one = c.trust(), other = c.trust(threads_for);
+    EXPECT_TRUE(std::equal(one.begin(), one.end(), other.begin()));
 }
 
 } // namespace

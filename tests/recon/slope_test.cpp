@@ -17,7 +17,7 @@ TEST(Slope, IsTheExponent) {
     EXPECT_NEAR(log_log_slope(points).value, -0.75, 1e-12);
 }
 
-TEST(Slope, LeavesOutWhatHasNoPlace) {
+TEST(Slope, LeavesOutPointsWithoutALogarithm) {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
     const std::vector<glm::dvec2> points = {{1, 8},  {2, 4},        {4, 2}, {0, 1},   {-1, 3},
@@ -35,7 +35,7 @@ TEST(Slope, HasAtMostTheErrorsOfItsPointsTogether) {
     EXPECT_TRUE(std::isnan(log_log_slope(points).error));
 }
 
-TEST(Slope, OfFewerThanTwoPlacesIsNoNumber) {
+TEST(Slope, OfFewerThanTwoPlacesIsNaN) {
     const std::vector<glm::dvec2> one = {{2, 1}}, same = {{2, 1}, {2, 3}, {2, 5}}, useless = {{2, 1}, {3, 0}};
     EXPECT_TRUE(std::isnan(log_log_slope({}).value));
     EXPECT_TRUE(std::isnan(log_log_slope(one).value));

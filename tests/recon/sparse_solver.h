@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recon/poisson_problem.h"
-#include "recon/poisson_weighted.h"
+#include "recon/solvers/poisson_problem.h"
+#include "recon/solvers/poisson_weighted.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #include "recon/picture/reconstruct.h"
-#include "recon/poisson_direct.h"
+#include "recon/solvers/poisson_direct.h"
 #include "tests/recon/test_images.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,7 @@ RgbImage average(const GradientImages& g, int iterations) {
     return image;
 }
 
-/// Inside the image it is the plain mean of five estimates.
-TEST(UniformControlVariates, OneIterationIsTheMeanOfFiveEstimates) {
+TEST(UniformControlVariates, TakesTheMeanOfFiveEstimates) {
     const GradientImages g = noisy_images(9, 7);
     const Rgb mean = (g.primal(4, 3) + g.primal(3, 3) + g.dx(3, 3) + g.primal(5, 3) - g.dx(4, 3) + g.primal(4, 2) +
                       g.dy(4, 2) + g.primal(4, 4) - g.dy(4, 3)) /
@@ -26,8 +25,8 @@ TEST(UniformControlVariates, OneIterationIsTheMeanOfFiveEstimates) {
         EXPECT_NEAR(found[c], mean[c], 1e-6);
 }
 
-/// What is left at last is the mean of the primal and the gradients alone: L2 with a vanishing alpha.
-TEST(UniformControlVariates, ManyIterationsComeToTheGradientsAlone) {
+/// The limit is that of L2 for a vanishing alpha.
+TEST(UniformControlVariates, ConvergesToTheGradientsAlone) {
     const GradientImages g = noisy_images(17, 12);
     PoissonSolver solver(17, 12);
     RgbImage expected;
@@ -35,7 +34,7 @@ TEST(UniformControlVariates, ManyIterationsComeToTheGradientsAlone) {
     EXPECT_LE(relative_difference(average(g, 5000), expected), 1e-3);
 }
 
-TEST(UniformControlVariates, KeepTheMeanOfThePrimal) {
+TEST(UniformControlVariates, KeepsTheMeanOfThePrimal) {
     const GradientImages g = noisy_images(40, 30);
     const RgbImage image = average(g, 50);
     for (int c = 0; c < 3; ++c)

@@ -1,5 +1,5 @@
-#include "recon/poisson_weighted.h"
-#include "recon/weighted_multigrid.h"
+#include "recon/solvers/poisson_weighted.h"
+#include "recon/solvers/weighted_multigrid.h"
 #include "tests/recon/test_images.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ EdgeWeights weights_by(int width, int height, float (*weight)(int x, int y)) {
     return weights;
 }
 
-// Even ones, and weak patches with a strip that is cut off.
+// Constant weights, and weak patches with a strip of weight 0.
 float even(int, int) {
     return 1;
 }
@@ -40,7 +40,7 @@ double product(const RgbImage& a, const RgbImage& b) {
 
 constexpr std::pair<int, int> sizes[] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {37, 23}, {64, 48}, {67, 33}};
 
-/// Or conjugate gradients would go astray.
+/// Conjugate gradients need such a preconditioner.
 TEST(WeightedMultigrid, IsSymmetricAndPositive) {
     for (const auto weight : {even, patchy})
         for (const auto& [width, height] : sizes)
@@ -58,8 +58,8 @@ TEST(WeightedMultigrid, IsSymmetricAndPositive) {
             }
 }
 
-/// Few steps do, whatever the weights; where the screening is far weaker than by default, a few more would.
-TEST(WeightedMultigrid, FewStepsDo) {
+/// For any weights. Far weaker screening than the default needs more steps.
+TEST(WeightedMultigrid, NeedsFewSteps) {
     constexpr int width = 300, height = 200;
     for (const auto weight : {even, patchy})
         for (const float alpha : {0.02f, 0.08f, 0.5f}) {
@@ -78,8 +78,7 @@ TEST(WeightedMultigrid, FewStepsDo) {
         }
 }
 
-/// Nothing of one use is left for the next.
-TEST(WeightedMultigrid, IsPreparedAnew) {
+TEST(WeightedMultigrid, KeepsNothingOfAnEarlierPreparation) {
     const EdgeWeights first = weights_by(37, 23, patchy), second = weights_by(37, 23, even);
     const RgbImage r = random_image(37, 23, 3);
     RgbImage before(37, 23), after(37, 23);

@@ -1,6 +1,6 @@
 // Groups of shapes and their instances: where rays meet them, what their surface is there, and what they cost.
 
-#include "render/estimator/tracer.h"
+#include "render/paths/tracer.h"
 #include "render/mesh/meshes.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/scene_checksums.h"

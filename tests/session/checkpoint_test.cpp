@@ -41,7 +41,7 @@ bool same_bits(const RgbImage& a, const RgbImage& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0);
 }
 
-/// Everything that a pass sees or changes: the film, the plan of reuse that has learnt from earlier passes,
+/// Everything that a pass sees or changes: the film, LearnedReuse that has learnt from earlier passes,
 /// counts.
 TEST(Checkpoint, ARenderGoesOnWithTheSameBits) {
     const TemporaryFolder folder;

@@ -88,7 +88,7 @@ bool same_bits(const Demodulation& a, const Demodulation& b) {
            same_bits(a.unexplained_variance, b.unexplained_variance);
 }
 
-bool same_bits(const CoefficientPart& a, const CoefficientPart& b) {
+bool same_bits(const BasisComponent& a, const BasisComponent& b) {
     return same_bits(a.projection, b.projection) && same_bits(a.primal, b.primal) && same_bits(a.dx, b.dx) &&
            same_bits(a.dy, b.dy) && same_bits(a.primal_variance, b.primal_variance) &&
            same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance);

@@ -69,7 +69,7 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
         for (std::size_t n = 0; n < std::size(pixels); ++n) {
             const glm::ivec2 p = pixels[n];
             const Inspection seen =
-                inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), pass, p);
+                inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), pass, p);
             sums[n] += seen.shared_radiance();
             const Rgb mean = sums[n] / static_cast<float>(pass + 1), expected = images.radiance()(p.x, p.y);
             EXPECT_LE(glm::distance(mean, expected), 1e-4f * (1e-2f + glm::length(expected)))
@@ -84,7 +84,8 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
     render.pass(pool);
     int joined = 0;
     for (int x = 0; x < size.x; ++x) {
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 8});
+        const Inspection seen =
+            inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {x, 8});
         for (const InspectedSet& set : seen.sets) {
             EXPECT_EQ(set.to(seen.pixel).size(), set.pixels.size());
             EXPECT_EQ(set.from(seen.pixel).size() + 1, set.pixels.size());
@@ -111,7 +112,8 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
     render.pass(pool);
     int seen_steps = 0, stretched = 0;
     for (int x = 0; x < size.x; ++x) {
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 9});
+        const Inspection seen =
+            inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {x, 9});
         for (const InspectedSet& set : seen.sets)
             for (const InspectedShift* s : set.to(seen.pixel)) {
                 if (is_black(s->value) || !s->is_tried)
@@ -146,7 +148,8 @@ TEST_P(Inspected, ShiftedPathsHaveFootprints) {
     render.pass(pool);
     int own = 0, shifted = 0;
     for (int x = 0; x < size.x; ++x) {
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {x, 9});
+        const Inspection seen =
+            inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {x, 9});
         for (const InspectedSet& set : seen.sets)
             for (const InspectedShift* s : set.to(seen.pixel))
                 for (std::size_t i = 0; i < s->steps.size(); ++i) {
@@ -177,7 +180,7 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
     render.pass(pool);
     const RgbImage primal = render.images().radiance();
     const TileInspection tile =
-        inspect_tile(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {12, 7});
+        inspect_tile(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {12, 7});
     EXPECT_TRUE(tile.tile.contains({12, 7}));
     int bases = 0;
     std::map<std::pair<int, int>, std::vector<Rgb>> served; // a pixel that shares nothing has a set for each path
@@ -205,7 +208,7 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
         if (settings.method ==
             Method::gpr) { // where other tiles have it in their sets, too, what it gets is a mean
             const Inspection seen =
-                inspect(*scene, scene->camera(), size, settings, *render.newest_plan(), 0, {p.first, p.second});
+                inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {p.first, p.second});
             EXPECT_TRUE(std::ranges::any_of(
                 seen.sets, [&](const auto& set) { return set.radiance(seen.pixel) == found[0]; }));
             mean = seen.shared_radiance();
@@ -221,21 +224,21 @@ TEST(Inspection, TilesAreThoseOfThePass) {
     settings.tile = 5;
     settings.adapt_tile = false;
     const auto scene = Room().build();
-    const ReusePlan plan(size, settings);
+    const LearnedReuse learned(size, settings);
     for (int pass = 0; pass < 4; ++pass) {
-        const TileGrid grid(size, settings, plan, pass);
-        const PixelRect part = grid.part_at({12, 7});
-        const Inspection seen = inspect(*scene, scene->camera(), size, settings, plan, pass, {12, 7});
+        const TileGrid grid(size, settings, learned, pass);
+        const PixelRect split = grid.split_at({12, 7});
+        const Inspection seen = inspect(*scene, scene->camera(), size, settings, learned, pass, {12, 7});
         ASSERT_EQ(seen.sets.size(), 1u);
-        EXPECT_EQ(seen.sets[0].pixels.size(), static_cast<std::size_t>(part.width() * part.height()));
+        EXPECT_EQ(seen.sets[0].pixels.size(), static_cast<std::size_t>(split.width() * split.height()));
         for (const glm::ivec2 p : seen.sets[0].pixels)
-            EXPECT_TRUE(part.contains(p));
+            EXPECT_TRUE(split.contains(p));
         int parts_with_it = 0;
-        grid.for_each_part({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other, int) {
+        grid.for_each_split({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other, int) {
             if (other.contains({12, 7})) {
                 ++parts_with_it;
-                EXPECT_EQ(other.x0, part.x0);
-                EXPECT_EQ(other.y1, part.y1);
+                EXPECT_EQ(other.x0, split.x0);
+                EXPECT_EQ(other.y1, split.y1);
             }
         });
         EXPECT_EQ(parts_with_it, 1);
@@ -255,7 +258,7 @@ TEST(Inspection, APixelOfGptSharesWithEachNeighbourOfItsBlock) {
     const std::pair<glm::ivec2, std::size_t> pixels[] = {{{30, 10}, 4}, {{23, 23}, 4}, {{24, 10}, 3},
                                                          {{24, 24}, 2}, {{0, 0}, 2},   {{49, 29}, 2}};
     for (const auto& [p, sets] : pixels) {
-        const Inspection seen = inspect(*scene, scene->camera(), image, settings, *render.newest_plan(), 0, p);
+        const Inspection seen = inspect(*scene, scene->camera(), image, settings, *render.newest_learned(), 0, p);
         EXPECT_EQ(seen.sets.size(), sets) << p.x << ',' << p.y;
         EXPECT_LE(glm::distance(seen.shared_radiance(), primal(p.x, p.y)),
                   1e-5f * (1e-2f + glm::length(primal(p.x, p.y))));

@@ -64,7 +64,7 @@ TEST_F(AskedMemory, OfAReconstruction) {
     Reconstructor reconstructor;
     const std::string text =
         refusal(10 << 20, [&] { reconstruct_if_it_fits(reconstructor, images, {Norm::weighted}); });
-    EXPECT_EQ(text.find("640x480 pixels reconstructed by weighted need 33 MiB of memory, and "), 0u) << text;
+    EXPECT_EQ(text.find("640x480 pixels reconstructed by weighted need 38 MiB of memory, and "), 0u) << text;
     EXPECT_EQ(reconstruct_if_it_fits(reconstructor, images, {Norm::weighted}).image.width(), 640);
 }
 

@@ -1,5 +1,5 @@
 // Path differentials against paths of which one random number is moved by little.
-#include "render/estimator/base_path.h"
+#include "render/paths/base_path.h"
 #include "render/inspect/path_differentials.h"
 #include "tests/support/rooms.h"
 

@@ -1,4 +1,4 @@
-#include "render/session/session_pane.h"
+#include "render/session/previews.h"
 
 #include <gtest/gtest.h>
 

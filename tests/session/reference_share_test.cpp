@@ -165,7 +165,7 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
     EXPECT_THAT(changed([&] { recipe.spp = 48; }), HasSubstr("spp 48, not 24"));
     EXPECT_THAT(changed([&] { recipe.settings.seed = 5; }), HasSubstr("seed 5, not 1001"));
     EXPECT_THAT(changed([&] { recipe.settings.max_depth = 2; }), HasSubstr("max_depth 2, not 3"));
-    EXPECT_THAT(changed([&] { recipe.norms = {Norm::l2}; }), HasSubstr("norms [\"l2\"], not"));
+    EXPECT_THAT(changed([&] { recipe.reconstruction.norm = Norm::none; }), HasSubstr("reconstruction {"));
     EXPECT_THAT(changed([&] { subject.scene = all_test_scenes().back().scene; }), HasSubstr("another scene"));
     fs::resize_file(three, fs::file_size(three) - 1);
     EXPECT_THAT(refusal({one, two, three}), HasSubstr("3-of-3.share: is damaged"));

@@ -84,7 +84,7 @@ void expect_found_again(RenderSettings settings, glm::ivec2 small) {
             const glm::ivec2 pixel(sample.x, sample.y);
             const Inspection seen = inspect(
                 *scene, scene->camera(), small, settings,
-                replay_plan(*scene, scene->camera(), small, settings, sample.pass, pixel), sample.pass, pixel);
+                replay_learning(*scene, scene->camera(), small, settings, sample.pass, pixel), sample.pass, pixel);
             EXPECT_EQ(seen.is_refused, std::ranges::find(first, sample) != first.end())
                 << sample.pass << ": " << sample.x << ", " << sample.y;
         }

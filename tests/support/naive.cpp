@@ -1,6 +1,6 @@
 #include "tests/support/naive.h"
 
-#include "render/estimator/tracer.h"
+#include "render/paths/tracer.h"
 
 #include <array>
 #include <limits>

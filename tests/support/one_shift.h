@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/estimator/shift.h"
+#include "render/paths/shift.h"
 
 namespace tessera::test {
 

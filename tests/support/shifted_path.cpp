@@ -1,6 +1,6 @@
 #include "tests/support/shifted_path.h"
 
-#include "render/estimator/shift.h"
+#include "render/paths/shift.h"
 
 #include <cmath>
 

@@ -54,12 +54,19 @@ double normal_limit(double probability) {
     return high;
 }
 
+double sharing_fraction(const ReuseMaps& maps) {
+    const auto shares = std::ranges::count_if(maps.reuse_set_size, [](float size) { return size > 1; });
+    return maps.reuse_set_size.empty() ? 0 : static_cast<double>(shares) / static_cast<double>(maps.reuse_set_size.size());
+}
+
 } // namespace
 
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
-                       int runs, int passes) {
+                       int runs, int passes, std::span<const Norm> norms) {
     ThreadPool pool(2);
-    Moments primal, very_direct, dx, dy, coefficient, picture;
+    Moments primal, very_direct, dx, dy, coefficient;
+    std::map<Norm, Moments> pictures;
+    MethodMeasured measured;
     Reconstructor reconstructor;
     for (int run = 0; run < runs; ++run) {
         RenderSettings s = settings;
@@ -75,11 +82,22 @@ MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, cons
                 coefficient.add(images.primal);
             dx.add(images.dx);
             dy.add(images.dy);
-            picture.add(reconstructor.reconstruct(images, {.norm = Norm::l2, .spikes = Spikes::off}).image);
         }
+        for (const Norm norm : norms)
+            if (applied(norm, images.has_gradients()) == norm &&
+                guarantee_of(norm).convergence == Convergence::unbiased)
+                pictures[norm].add(reconstructor.reconstruct(images, {.norm = norm}).image);
+        if (run + 1 == runs)
+            measured.sharing = sharing_fraction(render.reuse_maps());
     }
-    return {primal.result(runs), very_direct.result(runs), dx.result(runs),
-            dy.result(runs),     coefficient.result(runs), picture.result(runs)};
+    measured.primal = primal.result(runs);
+    measured.very_direct = very_direct.result(runs);
+    measured.dx = dx.result(runs);
+    measured.dy = dy.result(runs);
+    measured.coefficient = coefficient.result(runs);
+    for (const auto& [norm, moments] : pictures)
+        measured.pictures[norm] = moments.result(runs);
+    return measured;
 }
 
 ZResult z_test(const Measured& a, const Measured& b) {

@@ -1,23 +1,30 @@
 #pragma once
 
+#include "recon/norm.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings.h"
 #include "tests/support/naive.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace tessera::test {
 
-/// What a method measured, from independent runs with seeds of their own.
+/// What a method measured, in independent runs with seeds of their own.
 struct MethodMeasured {
     Measured primal, very_direct, dx, dy;
     Measured coefficient; ///< what dx and dy are the gradients of; empty: `primal`
-    Measured picture;     ///< by l2, very direct light included; empty without gradients
+    /// By each reconstruction that guarantee_of() calls unbiased, with directly visible emission. Without
+    /// gradients, `none` alone.
+    std::map<Norm, Measured> pictures;
+    double sharing = 0; ///< fraction of the pixels whose sampling sets have more than one pixel; of the last run
 };
+/// @param norms  the reconstructions whose pictures are measured, as far as guarantee_of() calls them unbiased
 MethodMeasured measure(std::shared_ptr<const Scene> scene, glm::ivec2 size, const RenderSettings& settings,
-                       int runs, int passes);
+                       int runs, int passes, std::span<const Norm> norms = all_norms);
 
 /// How far two measurements lie apart, in units of their common standard error.
 struct ZResult {

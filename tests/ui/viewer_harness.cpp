@@ -50,7 +50,7 @@ void ViewerHarness::frame(float seconds) {
     gui.begin_frame(glm::vec2(context.size()), 1, seconds);
     viewer.draw_frame();
     gui.end_frame();
-    saver.after_frame(viewer, context.size());
+    saver.after_frame(viewer.state(), viewer.saver(), context.size());
 }
 
 void ViewerHarness::frames(int count) {
@@ -76,7 +76,7 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
 }
 
 void ViewerHarness::finish_saving() {
-    wait_until([&] { return !state().wishes.saves.has_any() && !viewer.saving(); });
+    wait_until([&] { return !state().wishes.saves.has_any() && !viewer.saver().running(); });
 }
 
 void ViewerHarness::load_scene() {
@@ -88,12 +88,12 @@ void ViewerHarness::load_scene() {
 }
 
 void ViewerHarness::rest(int spp) {
-    state().pace.spp_limit = spp;
+    state().rendering.pace.spp_limit = spp;
     load_scene();
     wait_until([&] { return viewer.settled(spp); });
     // Errors come a little later, where there are any, and stand in the lines below the pictures.
     const auto is_measured = [&](const PaneState& p) {
-        const PaneChart& chart = state().chart_of(p);
+        const PaneChart& chart = state().charts.of(p);
         return chart.generation == p.generation && chart.reference == state().companions.reference &&
                !chart.curves.empty() && chart.curves.back().points().back().spp == spp;
     };

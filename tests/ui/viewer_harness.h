@@ -67,7 +67,7 @@ public:
     void save(const std::string& file) const; ///< to look at, if TESSERA_TEST_PICTURES names a folder
 
     ViewerState& state() { return viewer.state(); }
-    const PaneState& pane(int i) { return viewer.state().panes[static_cast<std::size_t>(i)]; }
+    const PaneState& pane(int i) { return viewer.state().panes[i]; }
 
     OsmesaContext context;
     Gui gui;

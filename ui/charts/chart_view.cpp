@@ -183,13 +183,13 @@ std::string error_lines(const ViewerState& state) {
     std::string text = "pane,method,norm,alpha,spp,seconds,relMSE,standard_error,efficiency,"
                        "not_finite,estimated\n";
     for (std::size_t i = 0; i < state.panes.size(); ++i)
-        for (const ErrorCurve& curve : state.chart_of(state.panes[i]).curves)
+        for (const ErrorCurve& curve : state.charts.of(state.panes[i]).curves)
             for (const ErrorPoint& p : curve.points())
                 text += fmt::format("{},{},{},{},{:.6g},{:.7g},{},{:.7g},{},{}\n", i + 1, short_name(curve.method),
                                     reconstruction_columns(curve.reconstruction), p.spp, p.seconds, p.error,
                                     std::isfinite(p.standard_error) ? fmt::format("{:.3g}", p.standard_error) : "",
                                     efficiency_of(p), p.not_finite,
-                                    static_cast<int>(!state.chart_of(state.panes[i]).reference));
+                                    static_cast<int>(!state.charts.of(state.panes[i]).reference));
     return text;
 }
 
@@ -198,7 +198,7 @@ std::string shift_lines(const ViewerState& state) {
     for (int i = 0; i < shift_outcome_count; ++i)
         header += fmt::format(",{}", to_string(static_cast<ShiftOutcome>(i)));
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
-        for (const ShiftPoint& p : state.chart_of(state.panes[i]).shifts.points()) {
+        for (const ShiftPoint& p : state.charts.of(state.panes[i]).shifts.points()) {
             text += fmt::format("{},{},{},{:.6g}", i + 1, short_name(p.method), p.spp, p.seconds);
             for (double share : p.shares)
                 text += fmt::format(",{:.6g}", share);
@@ -209,13 +209,12 @@ std::string shift_lines(const ViewerState& state) {
 }
 
 std::string histogram_lines(const ViewerState& state) {
-    const auto& histogram = state.chart_of(state.active()).histogram;
+    const auto& histogram = state.charts.of(state.active()).histogram;
     if (!histogram)
         return "";
     std::string text = "\nluminance,pixels\n";
     for (int bin = 0; bin < Histogram::bin_count; ++bin)
-        text +=
-            fmt::format("{:.6g},{}\n", Histogram::low_end(bin), histogram->bins[static_cast<std::size_t>(bin)]);
+        text += fmt::format("{:.6g},{}\n", Histogram::low_end(bin), histogram->bins[bin]);
     return text;
 }
 

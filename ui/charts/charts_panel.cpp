@@ -108,8 +108,8 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
         state.companions.reference
             ? "References made here, or by tessera reference, have two halves that are independent of each "
               "other: errors against both are free of their noise."
-            : "Without a reference: what two halves of the samples disagree on says how far these are from "
-              "the truth, spikes in full. Reconstructions err less, and in other ways, which only a "
+            : "Without a reference: what two halves of the samples disagree on says how far raw samples are from "
+              "the truth. Reconstructions err less, and in other ways, which only a "
               "reference shows. Edges of lamps that the camera sees are not in it. There is no estimate "
               "until it is about known how bright the picture is.");
 }
@@ -174,7 +174,7 @@ void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposu
         std::max<std::size_t>(*std::max_element(histogram.bins.begin(), histogram.bins.end()), 1));
     const float step = where.size().x / Histogram::bin_count;
     for (int bin = 0; bin < Histogram::bin_count; ++bin) {
-        const float share = std::sqrt(static_cast<float>(histogram.bins[static_cast<std::size_t>(bin)]) / most);
+        const float share = std::sqrt(static_cast<float>(histogram.bins[bin]) / most);
         const float left = where.min.x + step * static_cast<float>(bin);
         list.AddRectFilled({left, glm::mix(where.max.y, where.min.y, share)}, {left + step, where.max.y},
                            colours::dim_text);
@@ -195,10 +195,10 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
         "root scale. The bright line is what the exposure makes white.");
     ImGui::GetWindowDrawList()->AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y},
                                               IM_COL32(128, 128, 128, 25));
-    const auto& histogram = state.chart_of(state.active()).histogram;
+    const auto& histogram = state.charts.of(state.active()).histogram;
     if (!histogram)
         return;
-    draw_bins(where, *histogram, state.tone.exposure);
+    draw_bins(where, *histogram, state.display.tone.exposure);
     ImGui::TextDisabled("%zu black   %zu negative   %zu not finite", histogram->black, histogram->negative,
                         histogram->not_finite);
 }
@@ -212,7 +212,7 @@ void draw_choices(Controls& controls, ViewerState& state) {
     controls.bare_choice("charts.kind", kinds[static_cast<std::size_t>(kind)].label.c_str(), kinds, kind, width,
                          "Which chart is shown.");
     ImGui::SameLine();
-    controls.bare_choice("charts.axis", axes[static_cast<std::size_t>(axis)].label.c_str(), axes, axis, -FLT_MIN,
+    controls.bare_choice("charts.axis", axes[axis].label.c_str(), axes, axis, -FLT_MIN,
                          "What it is shown against.");
     state.layout.chart_kind = static_cast<ChartKind>(kind);
     state.layout.charts_by_spp = axis == 1;

@@ -28,7 +28,7 @@ std::string method_name(std::size_t pane, Method method) {
 }
 
 const PassHistory<ShiftPoint>& shifts_of(const ViewerState& state, std::size_t pane) {
-    return state.chart_of(state.panes[pane]).shifts;
+    return state.charts.of(state.panes[pane]).shifts;
 }
 
 template <class Point>
@@ -48,7 +48,7 @@ ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scal
 /// The lines of a pane's errors to the reference there is, or their estimates, without those that are of another.
 const std::vector<ErrorCurve>& curves_of(const ViewerState& state, std::size_t pane) {
     static const std::vector<ErrorCurve> none;
-    const PaneChart& chart = state.chart_of(state.panes[pane]);
+    const PaneChart& chart = state.charts.of(state.panes[pane]);
     return chart.reference == state.companions.reference ? chart.curves : none;
 }
 
@@ -187,10 +187,11 @@ std::vector<std::size_t> shifting_panes(const ViewerState& state) {
 std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
     std::vector<ShiftOutcome> seen;
     for (int i = 0; i < shift_outcome_count; ++i) {
-        const bool any = std::any_of(state.charts.begin(), state.charts.end(), [&](const PaneChart& chart) {
-            const auto& points = chart.shifts.points();
-            return !points.empty() && points.back().shares[static_cast<std::size_t>(i)] > 0;
-        });
+        const bool any =
+            std::any_of(state.charts.by_slot.begin(), state.charts.by_slot.end(), [&](const PaneChart& chart) {
+                const auto& points = chart.shifts.points();
+                return !points.empty() && points.back().shares[i] > 0;
+            });
         if (any)
             seen.push_back(static_cast<ShiftOutcome>(i));
     }
@@ -199,7 +200,7 @@ std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
 
 Chart viewer_chart(const ViewerState& state) {
     const glm::ivec2 size = state.request_size();
-    Chart chart{fmt::format("{}: {}x{}", state.scene_name, size.x, size.y), {}};
+    Chart chart{fmt::format("{}: {}x{}", state.scene_info.name, size.x, size.y), {}};
     if (state.layout.chart_kind == ChartKind::shifts) {
         for (std::size_t pane : shifting_panes(state))
             chart.plots.push_back(shift_plot(state, pane));
@@ -223,13 +224,13 @@ std::vector<ImU32> line_colours(const ViewerState& state) {
 ChartPlot histogram_plot(const ViewerState& state) {
     ChartPlot plot{"luminance", "pixels", Scale::log, Scale::linear, {}, {}};
     const auto pane = static_cast<std::size_t>(state.active_pane);
-    const auto& histogram = state.chart_of(state.panes[pane]).histogram;
+    const auto& histogram = state.charts.of(state.panes[pane]).histogram;
     if (!histogram)
         return plot;
     ChartSeries series{"pixels of " + pane_name(state, pane), {}, false, true};
     for (int bin = 0; bin < Histogram::bin_count; ++bin)
-        series.points.push_back({static_cast<double>(Histogram::low_end(bin)),
-                                 static_cast<double>(histogram->bins[static_cast<std::size_t>(bin)]), 0});
+        series.points.push_back(
+            {static_cast<double>(Histogram::low_end(bin)), static_cast<double>(histogram->bins[bin]), 0});
     plot.series.push_back(std::move(series));
     return plot;
 }

@@ -79,7 +79,7 @@ void Controls::label(const char* text) const {
 bool Controls::choice(const char* id, const char* label_text, std::span<const ChoiceItem> items, int& index,
                       const char* help) {
     label(label_text);
-    const std::string& shown = items[static_cast<std::size_t>(index)].label;
+    const std::string& shown = items[index].label;
     return bare_choice(id, shown.c_str(), items, index, -FLT_MIN, help);
 }
 

@@ -48,7 +48,7 @@ void SetDrawing::outline(PixelRect rect, ImU32 colour, float width) const {
 void SetDrawing::outline(const InspectedSet& set, bool border, ImU32 colour, float width) const {
     const auto belongs = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
-        return m >= 0 && (set.is_border[static_cast<std::size_t>(m)] != 0) == border;
+        return m >= 0 && (set.is_border[m] != 0) == border;
     };
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (glm::ivec2 p : set.pixels) {

@@ -136,7 +136,7 @@ void draw_step(const InspectedStep& y, bool own) {
 const InspectedShift* chosen_shift(const Inspector& inspector) {
     const std::vector<const InspectedShift*> shifts = shown_shifts(inspector);
     const bool is_there = inspector.chosen >= 0 && inspector.chosen < static_cast<int>(shifts.size());
-    return is_there ? shifts[static_cast<std::size_t>(inspector.chosen)] : nullptr;
+    return is_there ? shifts[inspector.chosen] : nullptr;
 }
 
 std::string outcome_text(const InspectedShift& s) {

@@ -64,7 +64,7 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
         return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({clip.min.x, clip.min.y}, {clip.max.x, clip.max.y}, true);
-    const PaneState& own = state.panes[static_cast<std::size_t>(pane)];
+    const PaneState& own = state.panes[pane];
     const bool is_shown =
         inspector.inspection && inspector.slot == own.slot && inspector.generation == own.generation;
     if (is_shown) {

@@ -21,12 +21,12 @@ constexpr ImU32 base_colour = IM_COL32(255, 255, 255, 255), skipped_colour = IM_
 class SlowDrawing {
 public:
     SlowDrawing(const PictureFrame& frame, const ViewerState& state)
-        : slow_(state.slow_motion), tone_(state.tone), size_(state.request_size()), drawing_(frame, size_),
+        : slow_(state.slow_motion), tone_(state.display.tone), size_(state.request_size()), drawing_(frame, size_),
           place_(slow_.place()), line_(std::max(ImGui::GetFontSize() / 8, 1.0f)) {}
 
     void draw() const {
         for (int i = 0; i < place_.set; ++i)
-            fill(slow_.tile->sets[static_cast<std::size_t>(i)], -1);
+            fill(slow_.tile->sets[i], -1);
         // Whole before what is on its way, which may arrive in full.
         const bool has_arrived = slow_.arrived >= 1 || slow_.current >= slow_.tile->base_count();
         fill(set(), place_.base + (has_arrived ? 1 : 0));
@@ -45,12 +45,11 @@ private:
     void fill(const InspectedSet& of, int bases) const {
         const int count = bases < 0 ? of.size() : bases;
         for (int m = 0; m < of.size(); ++m) {
-            const bool border = of.is_border[static_cast<std::size_t>(m)] != 0;
+            const bool border = of.is_border[m] != 0;
             if (border && bases < 0)
                 continue; // it is another tile's
             const Rgb c = displayed(of.radiance(m, count), tone_) * (border ? 0.45f : 1.0f);
-            drawing_.fill(of.pixels[static_cast<std::size_t>(m)],
-                          ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
+            drawing_.fill(of.pixels[m], ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
         }
     }
 
@@ -90,7 +89,7 @@ private:
 
     void mark_base() const {
         const ReuseDecision& reuse = set().base(place_.base).reuse;
-        const glm::ivec2 pixel = set().pixels[static_cast<std::size_t>(place_.base)];
+        const glm::ivec2 pixel = set().pixels[place_.base];
         const ImU32 colour = reuse.survives()  ? base_colour
                              : reuse.is_dark() ? outcome_colour(shift(0))
                                                : skipped_colour;
@@ -157,14 +156,14 @@ bool has_slow_motion(const ViewerState& state) {
 }
 
 bool shows_slow_motion(int pane, const ViewerState& state) {
-    return has_slow_motion(state) && state.panes[static_cast<std::size_t>(pane)].slot == state.slow_motion.slot;
+    return has_slow_motion(state) && state.panes[pane].slot == state.slow_motion.slot;
 }
 
 std::vector<float> slow_motion_luminances(const SlowMotion& slow) {
     std::vector<float> luminances;
     for (const InspectedSet& set : slow.tile->sets)
         for (int m = 0; m < set.size(); ++m)
-            if (!set.is_border[static_cast<std::size_t>(m)]) // those are another tile's
+            if (!set.is_border[m]) // those are another tile's
                 luminances.push_back(luminance(set.radiance(m, set.size())));
     return luminances;
 }

@@ -75,7 +75,7 @@ std::string base_text(const SlowMotion& slow) {
     const InspectedBase& base = set.base(k);
     const ReuseDecision& reuse = base.reuse;
     const std::string text = "Base path " + std::to_string(k + 1) + " of " + std::to_string(set.size()) +
-                             ", pixel (" + short_text(set.pixels[static_cast<std::size_t>(k)]) + "):  ";
+                             ", pixel (" + short_text(set.pixels[k]) + "):  ";
     if (reuse.is_dark())
         return text +
                (is_black(base.radiance) ? "dark, there is nothing to reuse" : "carries nothing to be shared");

@@ -10,11 +10,10 @@ namespace tessera {
 
 namespace {
 
-/// What errors of a pane are measured of without a reference: the samples as they are.
+/// Returns the settings under which the error of a pane is estimated without a reference: raw samples.
 ReconstructionSettings samples_alone() {
     ReconstructionSettings settings;
     settings.norm = Norm::none;
-    settings.spikes = Spikes::off;
     return settings;
 }
 
@@ -41,10 +40,10 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
     for (std::size_t slot = 0; slot < jobs_.size(); ++slot)
         take(state, slot);
     const bool wants_histograms = state.layout.shows_charts() || state.wishes.saves.has(SaveKind::charts);
-    state.histograms_due = false;
+    state.charts.histograms_due = false;
     for (const PaneState& pane : state.panes) {
-        Job& job = jobs_[static_cast<std::size_t>(pane.slot)];
-        PaneChart& chart = state.chart_of(pane);
+        Job& job = jobs_[pane.slot];
+        PaneChart& chart = state.charts.of(pane);
         add_shifts(pane, chart);
         // It is another picture's, or will be: passes go on while nobody looks.
         if (chart.histogram && !(wants_histograms && chart.histogram_generation == pane.generation)) {
@@ -56,7 +55,7 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
             !wants_histograms && !state.companions.reference && is_close(chart, pane.snapshot.get());
         if (!job.running() && !is_told)
             ask(job, pane, state.companions.reference, wants_histograms, wake);
-        state.histograms_due |= wants_histograms && job.running() && !chart.histogram;
+        state.charts.histograms_due |= wants_histograms && job.running() && !chart.histogram;
     }
 }
 
@@ -148,7 +147,7 @@ void ChartJob::take(ViewerState& state, std::size_t slot) {
     const Request& request = outcome->request;
     if (pane->generation != request.generation)
         return; // the pane shows something else by now
-    PaneChart& chart = state.chart_of(*pane);
+    PaneChart& chart = state.charts.of(*pane);
     if (chart.generation != request.generation || chart.reference != request.reference)
         chart.curves.clear();
     chart.generation = request.generation;

@@ -25,9 +25,9 @@ std::string outside_text(glm::ivec2 pixel, glm::ivec2 size) {
                        size.x, size.y);
 }
 
-/// The plan of the pass. To learn that of a late pass again takes a while.
-ReusePlan plan_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
-    return o.plan ? *o.plan : replay_plan(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
+/// LearnedReuse of the pass. To learn that of a late pass again takes a while.
+LearnedReuse learned_by(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
+    return o.learned ? *o.learned : replay_learning(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
 }
 
 } // namespace
@@ -89,7 +89,7 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
         return nullptr;
     const glm::ivec2 size(s->images->primal.width(), s->images->primal.height());
     return std::make_shared<const PassOrigin>(
-        PassOrigin{state.scene, s->camera, size, s->settings, s->plan, s->generation});
+        PassOrigin{state.scene, s->camera, size, s->settings, s->learned, s->generation});
 }
 
 /// The pass to look at: the newest, where none is given, which then stays unless the inspector follows.
@@ -129,11 +129,11 @@ void InspectionJob::ask(const std::shared_ptr<const PassOrigin>& origin, const R
         [origin, pixel, pass = request.pass](std::stop_token stop) {
             work_in_background();
             const PassOrigin& o = *origin;
-            const ReusePlan plan = plan_of(o, pass, pixel, stop);
+            const LearnedReuse learned = learned_by(o, pass, pixel, stop);
             if (stop.stop_requested())
                 return Found{};
             return Found{std::make_shared<const Inspection>(
-                             inspect(*o.scene, o.camera, o.size, o.settings, plan, pass, pixel)),
+                             inspect(*o.scene, o.camera, o.size, o.settings, learned, pass, pixel)),
                          o.scene->radius()};
         },
         wake);
@@ -151,7 +151,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
     }
     if (!slow.active) {
         if (slow.view_before) // the picture goes back to where it was
-            state.view = *std::exchange(slow.view_before, std::nullopt);
+            state.display.view = *std::exchange(slow.view_before, std::nullopt);
         job_.cancel();
         slow.tile = nullptr;
         return;
@@ -195,7 +195,7 @@ void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
         {snapshot->generation, *slow.sample},
         [scene = state.scene, snapshot, size, pixel = slow.sample->pixel](std::stop_token) {
             return std::make_shared<const TileInspection>(inspect_tile(
-                *scene, snapshot->camera, size, snapshot->settings, *snapshot->plan, snapshot->spp - 1, pixel));
+                *scene, snapshot->camera, size, snapshot->settings, *snapshot->learned, snapshot->spp - 1, pixel));
         },
         wake);
 }
@@ -271,8 +271,7 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
         state.space.surroundings = nullptr;
         state.space.fits = true;
     }
-    job_.ask(
-        view, [scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
+    job_.ask(view, [scene, view](std::stop_token stop) { return find(*scene, view, stop); }, wake);
 }
 
 } // namespace tessera

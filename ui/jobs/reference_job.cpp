@@ -109,7 +109,7 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     progress.seconds_left = std::numeric_limits<double>::infinity();
     const Order order{file, state.scene, state.camera.camera(), recipe.size,
                       std::make_shared<Watch>(progress, wake)};
-    const PictureSubject subject{state.scene_source, order.scene, order.camera};
+    const PictureSubject subject{state.scene_info.source, order.scene, order.camera};
     job_.start(
         order,
         [=, watch = order.watch, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {

@@ -94,7 +94,7 @@ void FileDialog::begin(const ViewerState& state) {
     folder_.clear();
     if (saves())
         return begin_saving(state);
-    const fs::path& scene = state.scene_source.file;
+    const fs::path& scene = state.scene_info.source.file;
     const bool beside_scene = purpose_ == FilePurpose::scene && !scene.empty();
     std::error_code ignored;
     set_text(with_slash(beside_scene ? fs::absolute(scene, ignored).parent_path() : fs::current_path(ignored)));

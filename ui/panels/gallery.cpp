@@ -116,8 +116,8 @@ void Gallery::take_entries(ViewerState& state, const Sources& sources) {
         scenes_.fill(outcome->result ? std::move(outcome->result->entries) : std::vector<GalleryEntry>());
     }
     recent_job_.ask(
-        {state.recent_scenes, sources.thumbnails_stored},
-        [scenes = state.recent_scenes, preferences = sources.preferences](const std::stop_token&) {
+        {state.scene_info.recent, sources.thumbnails_stored},
+        [scenes = state.scene_info.recent, preferences = sources.preferences](const std::stop_token&) {
             return recent_entries(scenes, preferences);
         },
         sources.wake);

@@ -1,7 +1,7 @@
 #include "ui/gl/theme.h"
+#include "ui/panels/found_actions.h"
 #include "ui/panels/panels.h"
 #include "ui/state/actions.h"
-#include "ui/state/found_actions.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -121,13 +121,13 @@ void JobsPanel::draw_charts(Controls& controls, const FollowedFolder& seen, glm:
         std::vector<ChoiceItem> items;
         for (std::size_t i = 0; i < seen.charts.size(); ++i)
             items.push_back({std::to_string(i), seen.charts[i].title, "The chart of this scene."});
-        const std::string shown = items[static_cast<std::size_t>(chart_)].label;
+        const std::string shown = items[chart_].label;
         controls.bare_choice("jobs.chart", shown.c_str(), items, chart_, -FLT_MIN,
                              "Which scene's chart is shown.");
     } else {
         ImGui::TextDisabled("%s", seen.charts.front().title.c_str());
     }
-    const Chart& chart = seen.charts[static_cast<std::size_t>(chart_)];
+    const Chart& chart = seen.charts[chart_];
     const auto plots = static_cast<float>(chart.plots.size());
     const float height = std::max(room.y - 4 * ImGui::GetTextLineHeightWithSpacing(), 8 * ImGui::GetFontSize());
     const ImVec2 min = ImGui::GetCursorScreenPos();
@@ -155,7 +155,7 @@ void JobsPanel::draw_list(Controls& controls, const FollowedFolder& seen) {
     clipper.Begin(static_cast<int>(shown.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_row(*shown[static_cast<std::size_t>(i)]);
+            draw_row(*shown[i]);
     ImGui::EndTable();
 }
 

@@ -16,9 +16,9 @@ void draw_no_scene(const ScreenRect& where, Controls& controls, ViewerState& sta
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, font * 0.5f);
     if (ImGui::Begin("No scene", nullptr, overlay_flags)) {
         heading("There is no scene to render");
-        ImGui::PushStyleColor(ImGuiCol_Text, state.scene_problem.is_error ? colours::error : colours::text);
+        ImGui::PushStyleColor(ImGuiCol_Text, state.scene_info.problem.is_error ? colours::error : colours::text);
         ImGui::PushFont(mono_font()); // messages point into lines of files
-        ImGui::TextWrapped("%s", state.scene_problem.text.c_str());
+        ImGui::TextWrapped("%s", state.scene_info.problem.text.c_str());
         ImGui::PopFont();
         ImGui::PopStyleColor();
         controls.place("no_scene.why", "Why the scene could not be loaded.");

@@ -1,7 +1,7 @@
 #include "ui/gl/theme.h"
+#include "ui/panels/found_actions.h"
 #include "ui/panels/panels.h"
 #include "ui/state/actions.h"
-#include "ui/state/found_actions.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -50,10 +50,10 @@ void CommandPalette::draw_list(Controls& controls, ViewerState& state) {
     const int count = static_cast<int>(found.size());
     chosen_ = std::clamp(chosen_ + std::exchange(state.layout.palette_steps, 0), 0, std::max(count - 1, 0));
     const bool takes = std::exchange(state.layout.palette_takes, false);
-    const Action* taken = takes && count > 0 ? found[static_cast<std::size_t>(chosen_)] : nullptr;
+    const Action* taken = takes && count > 0 ? found[chosen_] : nullptr;
     ImGui::BeginChild("commands");
     for (int i = 0; i < count; ++i) {
-        const Action& action = *found[static_cast<std::size_t>(i)];
+        const Action& action = *found[i];
         const std::string label = std::string(action.menu) + "  >  " + action.name;
         if (ImGui::Selectable(label.c_str(), i == chosen_))
             taken = &action;

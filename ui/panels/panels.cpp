@@ -19,10 +19,10 @@ namespace tessera {
 namespace {
 
 void draw_recent_scenes(Controls& controls, ViewerState& state) {
-    if (!state.recent_scenes.empty())
+    if (!state.scene_info.recent.empty())
         ImGui::Separator();
-    for (std::size_t i = 0; i < state.recent_scenes.size(); ++i) {
-        const std::string& file = state.recent_scenes[i];
+    for (std::size_t i = 0; i < state.scene_info.recent.size(); ++i) {
+        const std::string& file = state.scene_info.recent[i];
         const std::filesystem::path path(file);
         const std::string name = (path.parent_path().filename() / path.filename()).string();
         if (ImGui::MenuItem((name + "##recent" + std::to_string(i)).c_str()))
@@ -91,12 +91,12 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float button_width = count > 0 ? ImGui::CalcTextSize(button.c_str()).x + 3 * spacing : 0;
     const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - button_width - 2 * spacing;
-    const std::string name = shortened(state.scene_name, room);
+    const std::string name = shortened(state.scene_info.name, room);
     const float x = ImGui::GetCursorPosX() + room - ImGui::CalcTextSize(name.c_str()).x;
     if (x > ImGui::GetCursorPosX())
         ImGui::SetCursorPosX(x);
     ImGui::TextDisabled("%s", name.c_str());
-    controls.place("scene_name", ("The scene on show: " + state.scene_name).c_str());
+    controls.place("scene_name", ("The scene on show: " + state.scene_info.name).c_str());
     if (count == 0)
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// "veach-ajar-gpr-dx": what it is of.
 std::string stem_of(const ViewerState& state, SaveKind kind) {
-    const fs::path& scene = state.scene_source.file;
+    const fs::path& scene = state.scene_info.source.file;
     const bool has_folder_name = scene.stem() == "scene" && scene.has_parent_path(); // as most are called
     // The current folder may be gone.
     std::error_code ignored;

@@ -3,9 +3,9 @@
 #include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
 #include "ui/panels/panels.h"
+#include "ui/settings/presets.h"
 #include "ui/settings/settings_file.h"
 #include "ui/state/file_names.h"
-#include "ui/state/presets.h"
 #include "ui/state/words.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ std::optional<std::string> usual_value(const Setting& setting, const ViewerState
 /// alpha, so that what follows does not jump between norms.
 bool draw_settings(Controls& controls, const ViewerState& state, const std::vector<Setting>& settings,
                    bool essential) {
-    const Preset& preset = presets()[static_cast<std::size_t>(state.preset)];
+    const Preset& preset = presets()[state.preset];
     bool changed = false;
     for (const Setting& setting : settings) {
         if (is_essential(setting) != essential || (!setting.matters && setting.id != "alpha"))
@@ -105,13 +105,13 @@ std::vector<Setting> render_settings(ViewerState& state) {
 }
 
 void draw_size_settings(Controls& controls, ViewerState& state) {
-    draw_setting(controls, size_base_setting(state.size.base));
-    if (state.size.base == SizeChoice::Base::custom)
-        draw_setting(controls, custom_size_setting(state.size.custom));
-    float percent = state.size.scale * 100.0f;
+    draw_setting(controls, size_base_setting(state.rendering.size.base));
+    if (state.rendering.size.base == SizeChoice::Base::custom)
+        draw_setting(controls, custom_size_setting(state.rendering.size.custom));
+    float percent = state.rendering.size.scale * 100.0f;
     if (controls.slider("scale", "Scale", percent, 100 * ranges::scale.low(), 100 * ranges::scale.high(),
                         "%.0f %%", "Of width and height. Less is quicker."))
-        state.size.scale = percent / 100.0f;
+        state.rendering.size.scale = percent / 100.0f;
     const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
     ImGui::TextDisabled("%d x %d pixels a pane", size.x, size.y);
     controls.place(
@@ -138,16 +138,17 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
 void draw_run_buttons(Controls& controls, ViewerState& state) {
     const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
     const std::string restart = std::string(icons().restart) + (*icons().restart ? "  " : "") + "Restart";
-    const char* icon = state.paused ? icons().play : icons().pause;
-    const std::string pause = std::string(icon) + (*icon ? "  " : "") + (state.paused ? "Resume" : "Pause");
+    const char* icon = state.rendering.paused ? icons().play : icons().pause;
+    const std::string pause =
+        std::string(icon) + (*icon ? "  " : "") + (state.rendering.paused ? "Resume" : "Pause");
     if (controls.button("restart", restart.c_str(), "Renders all panes anew from the first sample (R).", width))
         state.wishes.restart = true;
     ImGui::SameLine();
     if (controls.button("pause", pause.c_str(), "Stops and resumes the rendering (Space).", width))
-        state.paused = !state.paused;
+        state.rendering.paused = !state.rendering.paused;
     ImGui::SameLine();
     if (controls.button("step", "Step", "Pauses, and adds one sample a pixel in every pane (.).", width)) {
-        state.paused = true;
+        state.rendering.paused = true;
         ++state.wishes.steps;
     }
 }
@@ -166,7 +167,7 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
         if (i == with)
             chosen = static_cast<int>(panes.size());
         panes.push_back(i);
-        const PaneState& other = state.panes[static_cast<std::size_t>(i)];
+        const PaneState& other = state.panes[i];
         const std::string pane = "pane " + std::to_string(i + 1) + ", ";
         others.push_back(
             {std::to_string(i + 1), pane + std::string(paper_name(other.settings.render.method)),
@@ -178,7 +179,7 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
     others.push_back({"reference", "the reference", "The picture that errors are measured against."});
     if (controls.choice("compare_with", "With", others, chosen,
                         "What is compared with the active pane, and what that shows while B is held."))
-        state.active().settings.comparison.with = panes[static_cast<std::size_t>(chosen)];
+        state.active().settings.comparison.with = panes[chosen];
 }
 
 void draw_reference_settings(Controls& controls, ViewerState& state) {
@@ -198,20 +199,20 @@ void draw_reference_settings(Controls& controls, ViewerState& state) {
     const glm::ivec2 size(reference->image.width(), reference->image.height());
     if (size != state.request_size() &&
         controls.button("reference_size", "Render its size", "Renders as many pixels as the reference has."))
-        state.size = {SizeChoice::Base::custom, 1, size};
+        state.rendering.size = {SizeChoice::Base::custom, 1, size};
 }
 
 void draw_display_settings(Controls& controls, ViewerState& state) {
-    for (const Setting& setting : settings_of(state.tone))
+    for (const Setting& setting : settings_of(state.display.tone))
         if (setting.matters && setting.id != "exposure")
             draw_setting(controls, setting);
     controls.toggle(
-        "mark_negative", "Mark negative", state.mark_negative,
+        "mark_negative", "Mark negative", state.display.mark_negative,
         "Pixels with a negative red, green or blue are blue (U). NaN is always magenta, infinity cyan.");
-    controls.toggle("magnifier", "Magnifier", state.magnifier,
+    controls.toggle("magnifier", "Magnifier", state.display.magnifier,
                     "Enlarges the pixels around the mouse, in all panes (L).");
     controls.toggle(
-        "tiles", "Tiles", state.show_tiles,
+        "tiles", "Tiles", state.display.show_tiles,
         "Which pixels share their paths in the newest pass (X). Lines closer than 4 units are left out: "
         "zoom in with Ctrl + wheel.");
 }
@@ -223,7 +224,7 @@ void draw_preset(Controls& controls, ViewerState& state) {
             list.push_back({std::string(preset.id), std::string(preset.label), std::string(preset.help)});
         return list;
     }();
-    const Preset& held_against = presets()[static_cast<std::size_t>(state.preset)];
+    const Preset& held_against = presets()[state.preset];
     const bool is_pure = preset_of(state.active().settings) == state.preset;
     const std::string shown = std::string(held_against.label) + (is_pure ? "" : ", changed");
     int index = is_pure ? state.preset : -1; // what has changed can be chosen anew
@@ -234,7 +235,7 @@ void draw_preset(Controls& controls, ViewerState& state) {
             "is what differs from them. A right click here takes all changes back, as choosing it anew does.") ||
         (!is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
         state.preset = index >= 0 ? index : state.preset;
-        apply(presets()[static_cast<std::size_t>(state.preset)], state.active().settings);
+        apply(presets()[state.preset], state.active().settings);
         state.share_settings();
     }
 }
@@ -248,8 +249,15 @@ void draw_method_section(Controls& controls, ViewerState& state) {
         state.linked)
         state.share_settings();
     bool changed = draw_settings(controls, state, render_settings(state), true);
-    changed |= draw_settings(controls, state, settings_of(state.active().settings.reconstruction), true);
-    for (const Setting& setting : settings_of(state.tone))
+    std::vector<Setting> reconstruction = settings_of(state.active().settings.reconstruction);
+    std::string norm_help; // lives as long as the setting that refers to it
+    for (Setting& setting : reconstruction)
+        if (setting.id == "norm")
+            setting.help = norm_help = std::string(setting.help) +
+                                       "\n\nPT and PR, which measure no gradients, show raw samples unless it is "
+                                       "smoothed or OIDN.";
+    changed |= draw_settings(controls, state, reconstruction, true);
+    for (const Setting& setting : settings_of(state.display.tone))
         if (setting.id == "exposure")
             draw_setting(controls, setting);
     if (changed)
@@ -282,7 +290,7 @@ void draw_contents(Controls& controls, ViewerState& state) {
         draw_size_settings(controls, state);
     if (begin_section(controls, state, Section::limits, "section.limits", "Limits",
                       "When panes rest, and how they share the cores."))
-        for (const Setting& setting : settings_of(state.pace))
+        for (const Setting& setting : settings_of(state.rendering.pace))
             if (setting.matters) // one limit: of what panes have alike
                 draw_setting(controls, setting);
     if (begin_section(controls, state, Section::expert, "more", "Expert", "All other settings of the method."))

@@ -142,7 +142,7 @@ LegendPlace draw_legend(const ScreenRect& picture, const std::string& id, const 
 namespace {
 
 bool has_picture(const Showing& showing, const PaneTools& tools) {
-    const auto has = [&](int pane) { return !tools.images[static_cast<std::size_t>(pane)].empty(); };
+    const auto has = [&](int pane) { return !tools.images[pane].empty(); };
     return has(showing.pane) && (showing.subtrahend < 0 || has(showing.subtrahend));
 }
 
@@ -150,10 +150,10 @@ bool has_picture(const Showing& showing, const PaneTools& tools) {
 Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
     const BufferInfo& about = info(buffer_of(showing.pane, state));
     if (showing.subtrahend < 0)
-        return signed_legend(about.id, about.unit, about.unit_scale, state.tone.of_differences());
+        return signed_legend(about.id, about.unit, about.unit_scale, state.display.tone.of_differences());
     const bool alike = buffer_of(showing.subtrahend, state) == about.buffer;
     return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1,
-                         state.tone.of_differences());
+                         state.display.tone.of_differences());
 }
 
 /// First hits of where the camera was are shown until there are others.

@@ -17,7 +17,7 @@ constexpr float dolly_a_notch = 0.88f;
 constexpr float dolly_a_pane = 6.0f; // right drag over the pane's height: distance times e^6
 
 void drag_picture(const PaneMouse& mouse, glm::ivec2 image_size, glm::ivec2 pane_size, ViewerState& state) {
-    state.view.pan(mouse.position - mouse.previous, image_size, pane_size);
+    state.display.view.pan(mouse.position - mouse.previous, image_size, pane_size);
 }
 
 void drag_camera(const PaneMouse& mouse, const Placement& placement, glm::ivec2 image_size, glm::ivec2 pane_size,
@@ -42,7 +42,7 @@ void apply_mouse(const PaneMouse& mouse, const Placement& placement, glm::ivec2 
     if (placement.extent.x <= 0 || placement.extent.y <= 0)
         return;
     if (mouse.wheel != 0 && mouse.ctrl)
-        state.view.zoom_at(mouse.position, std::pow(zoom_a_notch, mouse.wheel), image_size, pane_size);
+        state.display.view.zoom_at(mouse.position, std::pow(zoom_a_notch, mouse.wheel), image_size, pane_size);
     else if (mouse.wheel != 0)
         state.camera.dolly(std::pow(dolly_a_notch, mouse.wheel));
 

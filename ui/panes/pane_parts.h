@@ -24,12 +24,16 @@ struct PaneTools {
     ViewerState& state;
 };
 
-/// The strip above a pane's picture: its method, with what tells it from the other panes, and buffer.
+/// Returns "raw samples", "raw samples, L2" where the raw gradients are reconstructed, or "denoised".
+std::string sample_label(const PaneSettings& pane);
+
+/// Draws the strip above a pane's picture: its method with what distinguishes it from the other panes, its buffer,
+/// and the button that switches its denoiser.
 void draw_pane_header(int index, Controls& controls, ViewerState& state);
 
-/// The text of the line below a picture: method, what tells it from the other panes, why it rests, samples a
-/// pixel, seconds, rays a second, reconstruction with its solver's steps and time, or one that is under way for
-/// long.
+/// Returns the text of the line below a picture: method, difference from the other panes, reason to rest, samples
+/// per pixel, seconds, rays per second, and the reconstruction with its solver's steps and time, or its progress.
+/// The share of radiance that firefly suppression redistributed follows if there is any.
 std::string status_text(const ViewerState& state, int pane);
 
 /// "waiting for pane 2 (3:10 of 10:00)": another pane catches up with what this one has had. Empty: it does not

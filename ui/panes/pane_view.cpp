@@ -46,12 +46,12 @@ std::string notice_of(const Showing& showing, const PaneTools& tools) {
         return missing;
     if (showing.pane == the_reference)
         return "";
-    const PaneState& pane = state.panes[static_cast<std::size_t>(showing.pane)];
+    const PaneState& pane = state.panes[showing.pane];
     if (pane.failed)
         return "The render failed: " + pane.failure +
                "\n\nAnother size, setting or scene starts it anew, and so does R.";
     const bool is_done = pane.snapshot && pane.snapshot->generation == pane.generation && !pane.snapshot->coarse();
-    if (!is_done || showing.subtrahend >= 0 || !tools.images[static_cast<std::size_t>(showing.pane)].is_black())
+    if (!is_done || showing.subtrahend >= 0 || !tools.images[showing.pane].is_black())
         return "";
     if (state.scene->triangle_count() == 0)
         return "The scene is empty: nothing in it has a surface.";
@@ -64,7 +64,7 @@ std::string pane_id(int index) {
 }
 
 const PaneImage& image_of(const Showing& showing, const PaneTools& tools) {
-    return tools.images[static_cast<std::size_t>(showing.pane)];
+    return tools.images[showing.pane];
 }
 
 CanvasView view_of(const Showing& showing, const PictureFrame& frame, const PaneTools& tools) {
@@ -94,7 +94,7 @@ void PaneView::take_input(int index, const ScreenRect& where, PaneTools& tools) 
 void PaneView::draw(int index, PaneTools& tools) {
     const std::string id = pane_id(index);
     ImGui::Begin(id.c_str(), nullptr, pane_flags); // goes on where it was left
-    frame_.placement = tools.state.view.place(tools.state.request_size(), frame_.pixels);
+    frame_.placement = tools.state.display.view.place(tools.state.request_size(), frame_.pixels);
     draw_renditions(index, frame_, tools);
     draw_overlays(index, id, frame_, tools);
     draw_status(id, index, tools.state, tools.images, tools.controls);
@@ -110,9 +110,9 @@ PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools
     const glm::vec2 size = glm::max(glm::floor(glm::vec2(room.x, room.y - status_height)), glm::vec2(1));
     frame.rect = {{min.x, min.y}, glm::vec2(min.x, min.y) + size};
     frame.pixels = glm::max(glm::ivec2(size * frame.pixels_a_unit), glm::ivec2(1));
-    tools.state.panes[static_cast<std::size_t>(index)].canvas_size = frame.pixels;
+    tools.state.panes[index].canvas_size = frame.pixels;
     frame_tile(index, frame, tools.state);
-    frame.placement = tools.state.view.place(tools.state.request_size(), frame.pixels);
+    frame.placement = tools.state.display.view.place(tools.state.request_size(), frame.pixels);
     ImGui::InvisibleButton((id + ".picture").c_str(), {size.x, size.y},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
@@ -127,11 +127,11 @@ void PaneView::frame_tile(int index, const PictureFrame& frame, ViewerState& sta
         return;
     slow.frames = false;
     if (!slow.view_before)
-        slow.view_before = state.view;
+        slow.view_before = state.display.view;
     const PixelRect& t = slow.tile->tile; // with its border, and half a pixel about it
     const glm::vec2 image(state.request_size());
     const glm::vec2 min = (glm::vec2(t.x0, t.y0) - 0.75f) / image, max = (glm::vec2(t.x1, t.y1) + 1.75f) / image;
-    state.view.show(min, max, state.request_size(), frame.pixels);
+    state.display.view.show(min, max, state.request_size(), frame.pixels);
 }
 
 // --- the mouse ---
@@ -142,7 +142,7 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         state.active_pane = index;
         grip_ = grip_at(index, frame, tools);
         if (grip_.range && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            state.ranges.erase(grip_.range->buffer); // back to what fits by itself
+            state.display.ranges.erase(grip_.range->buffer); // back to what fits by itself
             grip_ = grip_at(index, frame, tools);
         }
     }
@@ -166,7 +166,7 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
     draw_pane_menu(index, frame, !has_moved_, tools);
     const glm::ivec2 image_size = state.request_size();
     apply_mouse(mouse, frame.placement, image_size, frame.pixels, state);
-    frame.placement = state.view.place(image_size, frame.pixels);
+    frame.placement = state.display.view.place(image_size, frame.pixels);
 
     if (ImGui::IsItemHovered())
         state.layout.cursor = {index, frame.to_image(mouse_position()),
@@ -203,7 +203,7 @@ void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& 
         return;
     const float share = (at.x - frame.rect.min.x) / frame.rect.size().x;
     const int shown = showing_at(state, index, share).pane;
-    const auto slot_of = [&](int pane) { return state.panes[static_cast<std::size_t>(pane)].slot; };
+    const auto slot_of = [&](int pane) { return state.panes[pane].slot; };
     const glm::ivec2 pixel(place * glm::vec2(state.request_size()));
     if (state.slow_motion.active)
         state.slow_motion.start({slot_of(index), pixel, {}});
@@ -225,8 +225,8 @@ void PaneView::drag(const PictureFrame& frame, ViewerState& state) const {
     const float x = mouse_position().x;
     if (grip_.wipe)
         state.layout.wipe = std::clamp((x - *grip_.wipe - frame.rect.min.x) / frame.rect.size().x, 0.0f, 1.0f);
-    else if (x != grip_.range->from || state.ranges.count(grip_.range->buffer) > 0)
-        state.ranges[grip_.range->buffer] = grip_.range->at(x);
+    else if (x != grip_.range->from || state.display.ranges.count(grip_.range->buffer) > 0)
+        state.display.ranges[grip_.range->buffer] = grip_.range->at(x);
 }
 
 // --- the picture ---
@@ -259,7 +259,7 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
     draw_missing(index, frame, tools);
     legends_.draw(frame, id, index, tools);
     draw_mode(frame, id, tools);
-    if (state.magnifier)
+    if (state.display.magnifier)
         draw_magnifier_at_cursor(index, frame, tools);
     draw_active_frame(index, frame, state);
 }
@@ -280,8 +280,8 @@ void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerSta
     const auto draw = [&](const Showing& showing, const ScreenRect& clip) {
         if (showing.pane == the_reference)
             return;
-        const auto& snapshot = state.panes[static_cast<std::size_t>(showing.pane)].snapshot;
-        if (state.show_tiles && snapshot)
+        const auto& snapshot = state.panes[showing.pane].snapshot;
+        if (state.display.show_tiles && snapshot)
             draw_tiles(frame, clip, *snapshot,
                        state.layout.cursor ? std::optional(state.layout.cursor->place) : std::nullopt);
         draw_inspected_paths(frame, clip, showing.pane, state);

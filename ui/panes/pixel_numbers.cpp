@@ -44,7 +44,7 @@ std::string short_number(float value) {
 
 bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& state, const PaneImages& images) {
     const Showing first = showing_at(state, pane, 0);
-    const RgbImage& image = images[static_cast<std::size_t>(first.pane)].pixels();
+    const RgbImage& image = images[first.pane].pixels();
     if (image.empty())
         return false;
     const glm::vec2 size(image.width(), image.height());

@@ -59,11 +59,11 @@ const ReuseCounts* PaneImage::outcomes_at(glm::vec2 place) const {
 namespace {
 
 const PaneSettings& settings(const ViewerState& state, int pane) {
-    return state.panes[static_cast<std::size_t>(pane)].settings;
+    return state.panes[pane].settings;
 }
 
 const PaneImage& image_of(int pane, const PaneImages& images) {
-    return images[static_cast<std::size_t>(pane)];
+    return images[pane];
 }
 
 std::string name(const ViewerState& state, int pane) {
@@ -75,7 +75,7 @@ std::string name(const ViewerState& state, int pane) {
 std::string missing_text(int pane, const ViewerState& state) {
     if (pane == the_reference)
         return missing_text(nullptr, Method::pt, Buffer::reference, state.companions);
-    const PaneState& shown = state.panes[static_cast<std::size_t>(pane)];
+    const PaneState& shown = state.panes[pane];
     return missing_text(shown.snapshot.get(), shown.settings.render.method, shown.settings.buffer,
                         state.companions);
 }
@@ -112,7 +112,7 @@ ColourMap colour_map(const Showing& showing, const ViewerState& state) {
 }
 
 ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& images) {
-    if (const auto set = state.ranges.find(buffer); set != state.ranges.end())
+    if (const auto set = state.display.ranges.find(buffer); set != state.display.ranges.end())
         return set->second;
     std::optional<ValueRange> all;
     for (const PaneImage& image : images) {
@@ -127,12 +127,12 @@ ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& i
 CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images) {
     CanvasView view;
     view.colour_map = colour_map(showing, state);
-    view.tone = state.tone;
+    view.tone = state.display.tone;
     if (view.colour_map == ColourMap::signed_difference)
-        view.tone.exposure = state.tone.of_differences();
+        view.tone.exposure = state.display.tone.of_differences();
     view.range = range_of(buffer_of(showing.pane, state), state, images);
     view.coarse = image_of(showing.pane, images).coarse();
-    view.mark_negative = state.mark_negative;
+    view.mark_negative = state.display.mark_negative;
     return view;
 }
 
@@ -197,9 +197,9 @@ std::string label_of(const Showing& showing, const ViewerState& state) {
 ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages& images,
                           const ViewerState& state) {
     const Showing showing = sides_of(state, pane).left;
-    const PaneImage& image = images[static_cast<std::size_t>(showing.pane)];
+    const PaneImage& image = images[showing.pane];
     const auto is_missing = [&](int i) {
-        const PaneImage& of = images[static_cast<std::size_t>(i)];
+        const PaneImage& of = images[i];
         return of.empty() || of.coarse();
     };
     if (is_missing(showing.pane) || (showing.subtrahend >= 0 && is_missing(showing.subtrahend)))

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float least_edge = 4;     // screen units between lines, below which they would be a grey veil
 constexpr float least_pattern = 10; // edge of a pixel whose pattern can be told by its colour
-constexpr ImU32 tile_colour = IM_COL32(255, 255, 255, 90), part_colour = IM_COL32(255, 255, 255, 45);
+constexpr ImU32 tile_colour = IM_COL32(255, 255, 255, 90), split_colour = IM_COL32(255, 255, 255, 45);
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 70);
 constexpr ImU32 set_colour = IM_COL32(64, 196, 178, 70), set_edge_colour = IM_COL32(64, 196, 178, 255);
 constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90), halo_edge_colour = IM_COL32(255, 168, 51, 255);
@@ -29,7 +29,7 @@ class TileDrawing {
 public:
     TileDrawing(const PictureFrame& frame, const Snapshot& snapshot)
         : settings_(snapshot.settings), size_(snapshot.images->primal.width(), snapshot.images->primal.height()),
-          grid_(size_, settings_, *snapshot.plan, snapshot.spp - 1), drawing_(frame, size_),
+          grid_(size_, settings_, *snapshot.learned, snapshot.spp - 1), drawing_(frame, size_),
           unit_(drawing_.unit()) {
         const glm::vec2 from = frame.to_image(frame.rect.min) * glm::vec2(size_);
         const glm::vec2 to = frame.to_image(frame.rect.max) * glm::vec2(size_);
@@ -99,15 +99,15 @@ private:
     }
 
     void draw_cuts(PixelRect tile) const {
-        grid_.for_each_part(tile, [&](PixelRect part, int paths_alone) {
+        grid_.for_each_split(tile, [&](PixelRect split, int paths_alone) {
             if (paths_alone > 0)
-                drawing_.fill(part, alone_colour);
-            if (static_cast<float>(part.width()) * unit_ < least_edge)
+                drawing_.fill(split, alone_colour);
+            if (static_cast<float>(split.width()) * unit_ < least_edge)
                 return;
-            if (part.x0 > std::max(tile.x0, 0))
-                line({part.x0, part.y0}, {part.x0, part.y1}, part_colour);
-            if (part.y0 > std::max(tile.y0, 0))
-                line({part.x0, part.y0}, {part.x1, part.y0}, part_colour);
+            if (split.x0 > std::max(tile.x0, 0))
+                line({split.x0, split.y0}, {split.x0, split.y1}, split_colour);
+            if (split.y0 > std::max(tile.y0, 0))
+                line({split.x0, split.y0}, {split.x1, split.y0}, split_colour);
         });
     }
 
@@ -142,14 +142,14 @@ private:
             });
         } else if (reuses_paths(settings_.method)) {
             const bool is_alone = grid_.paths_alone_at(p) > 0;
-            const PixelRect part = is_alone ? pixel : grid_.part_at(p);
-            drawing_.fill(part, set_colour);
-            outline(part, set_edge_colour);
+            const PixelRect split = is_alone ? pixel : grid_.split_at(p);
+            drawing_.fill(split, set_colour);
+            outline(split, set_edge_colour);
             if (settings_.method == Method::gpr && !is_alone) {
-                const PixelRect all = part.with_halo(size_);
-                drawing_.fill(PixelRect{part.x1, all.y0, all.x1, all.y1}, halo_colour);
-                drawing_.fill(PixelRect{all.x0, part.y1, part.x1, all.y1}, halo_colour);
-                grid_.for_each_part(grid_.block_at(p), [&](PixelRect other, int paths_alone) {
+                const PixelRect all = split.with_halo(size_);
+                drawing_.fill(PixelRect{split.x1, all.y0, all.x1, all.y1}, halo_colour);
+                drawing_.fill(PixelRect{all.x0, split.y1, split.x1, all.y1}, halo_colour);
+                grid_.for_each_split(grid_.block_at(p), [&](PixelRect other, int paths_alone) {
                     if (paths_alone == 0 && !other.contains(p) && other.with_halo(size_).contains(p))
                         outline(other.with_halo(size_), halo_edge_colour);
                 });
@@ -181,7 +181,7 @@ void draw_text(const ScreenRect& where, const std::string& text) {
 
 void draw_tiles(const PictureFrame& frame, const ScreenRect& clip, const Snapshot& snapshot,
                 std::optional<glm::vec2> place) {
-    if (!snapshot.plan || !snapshot.images || snapshot.images->primal.empty() || snapshot.spp < 1)
+    if (!snapshot.learned || !snapshot.images || snapshot.images->primal.empty() || snapshot.spp < 1)
         return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({clip.min.x, clip.min.y}, {clip.max.x, clip.max.y}, true);

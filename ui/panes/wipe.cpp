@@ -28,10 +28,9 @@ void draw_label(const PictureFrame& frame, float x, float align, const Showing& 
     const ImVec2 max(min.x + width, min.y + size.y + pad);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(min, max, colours::overlay, pad * 0.5f);
-    const ImU32 colour =
-        showing.pane == the_reference
-            ? colours::overlay_dim_text
-            : method_colour(state.panes[static_cast<std::size_t>(showing.pane)].settings.render.method);
+    const ImU32 colour = showing.pane == the_reference
+                             ? colours::overlay_dim_text
+                             : method_colour(state.panes[showing.pane].settings.render.method);
     list.AddRectFilled({min.x + pad, min.y + pad * 0.5f}, {min.x + pad + bar, max.y - pad * 0.5f}, colour);
     list.AddText({min.x + 2 * pad + bar, min.y + pad * 0.5f}, colours::overlay_text, text.c_str());
 }

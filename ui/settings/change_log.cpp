@@ -51,9 +51,9 @@ Values describe(const ViewerState& state) {
     values["camera"] = camera;
     const glm::ivec2 size = state.request_size();
     values["size"] = std::to_string(size.x) + "x" + std::to_string(size.y);
-    values["exposure"] = text(static_cast<double>(state.tone.exposure));
-    values["difference exposure"] = text(static_cast<double>(state.tone.difference_exposure));
-    values["tone"] = word(words::tones, state.tone.curve);
+    values["exposure"] = text(static_cast<double>(state.display.tone.exposure));
+    values["difference exposure"] = text(static_cast<double>(state.display.tone.difference_exposure));
+    values["tone"] = word(words::tones, state.display.tone.curve);
     values["panes"] = std::to_string(state.panes.size());
     values["active"] = std::to_string(state.active_pane);
     values["alone"] = text(state.layout.alone);
@@ -61,9 +61,9 @@ Values describe(const ViewerState& state) {
     values["flicker"] = text(state.layout.flicker);
     values["theme"] = word(words::themes, state.layout.theme);
     values["ui scale"] = text(static_cast<double>(state.layout.ui_scale()));
-    values["magnifier"] = text(state.magnifier);
+    values["magnifier"] = text(state.display.magnifier);
     values["charts"] = text(state.layout.show_charts);
-    values["tiles"] = text(state.show_tiles);
+    values["tiles"] = text(state.display.show_tiles);
     values["inspector"] = text(state.inspector.active);
     if (const auto& sample = state.inspector.sample) {
         const PaneState* pane = state.pane_in(sample->slot);
@@ -82,18 +82,18 @@ Values describe(const ViewerState& state) {
         values["slow motion at"] = "tile " + std::to_string(state.slow_motion.tile->tile.x0) + " " +
                                    std::to_string(state.slow_motion.tile->tile.y0) + " path " +
                                    std::to_string(state.slow_motion.current);
-    values["spp limit"] = std::to_string(state.pace.spp_limit);
-    values["seconds limit"] = text(state.pace.seconds_limit);
-    values["equal"] = word(words::shares, state.pace.equal);
-    values["zoom"] = text(static_cast<double>(state.view.zoom()));
+    values["spp limit"] = std::to_string(state.rendering.pace.spp_limit);
+    values["seconds limit"] = text(state.rendering.pace.seconds_limit);
+    values["equal"] = word(words::shares, state.rendering.pace.equal);
+    values["zoom"] = text(static_cast<double>(state.display.view.zoom()));
     values["linked"] = text(state.linked);
-    values["paused"] = text(state.paused);
+    values["paused"] = text(state.rendering.paused);
     values["help"] = text(state.layout.show_help);
     values["panel"] = text(state.layout.show_panel);
     values["statistics"] = text(state.layout.show_statistics);
-    values["scene"] = state.scene_name;
-    values["scenes shown"] = std::to_string(state.scenes_shown);
-    values["loading"] = state.loading;
+    values["scene"] = state.scene_info.name;
+    values["scenes shown"] = std::to_string(state.scene_info.shown);
+    values["loading"] = state.scene_info.loading;
     values["messages"] = std::to_string(state.messages.size());
     return values;
 }

@@ -72,15 +72,16 @@ void add_layout(std::vector<Named>& all, ViewerState& s, Taken& taken) {
 }
 
 void add_pictures(std::vector<Named>& all, ViewerState& s, Taken& taken) {
-    all.push_back({flag("paused", s.paused)});
-    for (const Setting& setting : settings_of(s.pace))
+    all.push_back({flag("paused", s.rendering.paused)});
+    for (const Setting& setting : settings_of(s.rendering.pace))
         all.push_back({setting});
-    all.push_back({custom_size_setting(taken.size), [&] { s.size = {SizeChoice::Base::custom, 1, taken.size}; }});
-    for (const Setting& setting : settings_of(s.tone))
+    all.push_back(
+        {custom_size_setting(taken.size), [&] { s.rendering.size = {SizeChoice::Base::custom, 1, taken.size}; }});
+    for (const Setting& setting : settings_of(s.display.tone))
         all.push_back({setting});
-    all.push_back({flag("magnifier", s.magnifier)});
-    all.push_back({flag("tiles", s.show_tiles)});
-    all.push_back({flag("mark_negative", s.mark_negative)});
+    all.push_back({flag("magnifier", s.display.magnifier)});
+    all.push_back({flag("tiles", s.display.show_tiles)});
+    all.push_back({flag("mark_negative", s.display.mark_negative)});
     Setting spp = spp_setting(s.reference_making.spp, 2), method = method_setting(s.reference_making.method);
     spp.id = "reference_spp";
     method.id = "reference_method";

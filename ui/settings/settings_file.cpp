@@ -99,24 +99,24 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
 /// Reads what is common to all panes, but for the camera.
 void read_display(const JsonFields& fields, ViewerState& state) {
     const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
-    size.read("base", size_base_setting(state.size.base));
-    size.read("scale", ranges::scale, state.size.scale);
-    size.read("width", {1, most_render_pixels_an_edge}, state.size.custom.x);
-    size.read("height", {1, most_render_pixels_an_edge}, state.size.custom.y);
-    for (const Setting& setting : settings_of(state.tone))
+    size.read("base", size_base_setting(state.rendering.size.base));
+    size.read("scale", ranges::scale, state.rendering.size.scale);
+    size.read("width", {1, most_render_pixels_an_edge}, state.rendering.size.custom.x);
+    size.read("height", {1, most_render_pixels_an_edge}, state.rendering.size.custom.y);
+    for (const Setting& setting : settings_of(state.display.tone))
         tone.read(key_of(setting), setting);
-    for (const Setting& setting : settings_of(state.pace))
+    for (const Setting& setting : settings_of(state.rendering.pace))
         pace.read(setting);
-    fields.read("mark_negative", state.mark_negative);
+    fields.read("mark_negative", state.display.mark_negative);
     if (fields.has("ranges"))
-        state.ranges = read_ranges(fields.object("ranges"));
+        state.display.ranges = read_ranges(fields.object("ranges"));
 }
 
 /// Reads where the pictures lie, and what is drawn with them.
 void read_view(const JsonFields& fields, ViewerState& state) {
     const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
-    float zoom = state.view.zoom();
-    glm::vec2 center = state.view.center();
+    float zoom = state.display.view.zoom();
+    glm::vec2 center = state.display.view.center();
     picture.read("zoom", {double{ImageView::least_zoom}, double{ImageView::most_zoom}}, zoom);
     picture.read("x", ranges::share, center.x);
     picture.read("y", ranges::share, center.y);
@@ -124,8 +124,8 @@ void read_view(const JsonFields& fields, ViewerState& state) {
         state.set_view(ImageView(zoom, center));
     fields.read("wipe", ranges::share, state.layout.wipe);
     fields.read("alone", state.layout.alone);
-    fields.read("tiles", state.show_tiles);
-    fields.read("magnifier", state.magnifier);
+    fields.read("tiles", state.display.show_tiles);
+    fields.read("magnifier", state.display.magnifier);
     int axis = state.layout.charts_by_spp ? 1 : 0;
     chart.read("show", words::charts, state.layout.chart_kind);
     chart.read("against", words::chart_axes, axis);
@@ -162,14 +162,14 @@ void read_bookmarks(const JsonFields& fields, const JsonText& text, const std::s
     const ordered_json& json = fields.json().at("bookmarks");
     if (!json.is_array())
         fields.fail("bookmarks", "there must be a list of cameras");
-    state.bookmarks.clear();
+    state.bookmarks.views.clear();
     for (std::size_t i = 0; i < json.size(); ++i) {
         Bookmark bookmark;
         fields.element(json, i, "bookmarks").read("target_distance", {0, 1e12}, bookmark.distance);
         bookmark.camera = parse_camera(text.only("bookmarks/" + std::to_string(i) + "/camera"), name);
-        state.bookmarks.push_back(bookmark);
+        state.bookmarks.views.push_back(bookmark);
     }
-    state.bookmark = static_cast<int>(state.bookmarks.size()) - 1;
+    state.bookmarks.current = static_cast<int>(state.bookmarks.views.size()) - 1;
 }
 
 /// Sets what the file says, up to where it is broken.
@@ -203,7 +203,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
 
 ordered_json bookmarks_json(const ViewerState& state) {
     ordered_json all = ordered_json::array();
-    for (const Bookmark& bookmark : state.bookmarks)
+    for (const Bookmark& bookmark : state.bookmarks.views)
         all.push_back({{"camera", ordered_json::parse(camera_json(bookmark.camera))},
                        {"target_distance", bookmark.distance}});
     return all;
@@ -212,34 +212,35 @@ ordered_json bookmarks_json(const ViewerState& state) {
 } // namespace
 
 std::string settings_json(const ViewerState& state) {
-    const ImageView view = state.slow_motion.view_before.value_or(state.view); // it finds its tile by itself
+    const ImageView view =
+        state.slow_motion.view_before.value_or(state.display.view); // it finds its tile by itself
     ordered_json panes = ordered_json::array();
     for (const PaneState& pane : state.panes)
         panes.push_back(pane_json(pane.settings));
-    Tone tone = state.tone;
-    Pace pace = state.pace;
+    Tone tone = state.display.tone;
+    Pace pace = state.rendering.pace;
     ordered_json json{
         {"panes", panes},
         {"active", state.active_pane + 1},
         {"alone", state.layout.alone},
         {"linked", state.linked},
         {"size",
-         {{"base", word(words::sizes, state.size.base)},
-          {"scale", state.size.scale},
-          {"width", state.size.custom.x},
-          {"height", state.size.custom.y}}},
+         {{"base", word(words::sizes, state.rendering.size.base)},
+          {"scale", state.rendering.size.scale},
+          {"width", state.rendering.size.custom.x},
+          {"height", state.rendering.size.custom.y}}},
         {"tone", json_of(settings_of(tone))},
-        {"ranges", ranges_json(state.ranges)},
-        {"mark_negative", state.mark_negative},
+        {"ranges", ranges_json(state.display.ranges)},
+        {"mark_negative", state.display.mark_negative},
         {"pace", json_of(settings_of(pace))},
         {"picture", {{"zoom", view.zoom()}, {"x", view.center().x}, {"y", view.center().y}}},
         {"wipe", state.layout.wipe},
-        {"tiles", state.show_tiles},
-        {"magnifier", state.magnifier},
+        {"tiles", state.display.show_tiles},
+        {"magnifier", state.display.magnifier},
         {"charts",
          {{"show", word(words::charts, state.layout.chart_kind)},
           {"against", word(words::chart_axes, state.layout.charts_by_spp ? 1 : 0)}}},
-        {"scene", state.scene_name}, // for people: settings are for any scene
+        {"scene", state.scene_info.name}, // for people: settings are for any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},
         {"bookmarks", bookmarks_json(state)},
@@ -287,7 +288,7 @@ std::optional<SampleChoice> read_sample(const JsonFields& fields, const ViewerSt
     sample.read("y", {0, most_render_pixels_an_edge - 1}, choice.pixel.y);
     if (sample.has("pass"))
         sample.read("pass", {0, std::numeric_limits<int>::max()}, choice.pass.emplace());
-    choice.slot = state.panes[static_cast<std::size_t>(pane - 1)].slot;
+    choice.slot = state.panes[pane - 1].slot;
     return choice;
 }
 

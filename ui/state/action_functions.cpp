@@ -37,6 +37,13 @@ void next_part(ViewerState& state) {
     state.companions.part = next < parts ? std::make_shared<const int>(next) : nullptr;
 }
 
+void toggle_denoiser(ViewerState& state, int pane) {
+    PaneSettings& settings = state.panes[pane].settings;
+    const Norm denoiser = has_gradients(settings.render.method) ? Norm::guided : Norm::smoothed;
+    settings.reconstruction.norm = denoises(applied_norm(settings)) ? Norm::none : denoiser;
+    state.linked = state.linked && state.panes.size() == 1;
+}
+
 void compare_reconstructions(ViewerState& state) {
     PaneSettings shown = state.active().settings;
     if (!has_gradients(shown.render.method))
@@ -55,32 +62,34 @@ void compare_reconstructions(ViewerState& state) {
 }
 
 void step_exposure(ViewerState& state, float stops) {
-    state.tone.exposure = std::clamp(state.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
+    state.display.tone.exposure =
+        std::clamp(state.display.tone.exposure + stops, ranges::exposure.low(), ranges::exposure.high());
 }
 
 void add_bookmark(ViewerState& state) {
     if (!state.scene)
         return;
-    state.bookmarks.push_back({state.camera.camera(), state.camera.distance()});
-    state.bookmark = static_cast<int>(state.bookmarks.size()) - 1;
-    state.tell("This view is bookmark " + std::to_string(state.bookmarks.size()) +
+    state.bookmarks.views.push_back({state.camera.camera(), state.camera.distance()});
+    state.bookmarks.current = static_cast<int>(state.bookmarks.views.size()) - 1;
+    state.tell("This view is bookmark " + std::to_string(state.bookmarks.views.size()) +
                "; F7 goes from one to the next.");
 }
 
 void next_bookmark(ViewerState& state) {
-    if (state.bookmarks.empty())
+    if (state.bookmarks.views.empty())
         return state.tell("There is no bookmark yet: Shift+F7 makes one of this view.");
-    state.bookmark = (state.bookmark + 1) % static_cast<int>(state.bookmarks.size());
-    const Bookmark& to = state.bookmarks[static_cast<std::size_t>(state.bookmark)];
+    state.bookmarks.current = (state.bookmarks.current + 1) % static_cast<int>(state.bookmarks.views.size());
+    const Bookmark& to = state.bookmarks.views[state.bookmarks.current];
     state.camera.put(to.camera, to.distance);
 }
 
 void forget_bookmark(ViewerState& state) {
-    if (state.bookmark < 0)
+    if (state.bookmarks.current < 0)
         return;
-    state.tell("Bookmark " + std::to_string(state.bookmark + 1) + " is forgotten.");
-    state.bookmarks.erase(state.bookmarks.begin() + state.bookmark);
-    state.bookmark = std::min(state.bookmark, static_cast<int>(state.bookmarks.size()) - 1);
+    state.tell("Bookmark " + std::to_string(state.bookmarks.current + 1) + " is forgotten.");
+    state.bookmarks.views.erase(state.bookmarks.views.begin() + state.bookmarks.current);
+    state.bookmarks.current =
+        std::min(state.bookmarks.current, static_cast<int>(state.bookmarks.views.size()) - 1);
 }
 
 void next_pane(ViewerState& state) {
@@ -93,7 +102,7 @@ void next_grid(ViewerState& state) {
 }
 
 void step_pass(ViewerState& state) {
-    state.paused = true;
+    state.rendering.paused = true;
     ++state.wishes.steps;
 }
 
@@ -102,7 +111,7 @@ void step_ui_scale(ViewerState& state, float by) {
 }
 
 void next_tone(ViewerState& state) {
-    state.tone.curve = static_cast<Tone::Curve>(state.tone.curve == Tone::Curve::srgb ? 1 : 0);
+    state.display.tone.curve = static_cast<Tone::Curve>(state.display.tone.curve == Tone::Curve::srgb ? 1 : 0);
 }
 
 void toggle_charts(ViewerState& state) {

@@ -27,7 +27,7 @@ std::string name(Key key) {
                                          "Space", "Tab",   "Esc", "Shift", "Return"};
     static_assert(names.size() == static_cast<std::size_t>(place(Key::enter) - place(Key::left) + 1));
     const int index = place(key) - place(Key::left);
-    return index >= 0 && index < static_cast<int>(names.size()) ? names[static_cast<std::size_t>(index)] : "";
+    return index >= 0 && index < static_cast<int>(names.size()) ? names[index] : "";
 }
 
 } // namespace
@@ -149,7 +149,7 @@ void close_overlays(bool entering_text, ViewerState& state) {
                      state.layout.show_jobs || state.layout.show_gallery || state.reference_making.show ||
                      state.layout.sample_form.show || state.layout.choosing;
     // What is on its way goes one after the other, the scene first.
-    const bool loads = !state.loading.empty();
+    const bool loads = !state.scene_info.loading.empty();
     const bool is_busy = loads || state.reference_read ||
                          std::any_of(state.panes.begin(), state.panes.end(),
                                      [&](const PaneState& pane) { return state.reconstructs_long(pane); });

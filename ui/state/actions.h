@@ -114,6 +114,9 @@ void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
 /// From the whole of coefficients to their first part, and so on through all that some pane has.
 void next_part(ViewerState& state);
+/// Switches a pane between raw samples and the denoiser of its method: `guided` with gradients, `smoothed` without.
+/// Unlinks the panes if there are several, because the reconstruction then differs between them.
+void toggle_denoiser(ViewerState& state, int pane);
 /// Four panes of the active one's samples: the primal, and what L1, the weighted norm and guides make of them.
 void compare_reconstructions(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);

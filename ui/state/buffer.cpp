@@ -1,7 +1,7 @@
 #include "ui/state/buffer.h"
 
-#include "recon/picture/demodulation.h"
-#include "recon/picture/spikes.h"
+#include "recon/guided/demodulation.h"
+#include "recon/guided/fireflies.h"
 #include "render/run/first_hits.h"
 #include "ui/gl/tone.h"
 #include "ui/state/companions.h"
@@ -101,10 +101,10 @@ const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
 }
 
 /// The part that is wanted, if the snapshot has it.
-const CoefficientPart* part_of(const Snapshot& snapshot, const Companions& companions) {
-    const std::vector<CoefficientPart>& parts = snapshot.images->parts;
+const BasisComponent* part_of(const Snapshot& snapshot, const Companions& companions) {
+    const std::vector<BasisComponent>& parts = snapshot.images->parts;
     const int l = companions.part ? *companions.part : -1;
-    return l >= 0 && l < static_cast<int>(parts.size()) ? &parts[static_cast<std::size_t>(l)] : nullptr;
+    return l >= 0 && l < static_cast<int>(parts.size()) ? &parts[l] : nullptr;
 }
 
 /// A picture of coefficients, gradients or their variances: of `measured`, the whole or a part.
@@ -127,7 +127,7 @@ const RgbImage& measured_picture(const Measured& measured, Buffer buffer, RgbIma
 const RgbImage& projection_picture(const Snapshot& snapshot, RgbImage& scratch, const Companions& companions) {
     if (snapshot.images->parts.empty())
         return no_picture;
-    const CoefficientPart* part = part_of(snapshot, companions);
+    const BasisComponent* part = part_of(snapshot, companions);
     return scratch = grey((part ? *part : snapshot.images->parts.front()).projection);
 }
 
@@ -168,8 +168,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return scratch = grey(snapshot.reuse->failed());
     case Buffer::survival:
         return scratch = grey(snapshot.reuse->survival());
-    case Buffer::sharers:
-        return scratch = grey(snapshot.reuse->sharers);
+    case Buffer::reuse_set_size:
+        return scratch = grey(snapshot.reuse->reuse_set_size);
     case Buffer::gain:
         return scratch = grey(snapshot.reuse->gain);
     case Buffer::samples:
@@ -179,7 +179,7 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
     case Buffer::dx_variance:
     case Buffer::dy_variance:
     case Buffer::coefficient:
-        if (const CoefficientPart* part = part_of(snapshot, companions))
+        if (const BasisComponent* part = part_of(snapshot, companions))
             return measured_picture(*part, buffer, scratch);
         return measured_picture(*snapshot.images, buffer, scratch);
     case Buffer::projection:
@@ -194,8 +194,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
         return snapshot.images->demodulation.sampled_albedo;
     case Buffer::covariance:
         return scratch = sample_covariance(*snapshot.images);
-    case Buffer::held:
-        return scratch = held_light(*snapshot.images);
+    case Buffer::redistributed:
+        return scratch = clamped_radiance(*snapshot.images);
     case Buffer::reconstruction:
         return final_picture(snapshot, scratch);
     default:
@@ -211,8 +211,8 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
     const std::string name(paper_name(method));
     const bool of_gradients = family(buffer) == BufferFamily::gradient ||
                               (family(buffer) == BufferFamily::variance && buffer != Buffer::primal_variance);
-    if (buffer == Buffer::held && snapshot && is_expanded(snapshot->settings))
-        return "Of a basis with parts nothing is held back";
+    if (buffer == Buffer::redistributed && snapshot && is_expanded(snapshot->settings))
+        return "A basis with several components has no firefly suppression";
     if (of_gradients && !has_gradients(method))
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
@@ -221,7 +221,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return "All pixels have taken as many: the passes";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt && buffer != Buffer::samples)
         return name + " shares no paths between pixels";
-    if (buffer == Buffer::sharers && !reuses_paths(method))
+    if (buffer == Buffer::reuse_set_size && !reuses_paths(method))
         return name + " has no tiles";
     if (buffer == Buffer::gain && snapshot && !finds_gain_of_sharing(snapshot->settings))
         return "What sharing brings is found for G-PR whose tiles adapt";

@@ -20,8 +20,8 @@ enum class Buffer {
     albedo, normal, depth, footprint_1, footprint_2,
     primal_variance, dx_variance, dy_variance,
     coefficient, mean_albedo, sampled_albedo, covariance, projection,
-    held,
-    sharers, gain, samples
+    redistributed,
+    reuse_set_size, gain, samples
 };
 // clang-format on
 inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
@@ -50,8 +50,8 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::sampled_albedo,
                                          Buffer::covariance,
                                          Buffer::projection,
-                                         Buffer::held,
-                                         Buffer::sharers,
+                                         Buffer::redistributed,
+                                         Buffer::reuse_set_size,
                                          Buffer::gain,
                                          Buffer::samples};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);

@@ -106,15 +106,16 @@ constexpr BufferInfo table[] = {
      "How much a pixel's surface scatters of one part of the light, times which the parts are the coefficient; no "
      "unit: orange above zero, blue below. Of a basis with parts; the command Next part goes on.",
      Family::basis, ColourMap::signed_difference, "", 1},
-    {Buffer::held, "held", "Held back",
-     "What of its brightest sample is held back from a pixel, and given to those around, where spikes are held "
-     "back; radiance. It gets less with the samples. None before the second.",
+    {Buffer::redistributed, "redistributed", "Redistributed fireflies",
+     "Radiance of a pixel's brightest sample that the denoiser clamps and redistributes to the pixels around. It "
+     "decreases with the number of samples, and is zero before the second sample.",
      Family::picture, ColourMap::radiance, "", 1},
-    {Buffer::sharers, "sharers", "Sharers",
-     "How many pixels share their base paths with a pixel, itself among them, in the next pass: those of its "
-     "tile, of the part that it is cut into, and of G-PR's border; tiles beside it may share with it as well. 1: "
-     "it shares nothing, and takes several paths "
-     "of its own. Of PR and G-PR.",
+    {Buffer::reuse_set_size, "reuse_set_size", "Reuse set size",
+     "Number of pixels in a pixel's reuse set in the next pass, including the pixel: those of its tile or tile "
+     "split, "
+     "and of G-PR's border. With G-PR the pixel can also be in the border of other tiles. 1: the pixel reuses no "
+     "paths "
+     "and takes several base paths of its own. PR and G-PR only.",
      Family::reuse, ColourMap::false_colour, "pixels", 1},
     {Buffer::gain, "gain", "Gain of sharing",
      "What sharing brings for its cost: how many times as many paths a path tracer takes for the same error, in "

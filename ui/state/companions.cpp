@@ -51,7 +51,7 @@ Histogram histogram_of(const RgbImage& image) {
         } else {
             const float place = (std::log2(l) - Histogram::first_stop) * Histogram::bins_a_stop;
             const int bin = std::clamp(static_cast<int>(std::floor(place)), 0, Histogram::bin_count - 1);
-            ++h.bins[static_cast<std::size_t>(bin)];
+            ++h.bins[bin];
         }
     }
     return h;

@@ -11,10 +11,10 @@ UndoPoint point_of(const Document& document) {
     for (const PaneState& pane : document.panes)
         point.panes.push_back(pane.settings);
     point.linked = document.linked;
-    point.size = document.size;
+    point.size = document.rendering.size;
     point.camera = document.camera.camera();
     point.camera_distance = document.camera.distance();
-    point.tone = document.tone;
+    point.tone = document.display.tone;
     return point;
 }
 
@@ -24,9 +24,9 @@ void take(const UndoPoint& point, Document& document) {
     for (std::size_t i = 0; i < point.panes.size(); ++i)
         document.panes[i].settings = point.panes[i];
     document.linked = point.linked;
-    document.size = point.size;
+    document.rendering.size = point.size;
     document.camera.put(point.camera, point.camera_distance);
-    document.tone = point.tone;
+    document.display.tone = point.tone;
 }
 
 } // namespace

@@ -31,7 +31,7 @@ bool SlowMotion::shows_choice() const {
 }
 
 const InspectedSet& SlowMotion::set() const {
-    return tile->sets[static_cast<std::size_t>(place().set)];
+    return tile->sets[place().set];
 }
 
 void SlowMotion::rewind() {
@@ -81,7 +81,7 @@ void SlowMotion::step(int by) {
 SlowMotion::Place SlowMotion::place() const {
     Place place{0, current};
     const int last = static_cast<int>(tile->sets.size()) - 1;
-    const auto size = [&] { return tile->sets[static_cast<std::size_t>(place.set)].size(); };
+    const auto size = [&] { return tile->sets[place.set].size(); };
     while (place.base >= size() && place.set < last) {
         place.base -= size();
         ++place.set;

@@ -17,7 +17,7 @@
 
 namespace tessera {
 
-class ReusePlan;
+class LearnedReuse;
 class Scene;
 struct InspectedSet;
 struct Inspection;
@@ -29,8 +29,8 @@ struct PassOrigin {
     Camera camera;
     glm::ivec2 size{0};
     RenderSettings settings;
-    std::shared_ptr<const ReusePlan> plan{}; ///< of the pass; null: it is to be learnt again
-    std::uint64_t generation = 0;            ///< of the request; 0: no pane's
+    std::shared_ptr<const LearnedReuse> learned{}; ///< of the pass; null: it is to be learnt again
+    std::uint64_t generation = 0;                  ///< of the request; 0: no pane's
 };
 
 /// One sample of one pixel that is to be looked at.

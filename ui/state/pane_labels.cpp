@@ -32,8 +32,7 @@ std::string lower(std::string_view label) {
 /// "tile 6", "L1", "roulette absolute".
 std::string in_short(const Setting& setting) {
     const auto* one = std::get_if<Setting::OneOf>(&setting.kind);
-    const std::string value =
-        one ? std::string(one->choices[static_cast<std::size_t>(one->get())].label) : setting.text();
+    const std::string value = one ? std::string(one->choices[one->get()].label) : setting.text();
     return setting.id == "norm" ? value : lower(setting.label) + " " + value;
 }
 
@@ -64,7 +63,7 @@ std::string pane_label(const Document& document, int pane) {
     std::vector<PaneSettings> all;
     for (const PaneState& each : document.panes)
         all.push_back(each.settings);
-    return picture_label(all[static_cast<std::size_t>(pane)], all);
+    return picture_label(all[pane], all);
 }
 
 } // namespace tessera

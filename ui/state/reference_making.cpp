@@ -16,7 +16,7 @@
 namespace tessera {
 
 std::filesystem::path default_reference_file(const Document& document) {
-    std::string name = scene_name(document.scene_source);
+    std::string name = scene_name(document.scene_info.source);
     const Camera camera = document.camera.camera();
     if (document.scene && !(camera == document.scene->camera())) {
         const std::string text = camera_json(camera);

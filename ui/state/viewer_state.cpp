@@ -39,9 +39,9 @@ glm::ivec2 ViewerState::fitting_size() const {
     glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : active().canvas_size;
     for (int i = 0; i < static_cast<int>(panes.size()); ++i) {
         if (is_on_show(i))
-            smallest = glm::min(smallest, panes[static_cast<std::size_t>(i)].canvas_size);
+            smallest = glm::min(smallest, panes[i].canvas_size);
     }
-    return render_size(size, film, smallest);
+    return render_size(rendering.size, film, smallest);
 }
 
 void ViewerState::inspect(const SampleChoice& sample) {

@@ -220,7 +220,7 @@ void ScriptPlayer::start_frames(const ScriptStep& step) {
                 times->seconds.push_back(last_frame_);
             if (orbits) {
                 const ViewerState& state = viewer_.state();
-                lag->look(state.panes[static_cast<std::size_t>(state.active_pane)], times->behind);
+                lag->look(state.panes[state.active_pane], times->behind);
                 mouse_ = middle + glm::vec2(i % 2 ? i : -i, 0) * (60.0f / static_cast<float>(count));
                 button_ = i > 0 && i < count;
             }

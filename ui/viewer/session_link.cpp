@@ -1,4 +1,4 @@
-#include "ui/viewer/viewer.h"
+#include "ui/viewer/session_link.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace tessera {
 
 namespace {
-constexpr int few_samples = 8; // a pixel: what a better size may throw away
+constexpr int few_samples = 8; // per pixel, which a better size may discard
 } // namespace
 
 void SessionLink::take(ViewerState& state) {
@@ -26,10 +26,10 @@ void SessionLink::take(ViewerState& state) {
         state.add_message(Message::Kind::error, std::move(message));
 }
 
-/// Reports once for every request, and nothing of a first look, whose pixels are others.
+/// Reports the invalid samples of a request once. A preview has other pixels, so its samples are not reported.
 void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
-    std::uint64_t& told = refused_told_[static_cast<std::size_t>(state.panes[pane].slot)];
+    std::uint64_t& told = refused_told_[state.panes[pane].slot];
     const Sent& sent = sent_of(state.panes[pane]);
     if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == told ||
         snapshot->generation != sent.generation)
@@ -49,7 +49,7 @@ void SessionLink::send(ViewerState& state) {
         send_panes(state);
     std::array<bool, most_panes> is_used{};
     for (const PaneState& pane : state.panes)
-        is_used[static_cast<std::size_t>(pane.slot)] = true;
+        is_used[pane.slot] = true;
     for (std::size_t slot = 0; slot < sent_.size(); ++slot) {
         if (!is_used[slot] && std::exchange(sent_[slot], {}).scene)
             session_.withdraw(static_cast<int>(slot));
@@ -61,7 +61,7 @@ void SessionLink::send(ViewerState& state) {
         session_.step();
 }
 
-/// Gives up only those that somebody has read of.
+/// Ends only the reconstructions that are shown as under way.
 void SessionLink::give_up_reconstructions(ViewerState& state) {
     for (const PaneState& pane : state.panes) {
         if (!state.reconstructs_long(pane))
@@ -74,25 +74,25 @@ void SessionLink::give_up_reconstructions(ViewerState& state) {
 }
 
 void SessionLink::send_running(const ViewerState& state) {
-    if (state.paused != sent_paused_)
-        session_.set_paused(state.paused);
-    if (!(state.pace == sent_pace_))
-        session_.set_pace(state.pace);
-    sent_paused_ = state.paused;
-    sent_pace_ = state.pace;
+    if (state.rendering.paused != sent_paused_)
+        session_.set_paused(state.rendering.paused);
+    if (!(state.rendering.pace == sent_pace_))
+        session_.set_pace(state.rendering.pace);
+    sent_paused_ = state.rendering.paused;
+    sent_pace_ = state.rendering.pace;
 }
 
-/// Whether the pane has to render anew, whatever its size.
+/// Whether the pane has to restart its render, whatever its size.
 bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) const {
     const Sent& sent = sent_of(pane);
     return state.wishes.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
            !(sent.render == pane.settings.render);
 }
 
-/// A size starts every render anew, so one that only fits better waits until no pane has anything to lose by it;
-/// the pictures are scaled meanwhile. For panels, which come and go, everything that is rendered counts, a first
-/// pass under way as well; for another window or another number of panes, no more than a few samples do not. A
-/// size that the user has chosen does not wait.
+/// A new size restarts every render. A size that only fits better therefore waits until no pane loses samples, and
+/// the pictures are scaled until then. If a panel opens or closes, any render counts as a loss, even a first pass
+/// under way. If the window or the number of panes changes, more than few_samples do. A size that the user chooses
+/// does not wait.
 void SessionLink::latch_size(ViewerState& state) {
     const Arrangement arrangement{state.layout.window_size, state.panes.size()};
     const bool is_by_panels = arrangement == latched_arrangement_;
@@ -102,15 +102,16 @@ void SessionLink::latch_size(ViewerState& state) {
         const Snapshot* s = pane.snapshot.get();
         return is_by_panels || (s && s->generation == sent_of(pane).generation && s->spp >= few_samples);
     };
-    if (state.size == latched_choice_ && std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
+    if (state.rendering.size == latched_choice_ &&
+        std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
         return;
-    state.latched_size = state.fitting_size();
-    latched_choice_ = state.size;
+    state.rendering.latched_size = state.fitting_size();
+    latched_choice_ = state.rendering.size;
     latched_arrangement_ = arrangement;
 }
 
-/// The pane that renders for this one: panes with the same settings have the same samples, and so one render, of
-/// which each has a reconstruction of its own. The one that renders already goes on to.
+/// Returns the pane that renders for this one. Panes with equal render settings share one render, and each
+/// reconstructs it itself. A pane that renders these settings continues.
 std::size_t SessionLink::renders_for(const ViewerState& state, std::size_t pane) const {
     const RenderSettings& wanted = state.panes[pane].settings.render;
     std::size_t first = pane;
@@ -125,27 +126,27 @@ std::size_t SessionLink::renders_for(const ViewerState& state, std::size_t pane)
     return first;
 }
 
-/// Gives a pane another slot, with all that is known of it; who has that gets the pane's.
+/// Swaps the slots and charts of a pane and of the pane in that slot.
 void SessionLink::give_slot(ViewerState& state, PaneState& pane, int slot) {
     const int before = pane.slot;
     for (PaneState& other : state.panes)
         if (other.slot == slot)
             other.slot = before;
     pane.slot = slot;
-    std::swap(state.charts[static_cast<std::size_t>(before)], state.charts[static_cast<std::size_t>(slot)]);
+    std::swap(state.charts[before], state.charts[slot]);
 }
 
 void SessionLink::send_panes(ViewerState& state) {
     std::vector<std::size_t> renders(state.panes.size());
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         renders[i] = renders_for(state, i);
-    // Who has rendered for others until now may do something else, or be no more: one of these takes its samples
-    // on.
+    // A pane that has rendered for others may have changed or be removed: one of the others takes over its slot
+    // with its samples.
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         PaneState& pane = state.panes[i];
         const int followed = sent_of(pane).followed;
-        if (renders[i] == i && followed >= 0 && sent_[static_cast<std::size_t>(followed)].scene &&
-            sent_[static_cast<std::size_t>(followed)].render == pane.settings.render)
+        if (renders[i] == i && followed >= 0 && sent_[followed].scene &&
+            sent_[followed].render == pane.settings.render)
             give_slot(state, pane, followed);
     }
     for (std::size_t i = 0; i < state.panes.size(); ++i)
@@ -166,7 +167,7 @@ void SessionLink::let_follow(PaneState& pane, const PaneState& other) {
     sent.reconstruction = pane.settings.reconstruction;
     sent.followed = other.slot;
     pane.generation = sent.generation;
-    refused_told_[static_cast<std::size_t>(pane.slot)] = sent.generation; // who renders tells
+    refused_told_[pane.slot] = sent.generation; // the rendering pane reports
 }
 
 void SessionLink::send_pane(ViewerState& state, PaneState& pane) {

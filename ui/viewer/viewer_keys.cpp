@@ -56,9 +56,9 @@ void Viewer::read_keyboard() {
         steer_palette(typed, state_.layout);
     const bool is_typing = io.WantTextInput || state_.layout.show_palette;
     run_shortcuts(typed, is_typing, state_);
-    const bool held_back = is_typing || in_list || state_.layout.choosing;
-    state_.layout.flicker = !held_back && keyboard_.is_down(Key::b);
-    flying_ = !held_back && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
+    const bool is_blocked = is_typing || in_list || state_.layout.choosing;
+    state_.layout.flicker = !is_blocked && keyboard_.is_down(Key::b);
+    flying_ = !is_blocked && fly_with_keys(keyboard_, std::min(io.DeltaTime, longest_step), state_);
 }
 
 } // namespace tessera

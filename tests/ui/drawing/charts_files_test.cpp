@@ -66,7 +66,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     const CurrentFolder folder;
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });
     }
     wait_until([&] { return !errors(1).empty(); });
@@ -95,7 +95,7 @@ TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
     const CurrentFolder folder;
     viewer.keyboard().press(Key::z, Key::z, false, false);
     frame();
-    EXPECT_TRUE(state().histograms_due); // the wish alone asks for them
+    EXPECT_TRUE(state().charts.histograms_due); // the wish alone asks for them
     EXPECT_TRUE(state().wishes.saves.has(SaveKind::charts));
     finish_saving();
     EXPECT_NE(files_here().at(".csv").find("luminance,pixels"), std::string::npos);
@@ -172,12 +172,12 @@ TEST_F(Charts, VariancesAreShownOnALogarithmicScale) {
     EXPECT_EQ(pane(1).settings.buffer, Buffer::primal_variance);
     frames(2);
     EXPECT_TRUE(has("pane0.legend"));
-    EXPECT_TRUE(viewer.pane_image(1).range().logarithmic);
-    EXPECT_EQ(viewer.pane_image(1).pixels()(20, 20).r, pane(1).snapshot->images->primal_variance(20, 20));
+    EXPECT_TRUE(viewer.pictures().image(1).range().logarithmic);
+    EXPECT_EQ(viewer.pictures().image(1).pixels()(20, 20).r, pane(1).snapshot->images->primal_variance(20, 20));
     save("variance.png");
     command("Variance of dx");
-    EXPECT_TRUE(viewer.pane_image(0).empty()); // PT has no gradients
-    EXPECT_EQ(viewer.pane_image(1).pixels()(20, 20).r, pane(1).snapshot->images->dx_variance(20, 20));
+    EXPECT_TRUE(viewer.pictures().image(0).empty()); // PT has no gradients
+    EXPECT_EQ(viewer.pictures().image(1).pixels()(20, 20).r, pane(1).snapshot->images->dx_variance(20, 20));
 }
 
 } // namespace

@@ -19,7 +19,7 @@ struct Charts : testing::Test, ViewerHarness {
 
     /// The newest line of a pane, of errors to the reference or of estimates; empty: it has none.
     std::vector<ErrorPoint> errors(int i) {
-        const PaneChart& chart = state().chart_of(pane(i));
+        const PaneChart& chart = state().charts.of(pane(i));
         const auto& curves = chart.curves;
         return curves.empty() || chart.reference != state().companions.reference ? std::vector<ErrorPoint>()
                                                                                  : curves.back().points();

@@ -54,7 +54,7 @@ TEST(ViewerCharts, ASlopeIsShownOnlyWhenItsIntervalIsKnown) {
 // The first minute: curves without a reference.
 TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
     for (int spp : {4, 8, 16}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_for_errors(0, spp);
         wait_for_errors(1, spp);
     }
@@ -97,7 +97,7 @@ TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
 TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_for_errors(1, spp);
     }
     char error[32];
@@ -107,7 +107,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     EXPECT_GE(weighted, 2u);
     state().panes[1].settings.reconstruction = {Norm::l1, 0.3f};
     wait_until([&] { return state().charts[1].curves.size() == 2; });
-    state().pace.spp_limit = 16;
+    state().rendering.pace.spp_limit = 16;
     wait_for_errors(1, 16);
     EXPECT_EQ(state().charts[1].curves[0].points().size(), weighted);
     EXPECT_EQ(state().charts[1].curves[0].reconstruction.norm, Norm::guided);
@@ -117,7 +117,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     for (const char* line :
          {"1,pt,none,,16,", "2,gpr,guided,0.2,8,", "2,gpr,l1,0.3,8,", "2,gpr,l1,0.3,16,"})
         EXPECT_NE(csv.find(line), std::string::npos) << line << "\n" << csv;
-    EXPECT_EQ(csv.find("guided,0.2,1,16"), std::string::npos) << csv;
+    EXPECT_EQ(csv.find("guided,0.2,16"), std::string::npos) << csv;
     const Chart chart = viewer_chart(state());
     ASSERT_EQ(chart.plots.at(0).series.size(), 3u);
     EXPECT_EQ(chart.plots[0].series[1].label, "2  G-PR, guided, alpha 0.2");
@@ -150,7 +150,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
 TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_for_errors(1, spp);
     }
     state().active_pane = 1;
@@ -259,7 +259,7 @@ TEST_F(Charts, PixelsThatAreNotFiniteAreLeftOutAndCounted) {
 TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8, 16}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });
         wait_until([&] {
             const auto a = errors(0), b = errors(1);
@@ -275,7 +275,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     EXPECT_TRUE(has("charts.histogram"));
     const std::string csv = chart_csv(state());
     EXPECT_NE(csv.find("1,pt,none,,16,"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("2,gpr,guided,0.2,1,16,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("2,gpr,guided,0.2,16,"), std::string::npos) << csv;
     choose("charts.axis", "spp");
     EXPECT_TRUE(state().layout.charts_by_spp);
 
@@ -294,7 +294,7 @@ TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     choose("charts.kind", "shifts");
     EXPECT_EQ(state().layout.chart_kind, ChartKind::shifts);
     for (int spp : {4, 8, 16}) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         wait_until([&] { return viewer.settled(spp); });
     }
     frames(2);
@@ -328,7 +328,7 @@ TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     EXPECT_EQ(state().charts[1].shifts.points().back().seconds, pane(1).snapshot->seconds);
     state().set_pane_count(1);
     frames(2);
-    EXPECT_EQ(state().chart_of(pane(0)).shifts.points().back().spp, 16); // the active pane stays
+    EXPECT_EQ(state().charts.of(pane(0)).shifts.points().back().spp, 16); // the active pane stays
     EXPECT_TRUE(state().charts[0].shifts.points().empty());
 }
 

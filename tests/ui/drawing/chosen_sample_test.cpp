@@ -37,7 +37,7 @@ std::vector<float> bits(const Inspection& seen) {
     return result;
 }
 
-/// The sample as `tessera render` takes it, by the plan that its pass had.
+/// The sample as `tessera render` takes it, by LearnedReuse that its pass had.
 std::vector<float> bits_of_render(const Scene& scene, RenderSettings settings) {
     const std::shared_ptr<const Scene> kept(&scene, [](const Scene*) {});
     settings.seed = seed;
@@ -45,11 +45,11 @@ std::vector<float> bits_of_render(const Scene& scene, RenderSettings settings) {
     ThreadPool pool(1);
     while (render.spp() <= pass)
         render.pass(pool);
-    const auto taken = [&](const ReusePlan& plan) {
-        return bits(inspect(scene, scene.camera(), size, settings, plan, pass, pixel));
+    const auto taken = [&](const LearnedReuse& learned) {
+        return bits(inspect(scene, scene.camera(), size, settings, learned, pass, pixel));
     };
-    EXPECT_NE(taken(*render.newest_plan()), taken(ReusePlan(size, settings))); // the passes before matter
-    return taken(*render.newest_plan());
+    EXPECT_NE(taken(*render.newest_learned()), taken(LearnedReuse(size, settings))); // the passes before matter
+    return taken(*render.newest_learned());
 }
 
 struct ChosenSample : testing::Test, ViewerHarness {
@@ -118,7 +118,7 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
 }
 
 TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {
-    state().pace.spp_limit = 1;
+    state().rendering.pace.spp_limit = 1;
     viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     play("wait scene\nset seed " + std::to_string(seed) + "\ninspect 20 15 5");
     ASSERT_TRUE(inspector().inspection); // the step has waited for it
@@ -127,7 +127,7 @@ TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {
 
 /// Beside panes that render nothing.
 TEST_F(ChosenSample, NeedsNoPicture) {
-    state().paused = true;
+    state().rendering.paused = true;
     viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     ASSERT_TRUE(wait_until([&] { return state().scene != nullptr; }));
     state().inspect(pixel, pass, seed);
@@ -172,7 +172,7 @@ TEST_F(ChosenSample, GivesWayToTheNewestPassThatIsToBeFollowed) {
     click("inspector.follow");
     EXPECT_TRUE(inspector().follows);
     ASSERT_TRUE(wait_until([&] { return inspector().inspection && inspector().inspection->pass == 2; }));
-    state().pace.spp_limit = 5;
+    state().rendering.pace.spp_limit = 5;
     EXPECT_TRUE(wait_until([&] { return inspector().inspection->pass == 4; }));
     EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(7, 9));
 }
@@ -202,7 +202,7 @@ TEST_F(ChosenSample, OutsideASmallerPictureLeavesNothing) {
     rest(2);
     state().inspect({40, 30}, 0, 0);
     ASSERT_TRUE(wait_for_sample());
-    state().size = {SizeChoice::Base::custom, 1, {20, 15}};
+    state().rendering.size = {SizeChoice::Base::custom, 1, {20, 15}};
     ASSERT_TRUE(wait_until([&] { return !inspector().sample; }));
     EXPECT_FALSE(inspector().inspection);
 }

@@ -37,12 +37,12 @@ TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
     press();
     move_to(grip + glm::vec2(4000, 0));
     move_to(grip + glm::vec2(30, 0));
-    const ValueRange once_beyond = state().ranges.at(Buffer::reused);
+    const ValueRange once_beyond = state().display.ranges.at(Buffer::reused);
     release();
     frame(1); // no double click with the next
-    state().ranges.clear();
+    state().display.ranges.clear();
     drag(grip, {30, 0});
-    EXPECT_EQ(state().ranges.at(Buffer::reused), once_beyond);
+    EXPECT_EQ(state().display.ranges.at(Buffer::reused), once_beyond);
 }
 
 TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
@@ -60,8 +60,8 @@ TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
     save("wipe-legends.png");
     const ControlRect legend = place("pane0.right_legend");
     drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0});
-    EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
-    EXPECT_EQ(state().ranges.count(Buffer::survival), 1u);
+    EXPECT_EQ(state().display.ranges.count(Buffer::reused), 0u);
+    EXPECT_EQ(state().display.ranges.count(Buffer::survival), 1u);
     state().layout.wipe = 0;
     frames(2);
     EXPECT_FALSE(has("pane0.legend")); // nothing of that side is seen
@@ -97,7 +97,7 @@ TEST_F(Compare, ADifferenceWithoutASubtrahendShowsNothing) {
     move_to(point(1, 0.5f, 0.4f));
     const Showing difference = showing_at(state(), 1, 0.5f);
     ASSERT_EQ(difference.subtrahend, 0);
-    EXPECT_FALSE(value_at(difference, viewer.pane_images(), {0.5f, 0.5f}));
+    EXPECT_FALSE(value_at(difference, viewer.pictures().images(), {0.5f, 0.5f}));
     EXPECT_FALSE(has("pane1.value"));
     EXPECT_EQ(missing_text(difference, state()), "PT measures no gradients");
     const ScreenPixels pixels = screen();
@@ -126,12 +126,13 @@ TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
     choose("pane0.method", "pr");
     command("Variance of primal"); // variances
     wait_for_settled();
-    const auto shared = [&] { return range_of(Buffer::primal_variance, state(), viewer.pane_images()); };
-    const ValueRange range = shared(), own[] = {viewer.pane_image(0).range(), viewer.pane_image(1).range()};
+    const auto shared = [&] { return range_of(Buffer::primal_variance, state(), viewer.pictures().images()); };
+    const ValueRange range = shared(),
+                     own[] = {viewer.pictures().image(0).range(), viewer.pictures().image(1).range()};
     ASSERT_NE(own[0], own[1]);
     EXPECT_EQ(range.low, std::min(own[0].low, own[1].low));
     EXPECT_EQ(range.high, std::max(own[0].high, own[1].high));
-    state().pace.spp_limit = 60; // the variances fall by twenty
+    state().rendering.pace.spp_limit = 60; // the variances fall by twenty
     wait_until([&] { return viewer.settled(60); });
     frames(2);
     EXPECT_EQ(shared(), range);

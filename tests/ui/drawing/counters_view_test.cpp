@@ -77,8 +77,8 @@ TEST_F(CountersView, PathTracingHasNoMaps) {
     EXPECT_EQ(pane(0).snapshot->reuse, nullptr);
     for (Key key : {Key::digit5, Key::digit6}) {
         type(key);
-        EXPECT_TRUE(viewer.pane_image(0).empty());
-        EXPECT_FALSE(viewer.pane_image(1).empty());
+        EXPECT_TRUE(viewer.pictures().image(0).empty());
+        EXPECT_FALSE(viewer.pictures().image(1).empty());
         EXPECT_FALSE(has("pane0.legend"));
     }
 }

@@ -47,7 +47,7 @@ TEST_F(Explained, EveryControlHasATooltip) {
         true;
     state().add_message(Message::Kind::note, "a note");
     state().messages.back().samples = {SampleChoice{}};
-    state().size.base = SizeChoice::Base::custom;
+    state().rendering.size.base = SizeChoice::Base::custom;
     state().active_pane = 0;
     state().panes[0].settings.comparison.kind = Comparison::Kind::wipe;
     frames(4);
@@ -108,26 +108,26 @@ TEST_F(Explained, ValuesSayWhatTheyAre) {
 }
 
 TEST_F(Explained, ATypedNumberIsTakenWhenItsControlIsLeft) {
-    state().paused = true;
+    state().rendering.paused = true;
     select_all_and_type("spp_limit", "64");
-    EXPECT_EQ(state().pace.spp_limit, 3); // not yet
+    EXPECT_EQ(state().rendering.pace.spp_limit, 3); // not yet
     click("pane0.picture");
-    EXPECT_EQ(state().pace.spp_limit, 64);
+    EXPECT_EQ(state().rendering.pace.spp_limit, 64);
     select_all_and_type("seconds_limit", "2.5");
     click("pane0.picture");
-    EXPECT_EQ(state().pace.seconds_limit, 2.5);
-    state().pace.seconds_limit = 0;
-    state().pace.equal = Pace::Equal::spp;
+    EXPECT_EQ(state().rendering.pace.seconds_limit, 2.5);
+    state().rendering.pace.seconds_limit = 0;
+    state().rendering.pace.equal = Pace::Equal::spp;
     frames(2);
     EXPECT_FALSE(has("seconds_limit")) << "one limit is enough";
     click_at("spp_limit", 0.97f); // the button
-    EXPECT_EQ(state().pace.spp_limit, 65);
+    EXPECT_EQ(state().rendering.pace.spp_limit, 65);
     choose("size", "custom");
     const std::uint64_t before = pane(0).generation;
     select_all_and_type("width", "33");
     EXPECT_EQ(pane(0).generation, before); // no render for every digit
     click("pane0.picture");
-    EXPECT_EQ(state().size.custom.x, 33);
+    EXPECT_EQ(state().rendering.size.custom.x, 33);
 }
 
 TEST_F(Explained, ATypedFileIsTakenWhenItsControlIsLeft) {

@@ -25,7 +25,7 @@ TEST(Histogram, CountsEveryPixelOnce) {
     std::size_t ones = 0;
     for (int bin = 0; bin + 1 < Histogram::bin_count; ++bin)
         if (Histogram::low_end(bin) <= 1.0001f && Histogram::low_end(bin + 1) > 0.9999f)
-            ones += h.bins[static_cast<std::size_t>(bin)];
+            ones += h.bins[bin];
     EXPECT_EQ(ones, 3u);
 }
 
@@ -43,7 +43,7 @@ TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
 TEST_F(Charts, AHistogramIsOfWhatIsOnShow) {
     type(Key::h);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
-    state().tone.exposure = 1; // the same picture
+    state().display.tone.exposure = 1; // the same picture
     frames(3);
     EXPECT_NE(state().charts[1].histogram, nullptr);
     const std::uint64_t before = pane(1).generation;

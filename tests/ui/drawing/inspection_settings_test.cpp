@@ -86,7 +86,7 @@ TEST_F(InspectionSettings, TheViewInSpaceBelongsToItsScene) {
     const glm::vec3 at_first = state().space.camera.forward();
     h->drag(h->place("space").center(), {50, 20});
     h->viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
-    h->wait_until([&] { return state().scenes_shown == 2 && h->viewer.settled(3); });
+    h->wait_until([&] { return state().scene_info.shown == 2 && h->viewer.settled(3); });
     h->wait_until([&] { return state().inspector.generation == h->pane(1).generation; });
     ASSERT_TRUE(wait_for_paths());
     EXPECT_LT(glm::distance(state().space.camera.forward(), at_first), 1e-5f);
@@ -100,7 +100,7 @@ TEST_F(InspectionSettings, TheSlowMotionHasTheSameTile) {
     state().slow_motion.speed = 7.5f;
     state().slow_motion.start(sample(1, {40, 6}));
     ASSERT_TRUE(wait_for_tile());
-    const ImageView enlarged = state().view;
+    const ImageView enlarged = state().display.view;
     ASSERT_GT(enlarged.zoom(), 2);
     const std::string text = begin_anew();
     for (int i = 0; i < 2; ++i) {
@@ -109,18 +109,18 @@ TEST_F(InspectionSettings, TheSlowMotionHasTheSameTile) {
         EXPECT_TRUE(state().slow_motion.held);
         EXPECT_EQ(state().slow_motion.speed, 7.5f);
         EXPECT_TRUE(state().slow_motion.tile->tile.contains({40, 6}));
-        EXPECT_TRUE(state().view == enlarged);
+        EXPECT_TRUE(state().display.view == enlarged);
         apply_settings_json(state(), text, "settings.json"); // again, while it is on
     }
     h->type(Key::j);
     h->frames(2);
-    EXPECT_TRUE(state().view == before);
+    EXPECT_TRUE(state().display.view == before);
 }
 
 TEST_F(InspectionSettings, APixelOfAnEarlierPictureIsNotSaved) {
     const Snapshot& s = *h->pane(1).snapshot;
     const auto origin = std::make_shared<const PassOrigin>(
-        PassOrigin{state().scene, s.camera, {48, 36}, s.settings, s.plan, s.generation});
+        PassOrigin{state().scene, s.camera, {48, 36}, s.settings, s.learned, s.generation});
     state().set_inspector(true);
     state().inspector.choose({h->pane(1).slot, {3, 4}, 1, origin});
     EXPECT_NE(settings_json(state()).find("\"sample\""), std::string::npos);

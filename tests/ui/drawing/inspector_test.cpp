@@ -22,7 +22,7 @@ struct PathInspector : testing::Test, ViewerHarness {
 
     const Inspector& inspector() { return state().inspector; }
     glm::vec2 middle(int index, glm::ivec2 pixel) {
-        const Placement placement = state().view.place({48, 36}, pane(index).canvas_size);
+        const Placement placement = state().display.view.place({48, 36}, pane(index).canvas_size);
         const glm::vec2 share = (glm::vec2(pixel) + 0.5f) / glm::vec2(48, 36);
         return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
                share * placement.extent;
@@ -43,7 +43,7 @@ struct PathInspector : testing::Test, ViewerHarness {
     bool lets_go_of_the_scene() {
         const std::weak_ptr<const Scene> before = state().scene;
         viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
-        wait_until([&] { return state().scenes_shown == 2 && viewer.settled(3); });
+        wait_until([&] { return state().scene_info.shown == 2 && viewer.settled(3); });
         return wait_until([&] { return before.expired(); });
     }
 };
@@ -180,7 +180,7 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
 TEST_F(PathInspector, TheSampleStaysUntilItIsToFollow) {
     type(Key::i);
     inspect_pixel(0, {30, 20});
-    state().pace.spp_limit = 5;
+    state().rendering.pace.spp_limit = 5;
     wait_until([&] { return viewer.settled(5); });
     frames(5);
     EXPECT_EQ(inspector().inspection->pass, 2);
@@ -237,7 +237,7 @@ TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
                                   {3, 4},
                                   1,
                                   std::make_shared<const PassOrigin>(PassOrigin{
-                                      state().scene, s.camera, {48, 36}, s.settings, s.plan, s.generation})});
+                                      state().scene, s.camera, {48, 36}, s.settings, s.learned, s.generation})});
     }
     ASSERT_TRUE(wait_until([&] { return inspector().inspection != nullptr; }));
     type(Key::i);

@@ -84,14 +84,14 @@ TEST_F(Layout, ASizeThatFitsComesWithARestart) {
 
 TEST_F(Layout, ASizeThatIsChosenIsTakenAtOnce) {
     const std::uint64_t before = pane(0).generation;
-    state().size = {SizeChoice::Base::custom, 1, {30, 20}};
+    state().rendering.size = {SizeChoice::Base::custom, 1, {30, 20}};
     frames(2);
     EXPECT_EQ(state().request_size(), glm::ivec2(30, 20));
     EXPECT_GT(pane(0).generation, before);
 }
 
 TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
-    state().pace.spp_limit = 2;
+    state().rendering.pace.spp_limit = 2;
     type(Key::r);
     wait_until([&] { return viewer.settled(2); });
     resize({700, 500});
@@ -100,13 +100,13 @@ TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
 
 // A first pass may take a minute, and be nearly done.
 TEST_F(Layout, NoPanelRestartsEvenAFirstPass) {
-    state().paused = true; // before its first pass
+    state().rendering.paused = true; // before its first pass
     type(Key::r);
     frames(2);
     for (int spp : {0, 2}) {
         if (spp > 0) {
-            state().pace.spp_limit = spp;
-            state().paused = false;
+            state().rendering.pace.spp_limit = spp;
+            state().rendering.paused = false;
             ASSERT_TRUE(wait_until([&] { return viewer.settled(spp); }));
         }
         const std::uint64_t first = pane(0).generation, second = pane(1).generation;
@@ -126,7 +126,7 @@ TEST_F(Layout, AnAddedPaneHasTheSizeOfTheOthers) {
     type(Key::digit4, true);
     wait_until([&] { return viewer.settled(many); });
     EXPECT_EQ(pane(0).generation, before);
-    EXPECT_EQ(viewer.pane_image(3).pixels().width(), viewer.pane_image(0).pixels().width());
+    EXPECT_EQ(viewer.pictures().image(3).pixels().width(), viewer.pictures().image(0).pixels().width());
 }
 
 } // namespace

@@ -74,7 +74,7 @@ TEST_F(OutcomesView, LegendNamesTheColours) {
     move_to(legend.center()); // explains them
     EXPECT_TRUE(viewer.controls().tooltip_pending());
     drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0}); // there is no range
-    EXPECT_TRUE(state().ranges.empty());
+    EXPECT_TRUE(state().display.ranges.empty());
 }
 
 TEST_F(OutcomesView, LegendsOfAWipeDoNotOverlap) {
@@ -100,7 +100,7 @@ TEST_F(OutcomesView, ValuesUnderTheMouseAreShares) {
     for (int i : {0, 1}) {
         const std::string shares = outcome_shares(maps(i).counts(20, 12));
         EXPECT_NE(shares.find("ok "), std::string::npos);
-        EXPECT_EQ(cursor_text(state(), viewer.pane_images(), i), "(20, 12)  " + shares);
+        EXPECT_EQ(cursor_text(state(), viewer.pictures().images(), i), "(20, 12)  " + shares);
         EXPECT_TRUE(has("pane" + std::to_string(i) + ".value"));
     }
 }
@@ -109,7 +109,7 @@ TEST_F(OutcomesView, ValuesUnderTheMouseAreShares) {
 TEST_F(OutcomesView, DifferencesAreOfTheShareThatFails) {
     click("pane0.picture");
     type(Key::n);
-    state().tone.exposure = 10; // only the sign is left
+    state().display.tone.exposure = 10; // only the sign is left
     frames(2);
     const Image<float> a = maps(0).failed(), b = maps(1).failed();
     const ScreenPixels pixels = screen();
@@ -129,7 +129,7 @@ TEST_F(OutcomesView, DifferencesAreOfTheShareThatFails) {
 
 TEST_F(OutcomesView, IsSavedInItsColours) {
     const CanvasShader shader;
-    const ScreenPixels saved = view_picture(1, shader, viewer.pane_images(), state());
+    const ScreenPixels saved = view_picture(1, shader, viewer.pictures().images(), state());
     ASSERT_EQ(saved.size, state().request_size());
     EXPECT_LT(glm::distance(colour(saved, {20, 12}), mean_colour(1, 20, 12)), 3);
 }
@@ -137,10 +137,10 @@ TEST_F(OutcomesView, IsSavedInItsColours) {
 TEST_F(OutcomesView, PathTracingHasNone) {
     choose("pane0.method", "pt");
     wait_for_settled();
-    EXPECT_TRUE(viewer.pane_image(0).empty());
+    EXPECT_TRUE(viewer.pictures().image(0).empty());
     EXPECT_FALSE(has("pane0.legend"));
     move_to(middle_of(0, 20, 12));
-    EXPECT_EQ(cursor_text(state(), viewer.pane_images(), 0), "");
+    EXPECT_EQ(cursor_text(state(), viewer.pictures().images(), 0), "");
 }
 
 } // namespace

@@ -15,9 +15,9 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     PaneState& pane = state.panes.emplace_back();
     pane.settings.render.method = Method::gpr;
     EXPECT_EQ(status_text(state, 0), "G-PR   no scene");
-    state.loading = "reading";
+    state.scene_info.loading = "reading";
     EXPECT_EQ(status_text(state, 0), "G-PR   waiting for the scene");
-    state.loading.clear();
+    state.scene_info.loading.clear();
     state.scene = test::viewer_scene();
     EXPECT_EQ(status_text(state, 0), "G-PR   starting");
     pane.generation = 3;
@@ -40,20 +40,46 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     reconstruction->iterations = 1;
     EXPECT_NE(status_text(state, 0).find("pass 11, 1 step in"), std::string::npos);
     const auto says = [&](const char* word) { return status_text(state, 0).find(word) != std::string::npos; };
+    EXPECT_FALSE(says("fireflies"));
+    reconstruction->redistributed = 0.77;
+    EXPECT_TRUE(says("fireflies: 77 % redistributed"));
+    reconstruction->redistributed = 0;
     pane.reconstructing = {12, 0.2, 0.06f};
     EXPECT_FALSE(says("reconstructing"));
     pane.reconstructing = {12, 1.34, 0.4f};
     EXPECT_TRUE(says("G-PR   reconstructing pass 12, 40 %, 1.3 s (Esc ends it)   12 spp"));
     EXPECT_FALSE(says("pass 11"));
-    state.paused = true;
+    state.rendering.paused = true;
     EXPECT_TRUE(says("paused"));
-    state.paused = false;
-    state.pace.spp_limit = 12;
+    state.rendering.paused = false;
+    state.rendering.pace.spp_limit = 12;
     EXPECT_TRUE(says("done"));
     pane.failed = true;
     EXPECT_TRUE(says("failed"));
     pane.generation = 5; // and its first pass has never come
     EXPECT_EQ(status_text(state, 0), "G-PR   failed: see the messages (F2)");
+}
+
+TEST(PaneStatus, LabelTellsRawSamplesFromDenoisedOnes) {
+    PaneSettings pane;
+    const auto label = [&](Method method, Norm norm) {
+        pane.render.method = method;
+        pane.reconstruction.norm = norm;
+        return sample_label(pane);
+    };
+    EXPECT_EQ(label(Method::gpr, Norm::guided), "denoised");
+    EXPECT_EQ(label(Method::gpt, Norm::oidn), "denoised");
+    EXPECT_EQ(label(Method::gpr, Norm::none), "raw samples");
+    EXPECT_EQ(label(Method::gpt, Norm::l2), "raw samples, L2");
+    EXPECT_EQ(label(Method::gpt, Norm::weighted), "raw samples, weighted");
+    EXPECT_EQ(label(Method::pt, Norm::guided), "raw samples");
+    EXPECT_EQ(label(Method::pr, Norm::l1), "raw samples");
+    EXPECT_EQ(label(Method::pt, Norm::smoothed), "denoised");
+}
+
+TEST(PaneStatus, PanesBeginWithTheDefaultsOfTheirMethods) {
+    for (const PaneSettings& pane : default_panes(4))
+        EXPECT_EQ(applied_norm(pane), default_norm(has_gradients(pane.render.method)));
 }
 
 TEST(PaneStatus, TellsWhichPaneCatchesUp) {
@@ -76,15 +102,15 @@ TEST(PaneStatus, TellsWhichPaneCatchesUp) {
     EXPECT_NE(status_text(state, 0).find("waiting for pane 2"), std::string::npos);
     state.panes[1].generation = 8; // a new request: it has had nothing
     EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (0:00 of 10:00; R: all anew)");
-    state.pace.equal = Pace::Equal::spp;
+    state.rendering.pace.equal = Pace::Equal::spp;
     had(1, 40, 190);
     EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (40 of 900 spp; R: all anew)");
-    state.pace.spp_limit = 40; // nobody waits for one that rests
+    state.rendering.pace.spp_limit = 40; // nobody waits for one that rests
     EXPECT_EQ(waiting_text(state, 0), "");
-    state.pace.spp_limit = 0;
+    state.rendering.pace.spp_limit = 0;
     state.panes[1].failed = true;
     EXPECT_EQ(waiting_text(state, 0), "waiting for pane 3 (800 of 900 spp; R: all anew)");
-    state.paused = true;
+    state.rendering.paused = true;
     EXPECT_EQ(waiting_text(state, 0), "");
 }
 

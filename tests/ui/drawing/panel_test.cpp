@@ -16,7 +16,7 @@ namespace {
 struct PanelTest : testing::Test, ViewerHarness {
     PanelTest() {
         load_scene();
-        state().paused = true; // nothing but the input changes the state
+        state().rendering.paused = true; // nothing but the input changes the state
         frames(3);
     }
     const RenderSettings& render(int i) { return pane(i).settings.render; }
@@ -155,21 +155,21 @@ TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
 
 TEST_F(PanelTest, DisplayAndSize) {
     click_at("exposure", 0.99f);
-    EXPECT_NEAR(state().tone.exposure, 10, 0.3f);
+    EXPECT_NEAR(state().display.tone.exposure, 10, 0.3f);
     click_at("scale", 0.01f);
-    EXPECT_NEAR(state().size.scale, 0.05f, 1e-3f);
+    EXPECT_NEAR(state().rendering.size.scale, 0.05f, 1e-3f);
     choose("size", "scene");
-    EXPECT_EQ(state().size.base, SizeChoice::Base::scene);
+    EXPECT_EQ(state().rendering.size.base, SizeChoice::Base::scene);
     EXPECT_FALSE(has("width"));
     choose("size", "custom");
     EXPECT_TRUE(has("width"));
     choose("size", "pane");
-    EXPECT_EQ(state().size.base, SizeChoice::Base::pane);
+    EXPECT_EQ(state().rendering.size.base, SizeChoice::Base::pane);
 }
 
 TEST_F(PanelTest, Buttons) {
     click("pause");
-    EXPECT_FALSE(state().paused);
+    EXPECT_FALSE(state().rendering.paused);
     EXPECT_FALSE(session.paused());
     click("pause");
     EXPECT_TRUE(session.paused());
@@ -233,7 +233,7 @@ TEST_F(PanelTest, PictureAnswersTheMouse) {
     wheel(3);
     modifiers(false, false);
     EXPECT_TRUE(state().camera.camera() == home);
-    EXPECT_GT(state().view.zoom(), 1.5f);
+    EXPECT_GT(state().display.view.zoom(), 1.5f);
 }
 
 TEST_F(PanelTest, MouseOverThePanelLeavesTheCameraAlone) {

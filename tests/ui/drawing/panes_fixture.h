@@ -28,7 +28,7 @@ struct Panes : testing::Test, ViewerHarness {
     /// The middle of a pixel of a pane's image.
     glm::vec2 middle_of(int index, int x, int y) {
         const glm::ivec2 size = state().request_size();
-        const Placement placement = state().view.place(size, pane(index).canvas_size);
+        const Placement placement = state().display.view.place(size, pane(index).canvas_size);
         return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
                (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
     }

@@ -90,7 +90,7 @@ TEST_F(Panes, TheActivePaneKeepsItsSamples) {
     EXPECT_EQ(pane(0).snapshot->spp, 3);
     EXPECT_EQ(session.latest(0), nullptr); // the place of a pane that is gone
     EXPECT_NE(session.latest(before.slot), nullptr);
-    state().pace.spp_limit = 5; // and goes on
+    state().rendering.pace.spp_limit = 5; // and goes on
     EXPECT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 5; }));
     EXPECT_EQ(pane(0).snapshot->generation, before.generation);
 }
@@ -179,13 +179,13 @@ TEST_F(Panes, FlickerShowsTheOtherWhileTheKeyIsHeld) {
 TEST_F(Panes, DifferenceHasTheSignOfTheDifference) {
     click("pane0.picture");
     type(Key::n);
-    state().tone.exposure = 3;
+    state().display.tone.exposure = 3;
     frames(2);
     save("difference.png");
     const ScreenPixels pixels = screen();
-    const RgbImage& a = viewer.pane_image(0).pixels();
-    const RgbImage& b = viewer.pane_image(1).pixels();
-    const Placement placement = state().view.place(state().request_size(), pane(0).canvas_size);
+    const RgbImage& a = viewer.pictures().image(0).pixels();
+    const RgbImage& b = viewer.pictures().image(1).pixels();
+    const Placement placement = state().display.view.place(state().request_size(), pane(0).canvas_size);
     int compared = 0;
     for (int y = 5; y < a.height(); y += 3) {
         for (int x = 1; x < a.width(); x += 3) {
@@ -232,17 +232,17 @@ TEST_F(Panes, StepsOnePass) {
     ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 4 && pane(1).snapshot->spp == 4; }));
     click("step");
     ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 5 && pane(1).snapshot->spp == 5; }));
-    EXPECT_TRUE(state().paused);
+    EXPECT_TRUE(state().rendering.paused);
 }
 
 TEST_F(Panes, StopsAtSecondsAndLimitsRestartNothing) {
     const std::uint64_t generation = pane(0).generation;
-    state().pace = {Pace::Equal::time, 0, pane(0).snapshot->seconds + 0.15};
-    ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->seconds >= state().pace.seconds_limit; }));
+    state().rendering.pace = {Pace::Equal::time, 0, pane(0).snapshot->seconds + 0.15};
+    ASSERT_TRUE(wait_until([&] { return pane(0).snapshot->seconds >= state().rendering.pace.seconds_limit; }));
     EXPECT_EQ(pane(0).generation, generation);
     EXPECT_GT(pane(0).snapshot->spp, 3);
     choose("equal", "spp");
-    EXPECT_EQ(state().pace.equal, Pace::Equal::spp);
+    EXPECT_EQ(state().rendering.pace.equal, Pace::Equal::spp);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ namespace tessera::test {
 namespace {
 
 struct Pixels : Panes {
-    const PaneImages& images() { return viewer.pane_images(); }
+    const PaneImages& images() { return viewer.pictures().images(); }
 };
 
 TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
@@ -26,7 +26,7 @@ TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
     for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(20, 7), glm::ivec2(47, 35)}) {
         move_to(middle_of(0, pixel.x, pixel.y));
         for (int i = 0; i < 2; ++i) {
-            const Rgb value = viewer.pane_image(i).pixels()(pixel.x, pixel.y);
+            const Rgb value = viewer.pictures().image(i).pixels()(pixel.x, pixel.y);
             char expected[160];
             std::snprintf(expected, sizeof expected, "(%d, %d)  %.4g %.4g %.4g  Y %.4g", pixel.x, pixel.y,
                           static_cast<double>(value.r), static_cast<double>(value.g), static_cast<double>(value.b),
@@ -50,7 +50,7 @@ TEST_F(Pixels, DifferencesAreReadAsDifferences) {
     move_to(middle_of(0, 20, 20));
     const auto value = value_at(showing_at(state(), 0, 0.5f), images(), state().layout.cursor->place);
     ASSERT_TRUE(value);
-    const Rgb expected = viewer.pane_image(0).pixels()(20, 20) - viewer.pane_image(1).pixels()(20, 20);
+    const Rgb expected = viewer.pictures().image(0).pixels()(20, 20) - viewer.pictures().image(1).pixels()(20, 20);
     EXPECT_EQ(*value, expected);
 }
 
@@ -66,7 +66,7 @@ TEST_F(Pixels, LargePixelsHoldTheirNumbers) {
                 count += glm::all(glm::greaterThan(colour(pixels, {x, y}), glm::vec3(225)));
         return count;
     };
-    while (state().view.zoom() < 10)
+    while (state().display.view.zoom() < 10)
         wheel(1);
     modifiers(false, false);
     save("numbers.png");
@@ -101,7 +101,7 @@ TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
 
 TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
     type(Key::l);
-    EXPECT_TRUE(state().magnifier);
+    EXPECT_TRUE(state().display.magnifier);
     const glm::vec2 at = middle_of(0, 12, 18);
     move_to(at);
     save("magnifier.png");
@@ -121,32 +121,32 @@ TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
 TEST_F(Pixels, LegendsAreDraggedAndGoBack) {
     choose("pane1.buffer", "reused");
     const ControlRect legend = place("pane1.legend");
-    const ValueRange before = viewer.pane_image(1).range();
+    const ValueRange before = viewer.pictures().image(1).range();
     const auto camera = state().camera.position();
     const glm::vec2 bar(0, legend.max.y - 11);
     drag({legend.max.x - 20, bar.y}, {-30, 0});
-    ASSERT_TRUE(state().ranges.count(Buffer::reused));
-    const ValueRange high = state().ranges.at(Buffer::reused);
+    ASSERT_TRUE(state().display.ranges.count(Buffer::reused));
+    const ValueRange high = state().display.ranges.at(Buffer::reused);
     EXPECT_LT(high.high, before.high);
     EXPECT_EQ(high.low, 0);
     EXPECT_EQ(state().camera.position(), camera);
     drag({legend.min.x + 20, bar.y}, {30, 0});
-    EXPECT_GT(state().ranges.at(Buffer::reused).low, 0);
+    EXPECT_GT(state().display.ranges.at(Buffer::reused).low, 0);
     save("legend-range.png");
     frame(1); // no double click with the last
     click(glm::vec2(legend.min.x + 20, bar.y));
     click(glm::vec2(legend.min.x + 20, bar.y));
-    EXPECT_EQ(state().ranges.count(Buffer::reused), 0u);
+    EXPECT_EQ(state().display.ranges.count(Buffer::reused), 0u);
 }
 
 TEST_F(Pixels, ToneCurves) {
     choose("tone", "filmic");
-    EXPECT_EQ(state().tone.curve, Tone::Curve::filmic);
+    EXPECT_EQ(state().display.tone.curve, Tone::Curve::filmic);
     type(Key::y);
-    EXPECT_EQ(state().tone.curve, Tone::Curve::srgb);
+    EXPECT_EQ(state().display.tone.curve, Tone::Curve::srgb);
     const double before = brightness("pane0.picture");
     type(Key::y);
-    EXPECT_EQ(state().tone.curve, Tone::Curve::filmic);
+    EXPECT_EQ(state().display.tone.curve, Tone::Curve::filmic);
     frames(2);
     EXPECT_NE(brightness("pane0.picture"), before);
 }

@@ -24,7 +24,7 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     options.size = {SizeChoice::Base::custom, 1, {1280, 720}};
     options.spp_limit = 1;
     ViewerHarness h({900, 600}, 1, options);
-    h.state().patience = 0;
+    h.state().rendering.patience = 0;
     h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     ASSERT_TRUE(h.wait_until([&] { return h.viewer.settled(1); }));
     const auto before = h.pane(0).snapshot->reconstruction;

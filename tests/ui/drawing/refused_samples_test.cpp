@@ -30,7 +30,7 @@ std::shared_ptr<const Scene> broken_scene() {
 
 TEST(RefusedSamples, AreReportedOnceARequest) {
     ViewerHarness h;
-    h.state().pace.spp_limit = 3;
+    h.state().rendering.pace.spp_limit = 3;
     h.state().layout.show_statistics = true;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(3); });
@@ -56,7 +56,7 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
 
 TEST(RefusedSamples, OpenAsTheyWere) {
     ViewerHarness h;
-    h.state().pace.spp_limit = 2;
+    h.state().rendering.pace.spp_limit = 2;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(2) && h.state().messages.size() == 2; });
     const Message gpr = *std::find_if(h.state().messages.begin(), h.state().messages.end(),
@@ -93,7 +93,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
 
 TEST(RefusedSamples, OpenOneAfterTheOther) {
     ViewerHarness h;
-    h.state().pace.spp_limit = 1;
+    h.state().rendering.pace.spp_limit = 1;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().messages.pop_back();
@@ -118,7 +118,7 @@ TEST(RefusedSamples, OpenOneAfterTheOther) {
 TEST(RefusedSamples, OfAReferenceOpen) {
     const CurrentFolder folder;
     ViewerHarness h;
-    h.state().pace.spp_limit = 1;
+    h.state().rendering.pace.spp_limit = 1;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().reference_making.spp = 2;

@@ -27,7 +27,7 @@ struct SharedSamples : testing::Test, ViewerHarness {
     }
     Norm norm(int i) { return pane(i).snapshot->reconstructed_with.norm; }
     void settle(int spp) {
-        state().pace.spp_limit = spp;
+        state().rendering.pace.spp_limit = spp;
         frames(2); // in which changes take effect
         wait_until([&] { return viewer.settled(spp); });
         frames(3);

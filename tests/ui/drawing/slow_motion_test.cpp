@@ -33,7 +33,7 @@ struct SlowMotionView : testing::Test, ViewerHarness {
         frames(2);
     }
     glm::vec2 middle(glm::ivec2 pixel) {
-        const Placement placement = state().view.place({48, 36}, pane(slow().slot).canvas_size);
+        const Placement placement = state().display.view.place({48, 36}, pane(slow().slot).canvas_size);
         const ControlRect rect = place("pane" + std::to_string(slow().slot) + ".picture");
         return rect.min + placement.origin + (glm::vec2(pixel) + 0.5f) / glm::vec2(48, 36) * placement.extent;
     }
@@ -44,14 +44,14 @@ struct SlowMotionView : testing::Test, ViewerHarness {
 };
 
 TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
-    const ImageView before = state().view;
+    const ImageView before = state().display.view;
     const ScreenPixels untouched = screen();
     open();
     EXPECT_TRUE(has("slow.step"));
     EXPECT_EQ(slow().slot, state().active().slot);
     EXPECT_EQ(slow().tile->pass, 2);
     EXPECT_TRUE(slow().tile->tile.contains({24, 18}));
-    EXPECT_GT(state().view.zoom(), 2);
+    EXPECT_GT(state().display.view.zoom(), 2);
     const ControlRect picture = place("pane1.picture");
     for (const InspectedSet& set : slow().tile->sets)
         for (const glm::ivec2 p : set.pixels) { // nothing of it lies outside
@@ -64,7 +64,7 @@ TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
     type(Key::j);
     frames(2);
     EXPECT_FALSE(has("slow.step"));
-    EXPECT_TRUE(state().view == before);
+    EXPECT_TRUE(state().display.view == before);
     EXPECT_EQ(screen().rgb, untouched.rgb);
 }
 
@@ -86,7 +86,7 @@ TEST_F(SlowMotionView, GoesStepByStepAndFillsThePixels) {
     const InspectedSet& set = slow().set();
     save("slow-motion-last.png");
     // The set's first pixel has the colour of all that it has got, beside the numbers and arrows.
-    const Rgb expected = 255.0f * displayed(set.radiance(0, set.size()), state().tone);
+    const Rgb expected = 255.0f * displayed(set.radiance(0, set.size()), state().display.tone);
     const float unit = middle({1, 0}).x - middle({0, 0}).x;
     const glm::vec3 seen = colour(screen(), middle(set.pixels[0]) + glm::vec2(-0.38f, -0.02f) * unit);
     const glm::vec3 before = colour(first, middle(set.pixels[0]) + glm::vec2(-0.38f, -0.02f) * unit);
@@ -139,24 +139,24 @@ TEST_F(SlowMotionView, OneKeyFindsTheExposureOfTheTile) {
                 sum += static_cast<double>(colour(pixels, middle(p) - 0.3f * unit).g);
         return sum;
     };
-    state().tone.exposure = -9;
+    state().display.tone.exposure = -9;
     frames(2);
     const double dark = tile_brightness();
     type(Key::f6);
     frames(2);
-    const float found = state().tone.exposure;
+    const float found = state().display.tone.exposure;
     EXPECT_GT(tile_brightness(), 2 * dark + 100);
     EXPECT_GT(found, -9);
     save("slow-motion-exposed.png");
-    state().tone.exposure = 9;
+    state().display.tone.exposure = 9;
     frames(2);
     type(Key::f6);
-    EXPECT_FLOAT_EQ(state().tone.exposure, found);
+    EXPECT_FLOAT_EQ(state().display.tone.exposure, found);
     type(Key::j); // of the picture again
     frames(2);
     type(Key::f6);
     frames(2);
-    EXPECT_NE(state().tone.exposure, found);
+    EXPECT_NE(state().display.tone.exposure, found);
 }
 
 TEST_F(SlowMotionView, PlaysHoldsAndTakesTheNextTile) {
@@ -212,7 +212,7 @@ TEST_F(SlowMotionView, AHeldButtonChoosesNoOther) {
         frame(0.1f);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_GT(state().view.zoom(), 2);
+    EXPECT_GT(state().display.view.zoom(), 2);
     EXPECT_EQ(slow().sample->pixel, chosen);
     EXPECT_TRUE(slow().tile->tile.contains(chosen));
     release();
@@ -223,7 +223,7 @@ TEST_F(SlowMotionView, GoesOnInASmallerPicture) {
     open(false);
     slow().start({1, {47, 35}, {}});
     ASSERT_TRUE(wait_until([&] { return slow().shows_choice(); }));
-    state().size.custom = {24, 18};
+    state().rendering.size.custom = {24, 18};
     ASSERT_TRUE(wait_until([&] {
         return state().request_size() == glm::ivec2(24, 18) && slow().generation == pane(1).generation &&
                slow().shows_choice();
@@ -233,19 +233,19 @@ TEST_F(SlowMotionView, GoesOnInASmallerPicture) {
 }
 
 TEST_F(SlowMotionView, LeavesAPictureWhereItWasPutMeanwhile) {
-    state().view = ImageView(2, {0.3f, 0.3f});
+    state().display.view = ImageView(2, {0.3f, 0.3f});
     open();
     type(Key::f);
-    EXPECT_TRUE(state().view == ImageView());
+    EXPECT_TRUE(state().display.view == ImageView());
     type(Key::j);
-    EXPECT_TRUE(state().view == ImageView());
+    EXPECT_TRUE(state().display.view == ImageView());
 
-    state().view = ImageView(2, {0.3f, 0.3f});
+    state().display.view = ImageView(2, {0.3f, 0.3f});
     open();
     viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
-    ASSERT_TRUE(wait_until([&] { return state().scenes_shown == 2; }));
+    ASSERT_TRUE(wait_until([&] { return state().scene_info.shown == 2; }));
     type(Key::j);
-    EXPECT_TRUE(state().view == ImageView());
+    EXPECT_TRUE(state().display.view == ImageView());
 }
 
 TEST_F(SlowMotionView, KeepsToItsPaneWhereverThatIsShown) {

@@ -37,7 +37,7 @@ TEST(Look, TextIsAsMuchLargerOnAnotherDisplay) {
 TEST(Look, ThemesAreDarkAndLight) {
     ViewerHarness h;
     h.load_scene();
-    h.state().paused = true;
+    h.state().rendering.paused = true;
     h.frames(3);
     const auto lightness_of = [&](glm::vec2 at) {
         const ScreenPixels pixels = h.screen();

@@ -19,7 +19,7 @@ struct Tiles : testing::Test, ViewerHarness {
     glm::vec2 corner(int index, glm::ivec2 pixel) const {
         const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
         const auto& p = const_cast<Tiles*>(this)->pane(index);
-        const Placement placement = const_cast<Tiles*>(this)->state().view.place({48, 36}, p.canvas_size);
+        const Placement placement = const_cast<Tiles*>(this)->state().display.view.place({48, 36}, p.canvas_size);
         return rect.min + placement.origin + glm::vec2(pixel) / glm::vec2(48, 36) * placement.extent;
     }
     glm::vec3 colour(const ScreenPixels& pixels, glm::vec2 at) const {
@@ -37,14 +37,14 @@ struct Tiles : testing::Test, ViewerHarness {
 
 TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
     const ScreenPixels before = screen();
-    const RgbImage image = viewer.pane_image(1).pixels();
+    const RgbImage image = viewer.pictures().image(1).pixels();
     type(Key::x);
-    EXPECT_TRUE(state().show_tiles);
+    EXPECT_TRUE(state().display.show_tiles);
     save("tiles.png");
     const ScreenPixels after = screen();
     const Snapshot& snapshot = *pane(1).snapshot;
-    ASSERT_TRUE(snapshot.plan);
-    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
+    ASSERT_TRUE(snapshot.learned);
+    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.learned, snapshot.spp - 1);
     // In the middle of pixels that are cut by no line nothing has changed; on the lines it has.
     const PixelRect tile = grid.tile_at({20, 16});
     const glm::vec2 a = corner(1, {tile.x0, tile.y0}), b = corner(1, {tile.x0 + 1, tile.y0 + 1});
@@ -53,7 +53,7 @@ TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
     EXPECT_EQ(changed(before, after, a + 4.0f, b - 4.0f), 0);
     for (int y = 0; y < image.height(); ++y)
         for (int x = 0; x < image.width(); ++x)
-            EXPECT_EQ(viewer.pane_image(1).pixels()(x, y), image(x, y));
+            EXPECT_EQ(viewer.pictures().image(1).pixels()(x, y), image(x, y));
     type(Key::x);
     EXPECT_EQ(screen().rgb, before.rgb);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -62,19 +62,20 @@ TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
 TEST_F(Tiles, MarksTheSetOfThePixelUnderTheMouse) {
     type(Key::x);
     const Snapshot& snapshot = *pane(1).snapshot;
-    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
-    const PixelRect part = grid.part_at({20, 16});
+    const TileGrid grid({48, 36}, snapshot.settings, *snapshot.learned, snapshot.spp - 1);
+    const PixelRect split = grid.split_at({20, 16});
     const ScreenPixels before = screen();
     move_to((corner(1, {20, 16}) + corner(1, {21, 17})) * 0.5f);
     const ScreenPixels after = screen();
     save("tiles-set.png");
     const auto middle = [&](int x, int y) { return (corner(1, {x, y}) + corner(1, {x + 1, y + 1})) * 0.5f; };
     // Its own pixels turn toward green, the border toward orange, others stay.
-    const glm::vec3 inner = colour(after, middle(part.x0, part.y0)) - colour(before, middle(part.x0, part.y0));
-    const glm::vec3 border = colour(after, middle(part.x1, part.y0)) - colour(before, middle(part.x1, part.y0));
+    const glm::vec3 inner = colour(after, middle(split.x0, split.y0)) - colour(before, middle(split.x0, split.y0));
+    const glm::vec3 border =
+        colour(after, middle(split.x1, split.y0)) - colour(before, middle(split.x1, split.y0));
     EXPECT_GT(inner.g - inner.r, 10);
     EXPECT_GT(border.r - border.b, 10);
-    const glm::vec2 outside = middle(part.x1 + 2, part.y0);
+    const glm::vec2 outside = middle(split.x1 + 2, split.y0);
     EXPECT_EQ(colour(after, outside), colour(before, outside));
 }
 
@@ -84,7 +85,8 @@ TEST_F(Tiles, RooksOfAPatternHaveOneColour) {
     state().panes[1].settings.render.pattern = Pattern::rooks;
     state().panes[1].settings.render.tile = 3;
     state().panes[1].settings.buffer = Buffer::survival; // false colours
-    state().ranges[Buffer::survival] = {2, 3, false};    // of which there is but the lowest: all pixels are alike
+    state().display.ranges[Buffer::survival] = {2, 3,
+                                                false}; // of which there is but the lowest: all pixels are alike
     state().set_view(ImageView(4, {0.5f, 0.5f}));
     frames(2);
     wait_until([&] { return viewer.settled(3); });
@@ -93,7 +95,7 @@ TEST_F(Tiles, RooksOfAPatternHaveOneColour) {
     save("tiles-rooks-colours.png");
     const ScreenPixels shown = screen();
     const Snapshot& snapshot = *pane(1).snapshot;
-    TileGrid grid({48, 36}, snapshot.settings, *snapshot.plan, snapshot.spp - 1);
+    TileGrid grid({48, 36}, snapshot.settings, *snapshot.learned, snapshot.spp - 1);
     const PixelRect tile = grid.tile_at({24, 18});
     std::vector<int> columns;
     grid.shuffle_columns(tile, columns);
@@ -115,7 +117,7 @@ TEST_F(Tiles, RooksOfAPatternHaveOneColour) {
 TEST_F(Tiles, RooksAndSmallTilesAndZoom) {
     state().panes[1].settings.render.method = Method::pr;
     state().panes[1].settings.render.pattern = Pattern::rooks;
-    state().show_tiles = true;
+    state().display.show_tiles = true;
     wait_until([&] { return viewer.settled(3); });
     move_to((corner(1, {20, 16}) + corner(1, {21, 17})) * 0.5f);
     save("tiles-rooks.png");

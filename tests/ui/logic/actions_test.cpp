@@ -1,5 +1,5 @@
+#include "ui/panels/found_actions.h"
 #include "ui/state/actions.h"
-#include "ui/state/found_actions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -78,7 +78,7 @@ TEST(Actions, NoShortcutIsAFlyingKey) {
 
 TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
     ViewerState state = two_panes();
-    state.loading = "a scene";
+    state.scene_info.loading = "a scene";
     type(state, key(Key::escape), true);
     EXPECT_FALSE(state.wishes.cancel_scene);
     type(state, key(Key::escape));
@@ -111,9 +111,9 @@ TEST(Actions, MenusLieTogether) {
 TEST(Actions, EveryShortcutRunsItsAction) {
     ViewerState state = two_panes();
     type(state, key(Key::space));
-    EXPECT_TRUE(state.paused);
+    EXPECT_TRUE(state.rendering.paused);
     type(state, key(Key::space));
-    EXPECT_FALSE(state.paused);
+    EXPECT_FALSE(state.rendering.paused);
     type(state, key(Key::r));
     EXPECT_TRUE(state.wishes.restart);
     type(state, {Key::q, true, false, 0});
@@ -174,7 +174,7 @@ TEST(Actions, SlowMotionAndInspectorTakeTurns) {
     EXPECT_TRUE(state.slow_motion.active);
     type(state, {Key::space, false, true, 0});
     EXPECT_TRUE(state.slow_motion.held);
-    EXPECT_FALSE(state.paused);
+    EXPECT_FALSE(state.rendering.paused);
     type(state, key(Key::i));
     EXPECT_TRUE(state.inspector.active);
     EXPECT_FALSE(state.slow_motion.active);
@@ -205,15 +205,15 @@ TEST(Actions, BuffersInAllPanes) {
 TEST(Actions, ExposureStepsAndStaysInRange) {
     ViewerState state = two_panes();
     type(state, character('+'));
-    EXPECT_FLOAT_EQ(state.tone.exposure, 0.5f);
+    EXPECT_FLOAT_EQ(state.display.tone.exposure, 0.5f);
     type(state, character('-'));
     type(state, character('-'));
-    EXPECT_FLOAT_EQ(state.tone.exposure, -0.5f);
+    EXPECT_FLOAT_EQ(state.display.tone.exposure, -0.5f);
     for (int i = 0; i < 100; ++i)
         type(state, character('='));
-    EXPECT_FLOAT_EQ(state.tone.exposure, 10);
+    EXPECT_FLOAT_EQ(state.display.tone.exposure, 10);
     type(state, key(Key::digit0));
-    EXPECT_FLOAT_EQ(state.tone.exposure, 0);
+    EXPECT_FLOAT_EQ(state.display.tone.exposure, 0);
 }
 
 TEST(Actions, TileStepsInAllLinkedPanes) {
@@ -254,7 +254,7 @@ TEST(Actions, TextEntryKeepsItsLetters) {
     type(state, character('+'), true);
     EXPECT_FALSE(state.wishes.restart);
     EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
-    EXPECT_FLOAT_EQ(state.tone.exposure, 0);
+    EXPECT_FLOAT_EQ(state.display.tone.exposure, 0);
     type(state, {Key::q, true, false, 0}, true);
     EXPECT_TRUE(state.wishes.quit);
 }
@@ -309,9 +309,9 @@ TEST(Messages, OldestGoWhenThereAreTooMany) {
 
 TEST(Actions, FitUndoesZoom) {
     ViewerState state = two_panes();
-    state.view.zoom_at({10, 10}, 4, {100, 100}, {100, 100});
+    state.display.view.zoom_at({10, 10}, 4, {100, 100}, {100, 100});
     type(state, key(Key::f));
-    EXPECT_EQ(state.view, ImageView());
+    EXPECT_EQ(state.display.view, ImageView());
 }
 
 } // namespace

@@ -63,7 +63,7 @@ TEST(Buffer, PrimalStandsInForTheReconstruction) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reconstruction), 0.75f);
     snapshot.reconstruction = reconstruction(1, 1); // still that of the first look
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reconstruction), 0.75f);
-    Snapshot path_traced = snapshot_of(Method::pt); // whose spikes are held back
+    Snapshot path_traced = snapshot_of(Method::pt); // denoised
     path_traced.reconstruction = reconstruction(4, 3);
     EXPECT_FLOAT_EQ(first(path_traced, Buffer::reconstruction), 7);
 }
@@ -135,22 +135,22 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 7.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::outcomes), 0.25f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::survival), 0.75f);
-    EXPECT_FLOAT_EQ(first(snapshot, Buffer::sharers), 49);
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::reuse_set_size), 49);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::gain), 2.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::samples), 9);
     EXPECT_EQ(legend_text(Buffer::gain, automatic_range(Buffer::gain, RgbImage(2, 2, Rgb(1e6f)))),
               "gain: 0.1 .. 10 times  log scale");
     EXPECT_EQ(picture_source(snapshot, Buffer::reused), snapshot.reuse);
     EXPECT_EQ(picture_source(snapshot, Buffer::outcomes), snapshot.reuse);
-    for (Buffer map :
-         {Buffer::reused, Buffer::outcomes, Buffer::survival, Buffer::sharers, Buffer::gain, Buffer::samples}) {
+    for (Buffer map : {Buffer::reused, Buffer::outcomes, Buffer::survival, Buffer::reuse_set_size, Buffer::gain,
+                       Buffer::samples}) {
         EXPECT_FLOAT_EQ(first(snapshot_of(Method::pt), map), -1);
         EXPECT_EQ(picture_source(snapshot_of(Method::pt), map), nullptr);
         EXPECT_TRUE(has_one_number(colour_map(map)));
     }
     EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::gain, {}).find("G-PR"), std::string::npos);
     EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::samples, {}).find("as many"), std::string::npos);
-    EXPECT_NE(missing_text(nullptr, Method::gpt, Buffer::sharers, {}).find("no tiles"), std::string::npos);
+    EXPECT_NE(missing_text(nullptr, Method::gpt, Buffer::reuse_set_size, {}).find("no tiles"), std::string::npos);
 }
 
 /// The numbers are shares, and the colours the mean of those that stand for the outcomes everywhere.

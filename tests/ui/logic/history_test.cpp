@@ -1,9 +1,9 @@
 // Undo and redo, presets, and commands by words.
 
 #include "render/settings/settings_table.h"
-#include "ui/state/found_actions.h"
+#include "ui/panels/found_actions.h"
+#include "ui/settings/presets.h"
 #include "ui/state/history.h"
-#include "ui/state/presets.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -80,15 +80,15 @@ TEST(History, WhatIsDoneAfterUndoEndsRedo) {
     Document document = document_with(1);
     History history;
     for (float exposure : {0.0f, 1.0f, 2.0f}) {
-        document.tone.exposure = exposure;
+        document.display.tone.exposure = exposure;
         history.note(document, false);
     }
     history.undo(document);
-    document.tone.exposure = 7;
+    document.display.tone.exposure = 7;
     history.note(document, false);
     EXPECT_FALSE(history.can_redo());
     history.undo(document);
-    EXPECT_EQ(document.tone.exposure, 1);
+    EXPECT_EQ(document.display.tone.exposure, 1);
 }
 
 TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {

@@ -72,7 +72,7 @@ TEST(Keyboard, ACharacterWinsOverItsKey) {
         run_shortcuts(keyboard.take(), false, state);
     };
     type(Key::digit6, '-'); // French: exposure, and no failed shifts
-    EXPECT_LT(state.tone.exposure, 0);
+    EXPECT_LT(state.display.tone.exposure, 0);
     EXPECT_EQ(state.panes[0].settings.buffer, Buffer::reconstruction);
     type(Key::digit3, '"'); // a character that calls nothing
     EXPECT_EQ(state.panes[0].settings.buffer, Buffer::dx);

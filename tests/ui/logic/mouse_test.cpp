@@ -19,7 +19,7 @@ struct MouseTest : testing::Test {
         state.panes.resize(2);
         state.camera.set_home(home, {0, 0, 0}, 2);
     }
-    void apply(PaneMouse mouse) { apply_mouse(mouse, state.view.place(size, size), size, size, state); }
+    void apply(PaneMouse mouse) { apply_mouse(mouse, state.display.view.place(size, size), size, size, state); }
     static PaneMouse drag() {
         PaneMouse mouse;
         mouse.previous = {200, 150};
@@ -70,19 +70,19 @@ TEST_F(MouseTest, CtrlMovesThePictureNotTheCamera) {
     wheel.wheel = 2;
     wheel.ctrl = true;
     apply(wheel);
-    EXPECT_GT(state.view.zoom(), 1.4f);
-    const ImageView zoomed = state.view;
+    EXPECT_GT(state.display.view.zoom(), 1.4f);
+    const ImageView zoomed = state.display.view;
     PaneMouse left = drag();
     left.left = left.ctrl = true;
     apply(left);
-    EXPECT_NE(state.view, zoomed);
+    EXPECT_NE(state.display.view, zoomed);
     EXPECT_TRUE(state.camera.camera() == home);
 }
 
 TEST_F(MouseTest, MovingWithoutAButtonDoesNothing) {
     apply(drag());
     EXPECT_TRUE(state.camera.camera() == home);
-    EXPECT_EQ(state.view, ImageView());
+    EXPECT_EQ(state.display.view, ImageView());
 }
 
 } // namespace

@@ -76,9 +76,9 @@ TEST(NamedSettings, SetPanesAndViewer) {
     EXPECT_EQ(state.panes[2].settings.buffer, Buffer::dx);
     EXPECT_EQ(state.panes[2].settings.comparison.kind, Comparison::Kind::wipe);
     set_by_name(state, "exposure", "-1.5");
-    EXPECT_EQ(state.tone.exposure, -1.5f);
+    EXPECT_EQ(state.display.tone.exposure, -1.5f);
     set_by_name(state, "size", "64x32");
-    EXPECT_EQ(state.size.custom, glm::ivec2(64, 32));
+    EXPECT_EQ(state.rendering.size.custom, glm::ivec2(64, 32));
     set_by_name(state, "norm", "l1");
     EXPECT_EQ(state.panes[0].settings.reconstruction.norm, Norm::l1);
     set_by_name(state, "compare_with", "reference");

@@ -103,9 +103,9 @@ TEST_F(CameraHold, BookmarksComeBackAlsoFromSavedSettings) {
     type(Key::f7);
     EXPECT_TRUE(state().camera.camera() == first) << "round from the last";
     type(Key::f7, true);
-    EXPECT_EQ(state().bookmarks.size(), 1u);
+    EXPECT_EQ(state().bookmarks.views.size(), 1u);
     apply_settings_json(state(), saved, "saved");
-    ASSERT_EQ(state().bookmarks.size(), 2u);
+    ASSERT_EQ(state().bookmarks.views.size(), 2u);
     state().camera.go_home();
     type(Key::f7);
     type(Key::f7);

@@ -41,23 +41,23 @@ struct CompanionsTest : testing::Test, ViewerHarness {
 
 TEST_F(CompanionsTest, ErrorsToADroppedReference) {
     type(Key::digit7);
-    EXPECT_TRUE(viewer.pane_image(0).empty());
+    EXPECT_TRUE(viewer.pictures().image(0).empty());
     save("no-reference.png");
     drop_reference({48, 36}, 0.5f);
-    ASSERT_FALSE(viewer.pane_image(0).empty());
+    ASSERT_FALSE(viewer.pictures().image(0).empty());
     const Rgb value = pane(0).snapshot->reconstruction->image(10, 10);
     float expected = 0;
     for (int i = 0; i < 3; ++i)
         expected += (value[i] - 0.5f) * (value[i] - 0.5f) / (0.251f * 3);
-    EXPECT_NEAR(viewer.pane_image(0).pixels()(10, 10).r, expected, 1e-4f * expected);
+    EXPECT_NEAR(viewer.pictures().image(0).pixels()(10, 10).r, expected, 1e-4f * expected);
     EXPECT_TRUE(has("pane0.legend"));
-    EXPECT_TRUE(viewer.pane_image(1).range().logarithmic);
+    EXPECT_TRUE(viewer.pictures().image(1).range().logarithmic);
     save("error.png");
 
     // Dragging keeps the range logarithmic, and for all panes alike.
     const ControlRect legend = place("pane0.legend");
     drag({legend.max.x - 20, legend.max.y - 11}, {30, 0});
-    const ValueRange range = state().ranges.at(Buffer::error_relative_squared);
+    const ValueRange range = state().display.ranges.at(Buffer::error_relative_squared);
     EXPECT_TRUE(range.logarithmic);
     EXPECT_GT(range.high, 1);
     command("Error: absolute");
@@ -67,40 +67,42 @@ TEST_F(CompanionsTest, ErrorsToADroppedReference) {
 TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
     command("Error: squared");
     drop_reference({40, 20}, 0.5f);
-    EXPECT_TRUE(viewer.pane_image(0).empty());
+    EXPECT_TRUE(viewer.pictures().image(0).empty());
     ASSERT_TRUE(has("reference_size"));
     click("reference_size");
     EXPECT_EQ(state().request_size(), glm::ivec2(40, 20));
     wait_until([&] { return viewer.settled(3); });
     frames(3);
-    EXPECT_FALSE(viewer.pane_image(0).empty());
+    EXPECT_FALSE(viewer.pictures().image(0).empty());
     EXPECT_FALSE(has("reference_size"));
 }
 
 TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
     type(Key::digit8);
     EXPECT_EQ(pane(0).settings.buffer, Buffer::reference);
-    EXPECT_TRUE(viewer.pane_image(0).empty());
+    EXPECT_TRUE(viewer.pictures().image(0).empty());
     drop_reference({20, 10}, 0.25f); // of any size
-    ASSERT_FALSE(viewer.pane_image(0).empty());
-    EXPECT_EQ(viewer.pane_image(1).at({0.9f, 0.9f}), Rgb(0.25f));
+    ASSERT_FALSE(viewer.pictures().image(0).empty());
+    EXPECT_EQ(viewer.pictures().image(1).at({0.9f, 0.9f}), Rgb(0.25f));
 
     type(Key::digit2); // primal
     click("pane0.picture");
     choose("compare_with", "reference");
     EXPECT_EQ(state().compared_with(0), the_reference);
     choose("compare", "wipe");
-    EXPECT_EQ(value_at(showing_at(state(), 0, 0.9f), viewer.pane_images(), {0.9f, 0.4f}), Rgb(0.25f));
+    EXPECT_EQ(value_at(showing_at(state(), 0, 0.9f), viewer.pictures().images(), {0.9f, 0.4f}), Rgb(0.25f));
     EXPECT_EQ(label_of(showing_at(state(), 0, 0.9f), state()), "Reference");
-    state().show_tiles = state().magnifier = state().inspector.active = true; // which ask for a pane
+    state().display.show_tiles = state().display.magnifier = state().inspector.active =
+        true; // which ask for a pane
     const ControlRect rect = place("pane0.picture");
     click(rect.min + (rect.max - rect.min) * glm::vec2(0.7f, 0.5f));
     EXPECT_EQ(state().inspector.sample->slot, 0);
     save("wipe-reference.png");
-    state().show_tiles = state().magnifier = state().inspector.active = false;
+    state().display.show_tiles = state().display.magnifier = state().inspector.active = false;
     choose("compare", "difference");
-    const Rgb primal = viewer.pane_image(0).at({0.5f, 0.5f});
-    EXPECT_EQ(value_at(showing_at(state(), 0, 0.5f), viewer.pane_images(), {0.5f, 0.5f}), primal - Rgb(0.25f));
+    const Rgb primal = viewer.pictures().image(0).at({0.5f, 0.5f});
+    EXPECT_EQ(value_at(showing_at(state(), 0, 0.5f), viewer.pictures().images(), {0.5f, 0.5f}),
+              primal - Rgb(0.25f));
     choose("compare", "off");
     viewer.keyboard().press(Key::b, Key::b, false, false); // flicker
     frames(2);
@@ -242,7 +244,7 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     wait_until([&] { return is_other_than(near); });
     frames(2);
     // The red wall's, wherever the light is.
-    const Rgb red = viewer.pane_image(0).pixels()(1, 18);
+    const Rgb red = viewer.pictures().image(0).pixels()(1, 18);
     EXPECT_NEAR(red.r, 0.63f, 0.02f);
     EXPECT_NEAR(red.g, 0.065f, 0.01f);
 }

@@ -4,7 +4,7 @@
 #include "render/scene/scene.h"
 #include "tests/ui/drawing/panes_fixture.h"
 #include "tests/ui/viewer/current_folder.h"
-#include "ui/state/presets.h"
+#include "ui/settings/presets.h"
 
 #include <cstddef>
 #include <memory>
@@ -21,7 +21,7 @@ namespace {
 
 TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
     const double good = brightness("pane1.picture");
-    state().tone.exposure = -9;
+    state().display.tone.exposure = -9;
     frames(2);
     ASSERT_LT(brightness("pane1.picture"), good / 4);
     type(Key::f6);
@@ -30,26 +30,26 @@ TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
     EXPECT_LT(brightness("pane1.picture"), 220);
     state().active_pane = 1;
     state().panes[1].settings.buffer = Buffer::dx;
-    const float of_picture = state().tone.exposure;
+    const float of_picture = state().display.tone.exposure;
     frames(3);
     const double dim = brightness("pane1.picture"), other = brightness("pane0.picture");
     type(Key::f6);
     frames(2);
-    EXPECT_EQ(state().tone.exposure, of_picture);
-    EXPECT_GT(state().tone.difference_exposure, 0) << "gradients are darker";
+    EXPECT_EQ(state().display.tone.exposure, of_picture);
+    EXPECT_GT(state().display.tone.difference_exposure, 0) << "gradients are darker";
     EXPECT_GT(brightness("pane1.picture"), dim + 3);
     EXPECT_EQ(brightness("pane0.picture"), other) << "the picture beside them stays as it is";
     save("gradients-exposed.png");
     type(Key::z, true);
     frames(2);
-    EXPECT_EQ(state().tone.difference_exposure, 0) << "it can be taken back";
+    EXPECT_EQ(state().display.tone.difference_exposure, 0) << "it can be taken back";
     type(Key::digit0);
     state().panes[1].settings.buffer = Buffer::reused;
-    state().ranges[Buffer::reused] = {0, 1e6f, false};
+    state().display.ranges[Buffer::reused] = {0, 1e6f, false};
     frames(3);
     type(Key::f6);
     frames(2);
-    EXPECT_LT(state().ranges[Buffer::reused].high, 1e4f);
+    EXPECT_LT(state().display.ranges[Buffer::reused].high, 1e4f);
 }
 
 TEST_F(Panes, CommandsAreFoundByWords) {
@@ -139,8 +139,8 @@ bool are_stacked(ViewerHarness& h, glm::ivec2 film) {
         description.size = film;
         return std::make_shared<const Scene>(std::move(description));
     });
-    const int before = h.state().scenes_shown;
-    h.wait_until([&] { return h.state().scenes_shown > before; });
+    const int before = h.state().scene_info.shown;
+    h.wait_until([&] { return h.state().scene_info.shown > before; });
     h.frames(3);
     return h.place("pane0.picture").max.y <= h.place("pane1.picture").min.y;
 }
@@ -190,6 +190,32 @@ TEST(PaneHeaders, HaveTileAndNormOfTheirOwn) {
     h.choose("pane1.tile", "3");
     EXPECT_EQ(h.pane(1).settings.render.tile, 3);
     h.save("header.png");
+}
+
+TEST(PaneHeaders, AClickSwitchesBetweenRawSamplesAndTheDenoiser) {
+    ViewerHarness h({1600, 900});
+    h.rest(1);
+    const auto norm = [&](int pane) { return applied_norm(h.pane(pane).settings); };
+    ASSERT_EQ(norm(0), Norm::none);
+    ASSERT_EQ(norm(1), Norm::guided);
+    h.click("pane1.denoised");
+    EXPECT_EQ(norm(1), Norm::none);
+    EXPECT_FALSE(h.state().linked) << "it is this pane's alone";
+    h.click("pane0.denoised");
+    EXPECT_EQ(norm(0), Norm::smoothed);
+    EXPECT_EQ(norm(1), Norm::none);
+    h.save("header-raw.png");
+    h.type(Key::z, true);
+    EXPECT_EQ(norm(0), Norm::none);
+    h.type(Key::z, true);
+    EXPECT_EQ(norm(1), Norm::guided);
+    EXPECT_TRUE(h.state().linked);
+    h.state().active_pane = 0;
+    h.type(Key::d, true);
+    EXPECT_EQ(norm(0), Norm::smoothed);
+    EXPECT_EQ(norm(1), Norm::guided);
+    h.type(Key::d, true);
+    EXPECT_EQ(norm(0), Norm::none);
 }
 
 } // namespace

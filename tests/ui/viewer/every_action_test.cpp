@@ -27,7 +27,7 @@ constexpr int samples = 3; // at which panes rest
 void note_two_exposures(ViewerState& s) {
     s.history = {};
     s.history.note(s, false);
-    s.tone.exposure = 2;
+    s.display.tone.exposure = 2;
     s.history.note(s, false);
 }
 
@@ -35,31 +35,25 @@ void note_two_exposures(ViewerState& s) {
 const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Reconstruction",
      [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
-    {"Reset exposure", [](ViewerState& s) { s.tone.exposure = 2; }},
+    {"Reset exposure", [](ViewerState& s) { s.display.tone.exposure = 2; }},
     {"Next part",
      [](ViewerState& s) {
          s.active().settings.render.basis = Basis::sh1;
          s.active().settings.buffer = Buffer::dx;
      }},
-    {"Fit picture",
-     [](ViewerState& s) {
-         s.set_view(ImageView(2, {0.4f, 0.5f}));
-     }},
+    {"Fit picture", [](ViewerState& s) { s.set_view(ImageView(2, {0.4f, 0.5f})); }},
     {"Smaller text", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Text as the display says", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Step one pass", [](ViewerState& s) { s.wishes.restart = true; }}, // it may have been done before
     {"Two panes", [](ViewerState& s) { s.set_pane_count(4); }},
-    {"Reset camera",
-     [](ViewerState& s) {
-         s.camera.orbit({40, 10}, 100);
-     }},
+    {"Reset camera", [](ViewerState& s) { s.camera.orbit({40, 10}, 100); }},
     {"Next bookmark",
      [](ViewerState& s) {
          add_bookmark(s);
          s.camera.orbit({40, 10}, 100);
      }},
     {"Forget bookmark", [](ViewerState& s) { add_bookmark(s); }},
-    {"Automatic exposure", [](ViewerState& s) { s.tone.exposure = 5; }},
+    {"Automatic exposure", [](ViewerState& s) { s.display.tone.exposure = 5; }},
     {"Undo", [](ViewerState& s) { note_two_exposures(s); }},
     {"Redo",
      [](ViewerState& s) {
@@ -87,7 +81,7 @@ std::vector<std::string> menus() {
 
 struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
     EveryAction() : ViewerHarness({1000, 800}) {
-        state().pace.spp_limit = samples;
+        state().rendering.pace.spp_limit = samples;
         viewer.load("room.xml", scene_in("room.xml").loader, scene_in("room.xml").source);
         write_exr("reference.exr", {{{"", RgbImage(48, 36, Rgb(0.5f))}}, {}});
         wait_until([&] { return viewer.settled(samples); });
@@ -126,7 +120,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         state().slow_motion.held = true;
         frames(2); // in which it is asked for
         settle(samples);
-        scenes = state().scenes_shown;
+        scenes = state().scene_info.shown;
         generation = state().active().generation;
     }
 
@@ -142,12 +136,12 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         text += fmt::format("\nclipboard: {}\n", ImGui::GetClipboardText());
         text += fmt::format("part {}\n", s.companions.part ? *s.companions.part : -1);
         text += fmt::format("pane {}, text {}, {} spp, reloaded {}, anew {}, quit {}\n", s.active_pane,
-                            s.layout.text_factor, s.active().snapshot->spp, s.scenes_shown - scenes,
+                            s.layout.text_factor, s.active().snapshot->spp, s.scene_info.shown - scenes,
                             s.active().generation != generation, s.wishes.quit);
-        text +=
-            fmt::format("paused {}, light {}, panel {}, statistics {}, charts {}, help {}, messages {}\n",
-                        s.paused, s.layout.theme == Theme::light, s.layout.show_panel, s.layout.show_statistics,
-                        s.layout.show_charts, s.layout.show_help, s.layout.show_messages);
+        text += fmt::format("paused {}, light {}, panel {}, statistics {}, charts {}, help {}, messages {}\n",
+                            s.rendering.paused, s.layout.theme == Theme::light, s.layout.show_panel,
+                            s.layout.show_statistics, s.layout.show_charts, s.layout.show_help,
+                            s.layout.show_messages);
         text += fmt::format("choosing {}, sample form {}, reference form {}, inspector {}\n",
                             s.layout.choosing ? static_cast<int>(*s.layout.choosing) : -1,
                             s.layout.sample_form.show, s.reference_making.show, s.inspector.active);

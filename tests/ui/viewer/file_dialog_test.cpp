@@ -96,7 +96,7 @@ TEST_F(Dialog, OpensASceneByClicks) {
     EXPECT_TRUE(h.has("file/room.xml"));
     h.click("file.open");
     EXPECT_FALSE(h.state().layout.choosing.has_value());
-    h.wait_until([&] { return h.state().scenes_shown == 2; });
+    h.wait_until([&] { return h.state().scene_info.shown == 2; });
     EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "scenes" / "room.xml").string()});
     h.frames(3);
     EXPECT_FALSE(h.has("file.path"));
@@ -154,7 +154,7 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     h.type(Key::f9);
     EXPECT_TRUE(h.state().camera.camera() == camera);
     EXPECT_EQ(h.state().panes.size(), 2u);
-    EXPECT_FALSE(h.state().paused);
+    EXPECT_FALSE(h.state().rendering.paused);
     EXPECT_EQ(h.state().layout.theme, Theme::dark);
     ASSERT_TRUE(h.has("file/other.xml"));
     ImGui::GetIO().AddInputCharacter('r'); // what is typed goes on after the folder
@@ -215,7 +215,7 @@ TEST_F(Dialog, ASceneCanBeOnItsWayBehindIt) {
     h.frames(3);
     EXPECT_TRUE(h.state().layout.choosing);
     through = true;
-    h.wait_until([&] { return h.state().loading.empty(); });
+    h.wait_until([&] { return h.state().scene_info.loading.empty(); });
 }
 
 } // namespace

@@ -34,17 +34,17 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     state().panes[1].settings.buffer = Buffer::dx_variance;
     state().panes[1].settings.comparison = {Comparison::Kind::difference, 3};
     state().panes[1].settings.render.seed = 0xffffffffffffull;
-    state().tone = {Tone::Curve::filmic, -2.5f, 1.75f};
-    state().size = {SizeChoice::Base::custom, 0.5f, {80, 60}};
-    state().pace = {Pace::Equal::spp, 12, 34.5};
+    state().display.tone = {Tone::Curve::filmic, -2.5f, 1.75f};
+    state().rendering.size = {SizeChoice::Base::custom, 0.5f, {80, 60}};
+    state().rendering.pace = {Pace::Equal::spp, 12, 34.5};
     state().panes[3].settings.reconstruction.alpha = 0.5f;
     state().active_pane = 1;
-    state().layout.alone = state().show_tiles = state().magnifier = state().layout.charts_by_spp =
-        state().mark_negative = true;
+    state().layout.alone = state().display.show_tiles = state().display.magnifier = state().layout.charts_by_spp =
+        state().display.mark_negative = true;
     state().layout.chart_kind = ChartKind::shifts;
     state().layout.wipe = 0.125f;
-    state().view = ImageView(3.5f, {0.25f, 0.75f});
-    state().ranges = {{Buffer::depth, {0.5f, 7, false}}, {Buffer::error_squared, {1e-6f, 1e-2f, true}}};
+    state().display.view = ImageView(3.5f, {0.25f, 0.75f});
+    state().display.ranges = {{Buffer::depth, {0.5f, 7, false}}, {Buffer::error_squared, {1e-6f, 1e-2f, true}}};
     state().camera.orbit({30, 10}, 300);
     state().camera.dolly(0.5f);
     const auto camera = state().camera.camera();
@@ -63,19 +63,19 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_TRUE(other.panes[i].settings == settings[i]) << i;
     EXPECT_FALSE(other.linked);
-    EXPECT_TRUE(other.tone == state().tone);
-    EXPECT_TRUE(other.size == state().size);
-    EXPECT_TRUE(other.pace == state().pace);
+    EXPECT_TRUE(other.display.tone == state().display.tone);
+    EXPECT_TRUE(other.rendering.size == state().rendering.size);
+    EXPECT_TRUE(other.rendering.pace == state().rendering.pace);
     EXPECT_TRUE(other.camera.camera() == camera);
     EXPECT_EQ(other.camera.distance(), state().camera.distance());
     EXPECT_EQ(other.active_pane, 1);
-    EXPECT_TRUE(other.layout.alone && other.show_tiles && other.magnifier && other.layout.charts_by_spp &&
-                other.mark_negative);
+    EXPECT_TRUE(other.layout.alone && other.display.show_tiles && other.display.magnifier &&
+                other.layout.charts_by_spp && other.display.mark_negative);
     EXPECT_EQ(other.layout.chart_kind, ChartKind::shifts);
     EXPECT_EQ(other.layout.wipe, 0.125f);
-    EXPECT_TRUE(other.view == state().view);
-    EXPECT_TRUE(other.ranges == state().ranges);
-    other.scene_name = state().scene_name;
+    EXPECT_TRUE(other.display.view == state().display.view);
+    EXPECT_TRUE(other.display.ranges == state().display.ranges);
+    other.scene_info.name = state().scene_info.name;
     EXPECT_EQ(settings_json(other), text);
 }
 
@@ -138,8 +138,8 @@ TEST_F(SettingsFile, BuffersMayHaveTheirFormerNames) {
                         " \"ranges\": {\"failed\": {\"low\": 0, \"high\": 2}}}",
                         "old.json");
     EXPECT_EQ(pane(0).settings.buffer, Buffer::outcomes);
-    ASSERT_EQ(state().ranges.count(Buffer::outcomes), 1u);
-    EXPECT_EQ(state().ranges.at(Buffer::outcomes).high, 2);
+    ASSERT_EQ(state().display.ranges.count(Buffer::outcomes), 1u);
+    EXPECT_EQ(state().display.ranges.at(Buffer::outcomes).high, 2);
     EXPECT_TRUE(state().messages.empty());
 }
 
@@ -204,18 +204,18 @@ TEST(DroppedTogether, TheSettingsCountAfterTheScene) {
     for (PaneState& pane : h.state().panes)
         pane.settings.render.max_depth = 3;
     h.state().camera.orbit({40, 10}, 300);
-    h.state().view = ImageView(2, {0.25f, 0.5f});
+    h.state().display.view = ImageView(2, {0.25f, 0.5f});
     const Camera camera = h.state().camera.camera();
     write_text(folder.path / "s.json", settings_json(h.state()));
     h.state().camera.go_home();
     for (PaneState& pane : h.state().panes)
         pane.settings.render.max_depth = 9;
 
-    const int before = h.state().scenes_shown;
+    const int before = h.state().scene_info.shown;
     h.viewer.drop({folder.path / "s.json", folder.path / "other.xml"});
-    h.wait_until([&] { return h.state().scenes_shown > before && h.state().wishes.open_settings.empty(); });
+    h.wait_until([&] { return h.state().scene_info.shown > before && h.state().wishes.open_settings.empty(); });
     EXPECT_TRUE(h.state().camera.camera() == camera);
-    EXPECT_EQ(h.state().view.zoom(), 2);
+    EXPECT_EQ(h.state().display.view.zoom(), 2);
     for (const PaneState& pane : h.state().panes)
         EXPECT_EQ(pane.settings.render.max_depth, 3);
 }

@@ -51,12 +51,12 @@ TEST(Gallery, OpensWhatIsClicked) {
     h.save("gallery");
     EXPECT_GT(h.brightness("gallery/glossy"), 120) << "its picture is white";
     h.click("gallery/glossy");
-    ASSERT_TRUE(h.wait_until([&] { return h.state().scene_name == "glossy.xml"; }));
+    ASSERT_TRUE(h.wait_until([&] { return h.state().scene_info.name == "glossy.xml"; }));
     EXPECT_FALSE(h.state().layout.show_gallery);
     h.type(Key::g, true);
     h.frames(2);
     h.click("gallery/cornell-box");
-    ASSERT_TRUE(h.wait_until([&] { return h.state().scene_name == "built-in"; }));
+    ASSERT_TRUE(h.wait_until([&] { return h.state().scene_info.name == "built-in"; }));
     h.type(Key::g, true);
     h.type(Key::escape);
     EXPECT_FALSE(h.state().layout.show_gallery);
@@ -72,7 +72,7 @@ TEST(Gallery, RecentScenesHavePicturesOnceTheyWereRendered) {
     ViewerHarness h({1280, 720}, 1, options);
     const SceneOrigin origin = scene_in("rooms/room.xml");
     h.viewer.load("room.xml", origin.loader, origin.source);
-    ASSERT_TRUE(h.wait_until([&] { return h.viewer.settled(16) && !h.viewer.saving(); }));
+    ASSERT_TRUE(h.wait_until([&] { return h.viewer.settled(16) && !h.viewer.saver().running(); }));
     const auto pictures = [] {
         std::size_t count = 0;
         std::error_code none;

@@ -28,7 +28,7 @@ TEST(NoScene, ABrokenOneIsToldInThePanesWithAWayOn) {
     h.wait_until([&] { return !h.viewer.loading(); });
     h.frames(3);
     EXPECT_EQ(status_text(h.state(), 0), "PT   no scene");
-    EXPECT_NE(h.state().scene_problem.text.find("room.xml:3"), std::string::npos);
+    EXPECT_NE(h.state().scene_info.problem.text.find("room.xml:3"), std::string::npos);
     ASSERT_TRUE(h.has("no_scene.why"));
     h.save("no-scene.png");
     h.click("no_scene.open");
@@ -39,7 +39,7 @@ TEST(NoScene, ABrokenOneIsToldInThePanesWithAWayOn) {
     h.wait_until([&] { return h.state().scene != nullptr; });
     h.frames(2);
     EXPECT_FALSE(h.has("no_scene.why"));
-    EXPECT_EQ(h.state().scene_problem.text, "");
+    EXPECT_EQ(h.state().scene_info.problem.text, "");
 }
 
 TEST(NoScene, OneThatWasGivenUpIsToldToo) {
@@ -56,7 +56,7 @@ TEST(NoScene, OneThatWasGivenUpIsToldToo) {
     goes_on = true;
     h.frames(3);
     EXPECT_TRUE(h.has("no_scene.why"));
-    EXPECT_NE(h.state().scene_problem.text.find("given up"), std::string::npos);
+    EXPECT_NE(h.state().scene_info.problem.text.find("given up"), std::string::npos);
 }
 
 /// How many pixels in the middle of a pane's place are not black.
@@ -72,7 +72,7 @@ int lit_pixels(const ViewerHarness& h) {
 
 TEST(NoScene, ABlackPictureHasWords) {
     ViewerHarness h;
-    h.state().pace.spp_limit = 1;
+    h.state().rendering.pace.spp_limit = 1;
     h.viewer.load("dark", [](SceneNotes&, LoadProgress&) {
         SceneBuilder room;
         const int white = room.diffuse(Rgb(0.75f));
@@ -83,12 +83,12 @@ TEST(NoScene, ABlackPictureHasWords) {
     h.wait_until([&] { return h.viewer.settled(1); });
     h.frames(3);
     h.save("no-light.png");
-    EXPECT_TRUE(h.viewer.pane_image(0).is_black());
+    EXPECT_TRUE(h.viewer.pictures().image(0).is_black());
     EXPECT_GT(lit_pixels(h), 200);
     h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
-    h.wait_until([&] { return h.state().scenes_shown == 2 && h.viewer.settled(1); });
+    h.wait_until([&] { return h.state().scene_info.shown == 2 && h.viewer.settled(1); });
     h.frames(3);
-    EXPECT_FALSE(h.viewer.pane_image(0).is_black());
+    EXPECT_FALSE(h.viewer.pictures().image(0).is_black());
 }
 
 TEST(NoScene, ARenderThatFailsSaysWhyInItsPane) {

@@ -74,7 +74,7 @@ TEST_F(OpenList, NoKeyOfTheSceneWorks) {
     for (Key scene_key : {Key::r, Key::m, Key::p, Key::space, Key::k, Key::j})
         key(scene_key);
     EXPECT_EQ(pane(0).generation, generation);
-    EXPECT_FALSE(state().paused);
+    EXPECT_FALSE(state().rendering.paused);
     EXPECT_TRUE(state().layout.show_panel);
     EXPECT_FALSE(state().slow_motion.active);
     EXPECT_TRUE(state().messages.empty());
@@ -83,11 +83,11 @@ TEST_F(OpenList, NoKeyOfTheSceneWorks) {
 TEST_F(OpenList, MenusHaveTheKeysToo) {
     click("menu View");
     ASSERT_TRUE(has("menu View/Brighter"));
-    const float exposure = state().tone.exposure;
+    const float exposure = state().display.tone.exposure;
     key(Key::down);
     key(Key::enter);
     EXPECT_FALSE(has("menu View/Brighter"));
-    EXPECT_NE(state().tone.exposure, exposure);
+    EXPECT_NE(state().display.tone.exposure, exposure);
     click("menu View");
     key(Key::escape);
     EXPECT_FALSE(has("menu View/Brighter"));

@@ -117,7 +117,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.viewer.drop({folder.path / "room.xml"});
-        h.wait_until([&] { return h.state().scenes_shown == 1; });
+        h.wait_until([&] { return h.state().scene_info.shown == 1; });
         h.type(Key::h);
         h.type(Key::f9);
         h.type(Key::digit4, true);
@@ -132,13 +132,13 @@ TEST(Remembered, LayoutAndRecentScenes) {
     EXPECT_EQ(h.place("panel edge").center().x, width);
     EXPECT_TRUE(h.state().layout.show_charts);
     EXPECT_EQ(h.state().layout.theme, Theme::light);
-    ASSERT_EQ(h.state().recent_scenes.size(), 1u);
+    ASSERT_EQ(h.state().scene_info.recent.size(), 1u);
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).window.size, glm::ivec2(900, 600));
     h.frames(3);
     h.click("menu File");
     h.click("menu File/recent 0");
-    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.wait_until([&] { return h.state().scene_info.shown == 1; });
     EXPECT_EQ(opened, 2);
 }
 
@@ -151,10 +151,10 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     of_another.add_recent("/scenes/theirs.xml");
     write_preferences(options.preferences, of_another);
     h.viewer.drop({"/scenes/ours.xml"});
-    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.finish_saving();
     const std::vector<std::string> both{"/scenes/ours.xml", "/scenes/theirs.xml"};
-    EXPECT_EQ(h.state().recent_scenes, both);
+    EXPECT_EQ(h.state().scene_info.recent, both);
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
 }
@@ -164,7 +164,7 @@ TEST(Remembered, NoFrameWaitsForTheDisk) {
     const ViewerOptions options = remembering_in(folder);
     ViewerHarness h({900, 600}, 1, options);
     std::promise<void> disk;
-    h.viewer.save([ready = disk.get_future().share()] {
+    h.viewer.saver().save([ready = disk.get_future().share()] {
         ready.wait();
         return std::string();
     });
@@ -173,16 +173,16 @@ TEST(Remembered, NoFrameWaitsForTheDisk) {
     write_preferences(options.preferences, of_another);
     std::vector<std::string> scenes{"/scenes/room.xml"};
     h.viewer.drop({scenes.front()}); // is to be remembered
-    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.frames(3);
     std::string note;
     EXPECT_TRUE(read_preferences(options.preferences, note) ==
                 of_another);                    // not written, and yet there are frames
-    EXPECT_EQ(h.state().recent_scenes, scenes); // nor read
+    EXPECT_EQ(h.state().scene_info.recent, scenes); // nor read
     disk.set_value();
     h.finish_saving();
     scenes.emplace_back("/scenes/theirs.xml");
-    EXPECT_EQ(h.state().recent_scenes, scenes);
+    EXPECT_EQ(h.state().scene_info.recent, scenes);
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, scenes);
 }
 
@@ -225,7 +225,7 @@ TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     ViewerHarness h({900, 600}, 1, options);
     std::ofstream(options.preferences) << "[1]";
     h.viewer.drop({"/scenes/room.xml"});
-    h.wait_until([&] { return h.state().scenes_shown == 1; });
+    h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.finish_saving();
     EXPECT_EQ(told(h, "it is now "), 1);
     EXPECT_EQ(first_line(options.preferences.string() + ".broken"), "[1]");
@@ -240,11 +240,11 @@ void expect_nothing_remembered(const CurrentFolder& folder) {
         ViewerHarness h({900, 600}, 1, remembering_in(folder));
         for (int n = 1; n <= 2; ++n) {
             h.viewer.drop({"/scenes/room.xml"});
-            h.wait_until([&] { return h.state().scenes_shown == n; });
+            h.wait_until([&] { return h.state().scene_info.shown == n; });
             h.finish_saving();
         }
         EXPECT_EQ(told(h, "cannot be read"), 1);
-        EXPECT_EQ(h.state().recent_scenes, std::vector<std::string>{"/scenes/room.xml"});
+        EXPECT_EQ(h.state().scene_info.recent, std::vector<std::string>{"/scenes/room.xml"});
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path))
         EXPECT_TRUE(entry.path().filename() == "viewer.json" || entry.path().filename() == "recent")
@@ -274,7 +274,7 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
     {
         ViewerHarness h({900, 600}, 1, options);
         h.viewer.drop({"room.xml"});
-        h.wait_until([&] { return h.state().scenes_shown == 1; });
+        h.wait_until([&] { return h.state().scene_info.shown == 1; });
         h.type(Key::p, true); // settings
         h.finish_saving();
         EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);

@@ -148,15 +148,14 @@ protected:
 
     void type_text() {
         constexpr std::string_view characters = "0123456789.-+eE?[]/ax \n\t\x7f";
-        const char c = characters[static_cast<std::size_t>(integer(0, static_cast<int>(characters.size()) - 1))];
+        const char c = characters[integer(0, static_cast<int>(characters.size()) - 1)];
         note(fmt::format("character {}", static_cast<int>(c)));
         ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
         viewer().keyboard().type(c);
     }
 
     void run_action() {
-        const Action& action =
-            actions()[static_cast<std::size_t>(integer(0, static_cast<int>(actions().size()) - 1))];
+        const Action& action = actions()[integer(0, static_cast<int>(actions().size()) - 1)];
         note(fmt::format("action {}", action.name));
         action.run(harness_->state());
     }
@@ -195,7 +194,7 @@ protected:
         const glm::mat4& to_world = state.camera.camera().to_world;
         for (int i = 0; i < 16; ++i)
             ASSERT_TRUE(std::isfinite(to_world[i / 4][i % 4]));
-        ASSERT_TRUE(std::isfinite(state.tone.exposure));
+        ASSERT_TRUE(std::isfinite(state.display.tone.exposure));
     }
 
     /// Keeps a few of the last lines, to be told when something breaks.

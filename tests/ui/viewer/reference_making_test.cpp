@@ -56,7 +56,7 @@ struct MakeReference : testing::Test {
 
 TEST_F(MakeReference, IsNamedByTheScenesVariablesAndKnowsThem) {
     h.viewer.load("room.xml", scene_in("room.xml").loader, {"room.xml", {{"unit", "100000"}}, {}});
-    h.wait_until([&] { return h.state().scenes_shown == 2; });
+    h.wait_until([&] { return h.state().scene_info.shown == 2; });
     h.frames(2);
     EXPECT_EQ(file(h).filename().string().rfind("room-100000-", 0), 0u) << file(h);
     begin(h, 2);
@@ -205,14 +205,14 @@ TEST(MakeReferenceTwice, ClosingTheViewerEndsThePassUnderWay) {
     {
         ViewerHarness h;
         h.rest(1);
-        h.state().size.custom = {320, 240};
+        h.state().rendering.size.custom = {320, 240};
         for (PaneState& pane : h.state().panes)
             pane.settings.render.max_depth = 12;
         h.frames(2);
         recipe.size = h.state().request_size();
         ASSERT_EQ(recipe.size, glm::ivec2(320, 240));
         recipe.settings.max_depth = 12;
-        subject = {h.state().scene_source, h.state().scene, h.state().camera.camera()};
+        subject = {h.state().scene_info.source, h.state().scene, h.state().camera.camera()};
         MakeReference::begin(h, 1 << 20);
         made = MakeReference::file(h);
         MakeReference::wait_for_samples(h, 1); // the next pass begins

@@ -160,23 +160,25 @@ TEST(SaveQueue, GivesWayToWhatDraws) {
 
 struct SavedView : testing::Test, ViewerHarness {
     CurrentFolder folder;
-    ScreenPixels picture(int pane) { return view_picture(pane, CanvasShader(), viewer.pane_images(), state()); }
+    ScreenPixels picture(int pane) {
+        return view_picture(pane, CanvasShader(), viewer.pictures().images(), state());
+    }
 };
 
 TEST_F(SavedView, HasAPixelForEachOfTheImageInTheColoursOnShow) {
     rest(2);
-    state().tone.curve = Tone::Curve::srgb;
-    state().view = ImageView(7, {0.1f, 0.9f}); // does not matter
+    state().display.tone.curve = Tone::Curve::srgb;
+    state().display.view = ImageView(7, {0.1f, 0.9f}); // does not matter
     frames(2);
     const ScreenPixels saved = picture(1);
-    const RgbImage& image = viewer.pane_image(1).pixels();
+    const RgbImage& image = viewer.pictures().image(1).pixels();
     ASSERT_EQ(saved.size, glm::ivec2(image.width(), image.height()));
     for (const glm::ivec2 p : {glm::ivec2(0, 0), glm::ivec2(40, 3), glm::ivec2(5, 30), glm::ivec2(47, 35)}) {
         const Rgb& value = image(p.x, p.y);
         EXPECT_NEAR(saved.at(p.x, p.y)[0], srgb_byte(value.r), 1) << p.x << ' ' << p.y;
         EXPECT_NEAR(saved.at(p.x, p.y)[2], srgb_byte(value.b), 1) << p.x << ' ' << p.y;
     }
-    state().tone.exposure = -1;
+    state().display.tone.exposure = -1;
     EXPECT_NEAR(picture(1).at(5, 30)[0], srgb_byte(image(5, 30).r / 2), 1);
     state().panes[1].settings.buffer = Buffer::reused; // false colours
     frames(2);

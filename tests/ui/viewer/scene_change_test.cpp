@@ -79,28 +79,28 @@ TEST_F(SceneChange, ReloadKeepsCameraAndSettings) {
     state().camera.orbit({30, 10}, 100);
     state().panes[0].settings.render.tile = 3;
     state().panes[1].settings.render.max_depth = 7;
-    state().tone.exposure = 1.5f;
-    state().view.zoom_at({10, 10}, 2, {100, 100}, {100, 100});
+    state().display.tone.exposure = 1.5f;
+    state().display.view.zoom_at({10, 10}, 2, {100, 100}, {100, 100});
     const Camera moved = state().camera.camera();
-    const ImageView view = state().view;
+    const ImageView view = state().display.view;
     const std::uint64_t generation = pane(1).generation;
     reload();
     EXPECT_EQ(file.loads, 2);
-    EXPECT_EQ(state().scenes_shown, 2);
+    EXPECT_EQ(state().scene_info.shown, 2);
     EXPECT_NE(state().scene, before);
     EXPECT_GT(pane(1).generation, generation);
     EXPECT_TRUE(state().camera.camera() == moved);
-    EXPECT_EQ(state().view, view);
+    EXPECT_EQ(state().display.view, view);
     EXPECT_EQ(pane(0).settings.render.tile, 3);
     EXPECT_EQ(pane(1).settings.render.max_depth, 7);
-    EXPECT_EQ(state().tone.exposure, 1.5f);
-    EXPECT_EQ(state().scene_name, "room.xml");
+    EXPECT_EQ(state().display.tone.exposure, 1.5f);
+    EXPECT_EQ(state().scene_info.name, "room.xml");
     EXPECT_TRUE(state().history.can_undo()) << "what was done before, too";
 }
 
 TEST_F(SceneChange, AnotherSceneBeginsAnewWhatCanBeUndone) {
     show();
-    state().tone.exposure = 1.5f;
+    state().display.tone.exposure = 1.5f;
     frames(3);
     EXPECT_TRUE(state().history.can_undo());
     viewer.load("other.xml", file.loader(), {"other.xml", {}, {}});
@@ -168,7 +168,7 @@ TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
              "70:9 and 12 more places)"});
     show();
     EXPECT_EQ(state().messages.size(), 500u);
-    state().paused = true;
+    state().rendering.paused = true;
     type(Key::f2);
     frames(3);
     save("notes.png");
@@ -191,11 +191,11 @@ TEST_F(SceneChange, DroppedSceneIsLoaded) {
     viewer.drop({"notes.txt", "/scenes/other.XML", "third.xml"});
     settle();
     EXPECT_EQ(opened, "/scenes/other.XML");
-    EXPECT_EQ(state().scene_name, "/scenes/other.XML");
+    EXPECT_EQ(state().scene_info.name, "/scenes/other.XML");
     EXPECT_TRUE(state().camera.camera() == state().scene->camera()) << "another scene begins with its own camera";
     EXPECT_TRUE(state().messages.empty());
     reload();
-    EXPECT_EQ(state().scene_name, "/scenes/other.XML");
+    EXPECT_EQ(state().scene_info.name, "/scenes/other.XML");
     EXPECT_EQ(file.loads, 3);
 }
 
@@ -229,14 +229,14 @@ TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
     file.error = "other.xml:1:1: broken";
     viewer.drop({"other.xml", "of_other.json"});
     settle();
-    EXPECT_EQ(state().scene_name, "room.xml");
+    EXPECT_EQ(state().scene_info.name, "room.xml");
     EXPECT_TRUE(says("other.xml:1:1"));
     EXPECT_TRUE(state().wishes.open_settings.empty());
     EXPECT_FALSE(says("of_other.json")) << "its settings are not for the scene that is left";
     file.error.clear();
     reload();
-    EXPECT_EQ(state().scene_name, "room.xml");
-    EXPECT_EQ(state().scenes_shown, 2);
+    EXPECT_EQ(state().scene_info.name, "room.xml");
+    EXPECT_EQ(state().scene_info.shown, 2);
     EXPECT_TRUE(state().messages.empty());
 }
 
@@ -253,13 +253,13 @@ TEST_F(SceneChange, LoadingShowsWhatIsDoneAndIsGivenUpForAnother) {
         progress.check_wanted();
         return nullptr;
     });
-    wait_until([&] { return state().loading == "meshes and textures, 2 of 8"; });
+    wait_until([&] { return state().scene_info.loading == "meshes and textures, 2 of 8"; });
     save("progress.png");
     EXPECT_FALSE(ended);
     viewer.drop({"quick.xml"});
     settle();
-    EXPECT_EQ(state().scene_name, "quick.xml");
-    EXPECT_TRUE(state().loading.empty());
+    EXPECT_EQ(state().scene_info.name, "quick.xml");
+    EXPECT_TRUE(state().scene_info.loading.empty());
     wait_until([&] { return ended.load(); });
     frames(5);
     EXPECT_TRUE(state().messages.empty()) << "nothing is heard of what was given up";
@@ -277,7 +277,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
             progress.check_wanted();
             return nullptr;
         });
-        wait_until([&] { return !state().loading.empty() && has("cancel_load"); });
+        wait_until([&] { return !state().scene_info.loading.empty() && has("cancel_load"); });
         viewer.drop({"of_slow.json"});
         frames(2);
         save("cancel_load.png");
@@ -291,10 +291,10 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
             click("cancel_load");
         }
         EXPECT_FALSE(viewer.loading());
-        EXPECT_TRUE(state().loading.empty());
+        EXPECT_TRUE(state().scene_info.loading.empty());
         wait_until([&] { return ended.load(); });
         frames(3);
-        EXPECT_EQ(state().scene_name, "room.xml");
+        EXPECT_EQ(state().scene_info.name, "room.xml");
         EXPECT_TRUE(says("slow.xml was given up"));
         EXPECT_FALSE(says("of_slow.json"));
         EXPECT_FALSE(has("cancel_load"));

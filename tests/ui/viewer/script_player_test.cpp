@@ -36,7 +36,7 @@ struct Play : testing::Test, ViewerHarness {
 };
 
 TEST_F(Play, KeysMouseAndSettings) {
-    state().pace.spp_limit = 2;
+    state().rendering.pace.spp_limit = 2;
     viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     play("wait scene\nwait spp 2\nset tile 4\nwait spp 2\nscreenshot a.png\nprint \"all done\"");
     EXPECT_EQ(pane(1).snapshot->settings.tile, 4);
@@ -51,13 +51,13 @@ TEST_F(Play, KeysMouseAndSettings) {
     play("choose pane0.method gpt\nclick \"menu Buffer\"\nclick \"menu Buffer/Primal\"\nkey +");
     EXPECT_EQ(pane(0).settings.render.method, Method::gpt);
     EXPECT_EQ(pane(1).settings.buffer, Buffer::primal);
-    EXPECT_EQ(state().tone.exposure, 0.5f);
+    EXPECT_EQ(state().display.tone.exposure, 0.5f);
     play("hold B");
     EXPECT_TRUE(state().layout.flicker);
     play("release B");
     EXPECT_FALSE(state().layout.flicker);
     play("modifiers ctrl\nmove pane1.picture\nwheel 3\nmodifiers none");
-    EXPECT_NEAR(state().view.zoom(), 1.953f, 0.01f);
+    EXPECT_NEAR(state().display.view.zoom(), 1.953f, 0.01f);
     play("quit");
     EXPECT_TRUE(state().wishes.quit);
 }

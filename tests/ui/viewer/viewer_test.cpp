@@ -41,10 +41,10 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
     EXPECT_LE(h.viewer.next_frame_in(), 0.1);
     EXPECT_EQ(h.pane(0).generation, 0u);
     h.save("loading.png");
-    EXPECT_EQ(h.state().loading, "scene file");
+    EXPECT_EQ(h.state().scene_info.loading, "scene file");
     go = true;
     h.wait_until([&] { return h.state().scene != nullptr; });
-    EXPECT_EQ(h.state().scene_name, "a slow one");
+    EXPECT_EQ(h.state().scene_info.name, "a slow one");
     EXPECT_EQ(h.pane(0).settings.render.max_depth, 4);
 }
 
@@ -87,11 +87,11 @@ TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
     expect_new(0, true, "tile");
     h.state().camera.dolly(0.9f);
     expect_new(1, true, "camera");
-    h.state().size.custom = {40, 30};
+    h.state().rendering.size.custom = {40, 30};
     expect_new(0, true, "size");
     h.state().wishes.restart = true;
     expect_new(1, true, "restart");
-    h.state().tone.exposure = 2;
+    h.state().display.tone.exposure = 2;
     h.state().panes[0].settings.buffer = Buffer::primal;
     h.state().panes[0].settings.reconstruction.alpha = 1;
     expect_new(0, false, "what changes no samples");
@@ -101,14 +101,15 @@ TEST(Viewer, UploadsOnlyNewPictures) {
     ViewerHarness h;
     h.rest(2);
     h.frames(3);
-    const int uploads = h.viewer.pane_image(1).uploads(), drawings = h.viewer.pane_view(1).canvas().drawings();
+    const int uploads = h.viewer.pictures().image(1).uploads(),
+              drawings = h.viewer.pictures().view(1).canvas().drawings();
     h.frames(10);
-    EXPECT_EQ(h.viewer.pane_image(1).uploads(), uploads);
-    EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings);
-    h.state().tone.exposure = 1;
+    EXPECT_EQ(h.viewer.pictures().image(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pictures().view(1).canvas().drawings(), drawings);
+    h.state().display.tone.exposure = 1;
     h.frames(2);
-    EXPECT_EQ(h.viewer.pane_image(1).uploads(), uploads);
-    EXPECT_EQ(h.viewer.pane_view(1).canvas().drawings(), drawings + 1);
+    EXPECT_EQ(h.viewer.pictures().image(1).uploads(), uploads);
+    EXPECT_EQ(h.viewer.pictures().view(1).canvas().drawings(), drawings + 1);
     EXPECT_GT(h.viewer.next_frame_in(), 10);
 }
 
@@ -191,8 +192,8 @@ TEST(Viewer, SaysWhenAMethodHasNoGradients) {
     h.state().panes[1].settings.buffer = Buffer::dx;
     h.wait_until([&] { return h.pane(1).snapshot->spp > 8; });
     h.frames(2);
-    EXPECT_TRUE(h.viewer.pane_image(0).empty());
-    EXPECT_FALSE(h.viewer.pane_image(1).empty());
+    EXPECT_TRUE(h.viewer.pictures().image(0).empty());
+    EXPECT_FALSE(h.viewer.pictures().image(1).empty());
     h.save("gradients.png");
 }
 
@@ -212,7 +213,7 @@ TEST(Viewer, LogsChangesAndControls) {
     EXPECT_TRUE(said("pane 1 method gpr"));
     EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
                             [](const std::string& l) { return l.rfind("control pane0.method/gpr ", 0) == 0; }));
-    h.state().paused = true;
+    h.state().rendering.paused = true;
     // Once the pass under way has ended, and its status is on show, nothing moves: no frame logs controls again.
     bool quiet = false;
     for (int attempt = 0; attempt < 200 && !quiet; ++attempt) {

@@ -132,7 +132,7 @@ keep "$png"
 press ctrl+e '^messages 2$'
 exr=$(saved -gpr.exr) || exit 1
 "$tessera" compare "$exr" "$exr" >"$work/compared" 2>&1 || fail "the saved EXR cannot be read: $(cat "$work/compared")"
-for layer in primal dx albedo normal depth; do
+for layer in primal dx albedo first_hit_normal first_hit_depth; do
     grep -aq "$layer.R" "$exr" || fail "the saved EXR has no layer $layer"
 done
 xdotool key F2 # which says so

@@ -1,0 +1,180 @@
+#include "recon/guided/fireflies.h"
+
+#include "recon/pixel_loops.h"
+#include "recon/square_means.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+namespace {
+
+/// Luminance of the mean of a pixel's samples other than the brightest.
+float size_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, float n) {
+    return n / (n - 1) * size_of(mean.data()[i] - brightest.data()[i] / n);
+}
+
+/// Returns the luminance of the samples other than the brightest, as a mean over 3x3 pixels. (Beyond 3e37 it is
+/// not finite, and nothing around is clamped.)
+Image<float> others_around(const GradientImages& images, const ParallelFor& parallel_for) {
+    Image<float> own(images.primal.width(), images.primal.height(), Unfilled());
+    const auto n = static_cast<float>(images.brightest.samples);
+    for_pixels(own.width(), own.height(), parallel_for, [&](std::size_t i) {
+        own.data()[i] = size_of_others(images.primal, images.brightest.primal, i, n);
+    });
+    return square_means(own, 1, 0, 0, parallel_for);
+}
+
+/// Factors t of a pixel's primal and of its gradients.
+struct Limits {
+    float primal = 1, gradients = 1;
+};
+
+/// Returns the factors of pixel i. Where a firefly lights the neighbour alone, gradients are clamped and the
+/// primal is not.
+Limits limits_of(const GradientImages& images, float others, const GuidedParameters& parameters, std::size_t i) {
+    const BrightestSamples& b = images.brightest;
+    const auto n = static_cast<float>(b.samples);
+    const float factor = std::max(parameters.firefly_factor, parameters.firefly_fraction * n);
+    const auto limit = [factor](float size, float mu) {
+        constexpr float rounding = 1e-6f; // both sides are equal where all samples of a bright pixel are
+        return size > factor * mu * (1 + rounding) ? factor * mu / size : 1;
+    };
+    float mu = std::max(others, parameters.firefly_own * size_of_others(images.primal, b.primal, i, n));
+    float size = size_of(b.primal.data()[i]);
+    Limits limits{limit(size, mu)};
+    if (!images.has_gradients())
+        return limits;
+    for (const auto& [mean, brightest] : {std::pair(&images.dx, &b.dx), std::pair(&images.dy, &b.dy)}) {
+        mu = std::max(mu, size_of_others(*mean, *brightest, i, n));
+        size = std::max(size, size_of(brightest->data()[i]));
+    }
+    limits.gradients = limit(size, mu);
+    return limits;
+}
+
+/// Changes a mean of n samples to that with t x in place of x, one of them.
+void limit(Rgb& mean, glm::dvec3 x, double t, double n) {
+    mean = Rgb(glm::dvec3(mean) - (1 - t) * x / n);
+}
+
+/// The variance of the mean of n samples with t x in place of x, one of them, over the variance of their mean.
+double fraction_of_variance(glm::dvec3 mean, glm::dvec3 x, double variance, double t, double n) {
+    const glm::dvec3 others = (n * mean - x) / (n - 1), now = t * x - others;
+    const double all = variance * n * (n - 1);
+    const double rest = std::max(all - glm::dot(x - mean, x - mean) * n / (n - 1), 0.0);
+    return all > 0 ? std::min((rest + glm::dot(now, now) * (n - 1) / n) / all, 1.0) : 1;
+}
+
+/// Changes what depends on the clamped sample of pixel i in the images of `result`. With v = a e of the sample,
+/// m(v) and cov(a, v) lose (1 - t) v / n and that times a - m(a): exactly, as the deviations from m(a) sum to
+/// zero. The variance that a does not explain shrinks as all variance does. The other variances stay those of raw
+/// samples.
+void limit_demodulation(const GradientImages& images, std::size_t i, double t, glm::dvec3 removed,
+                        GradientImages& result) {
+    const BrightestSamples& b = images.brightest;
+    Demodulation& d = result.demodulation;
+    const glm::dvec3 a(b.albedo.data()[i]), mean_a(d.sampled_albedo.data()[i]);
+    d.value.data()[i] = Rgb(glm::dvec3(d.value.data()[i]) - removed);
+    d.value_covariance.data()[i] = Rgb(glm::dvec3(d.value_covariance.data()[i]) - removed * (a - mean_a));
+    if (!images.primal_variance.empty())
+        d.unexplained_variance.data()[i] *= static_cast<float>(
+            fraction_of_variance(glm::dvec3(images.primal.data()[i]), glm::dvec3(b.primal.data()[i]),
+                                 static_cast<double>(images.primal_variance.data()[i]), t, b.samples));
+}
+
+/// The mean radiance that pixel i loses with t.
+glm::dvec3 removed_of(const BrightestSamples& b, std::size_t i, double t) {
+    const glm::dvec3 a = b.albedo.empty() ? glm::dvec3(1) : glm::dvec3(b.albedo.data()[i]);
+    return (1 - t) / b.samples * a * glm::dvec3(b.primal.data()[i]);
+}
+
+/// Clamps the sample in the half differences, in which it has a weight of its own.
+void limit_halves(HalfDifferences& halves, const BrightestSamples& b, std::size_t i, Limits t) {
+    if (halves.empty() || b.half.empty())
+        return;
+    const double n = b.samples, weight = static_cast<double>(b.half.data()[i]);
+    limit(halves.primal.data()[i], weight * glm::dvec3(b.primal.data()[i]), t.primal, n);
+    if (halves.dx.empty())
+        return;
+    limit(halves.dx.data()[i], weight * glm::dvec3(b.dx.data()[i]), t.gradients, n);
+    limit(halves.dy.data()[i], weight * glm::dvec3(b.dy.data()[i]), t.gradients, n);
+}
+
+/// Calls visit(i, limits) for the pixels with a firefly.
+template <class Visit>
+void for_each_firefly(const GradientImages& images, const GuidedParameters& parameters,
+                      const ParallelFor& parallel_for, Visit&& visit) {
+    const Image<float> others = others_around(images, parallel_for);
+    for_pixels(images.primal.width(), images.primal.height(), parallel_for, [&](std::size_t i) {
+        if (const Limits t = limits_of(images, others.data()[i], parameters, i); t.primal < 1 || t.gradients < 1)
+            visit(i, t);
+    });
+}
+
+/// Copies the images that clamping changes, and those that the stages after it need beside them.
+GradientImages copied(const GradientImages& images, const ParallelFor& parallel_for) {
+    const auto copy = [&](const auto& image) { return copy_of(image, parallel_for); };
+    const Demodulation& d = images.demodulation;
+    GradientImages result{copy(images.primal), copy(images.dx), copy(images.dy), {}};
+    result.primal_variance = copy(images.primal_variance);
+    result.dx_variance = copy(images.dx_variance);
+    result.dy_variance = copy(images.dy_variance);
+    result.demodulation = {
+        copy(d.value),         copy(d.albedo),           copy(d.sampled_albedo),   copy(d.albedo_variance),
+        copy(d.sampled_share), copy(d.sampled_variance), copy(d.value_covariance), copy(d.unexplained_variance)};
+    result.halves = {copy(images.halves.primal), copy(images.halves.dx), copy(images.halves.dy)};
+    result.patch = images.patch;
+    return result;
+}
+
+} // namespace
+
+bool can_clamp(const GradientImages& images) {
+    return !images.brightest.empty() && images.brightest.samples > 1 && images.parts.empty();
+}
+
+ClampedSamples clamp_fireflies(const GradientImages& images, const GuidedParameters& parameters,
+                               const ParallelFor& parallel_for) {
+    const BrightestSamples& b = images.brightest;
+    ClampedSamples result{copied(images, parallel_for),
+                          filled_image(images.primal.width(), images.primal.height(), Rgb(0), parallel_for)};
+    GradientImages& changed = result.images;
+    for_each_firefly(images, parameters, parallel_for, [&](std::size_t i, Limits t) {
+        const double n = b.samples;
+        limit_halves(changed.halves, b, i, t);
+        if (images.has_gradients()) {
+            limit(changed.dx.data()[i], b.dx.data()[i], t.gradients, n);
+            limit(changed.dy.data()[i], b.dy.data()[i], t.gradients, n);
+        }
+        if (t.primal == 1)
+            return;
+        const glm::dvec3 removed = removed_of(b, i, t.primal);
+        result.clamped.data()[i] = Rgb(removed);
+        limit(changed.primal.data()[i], b.primal.data()[i], t.primal, n);
+        if (!images.demodulation.empty())
+            limit_demodulation(images, i, t.primal, removed, changed);
+    });
+    return result;
+}
+
+RgbImage clamped_radiance(const GradientImages& images) {
+    RgbImage clamped(images.primal.width(), images.primal.height(), Rgb(0));
+    if (can_clamp(images))
+        for_each_firefly(images, {}, serial_for, [&](std::size_t i, Limits t) {
+            clamped.data()[i] = Rgb(removed_of(images.brightest, i, t.primal));
+        });
+    return clamped;
+}
+
+std::size_t bytes_to_clamp(bool has_gradients, bool is_demodulated) {
+    const std::size_t images = has_gradients ? 3 : 1;
+    return images * (sizeof(Rgb) + sizeof(float)) + (is_demodulated ? Demodulation::bytes_a_pixel : 0) +
+           HalfDifferences::bytes_a_pixel + sizeof(Rgb) + 2 * sizeof(float);
+}
+
+} // namespace tessera

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "recon/image.h"
+#include "render/io/memory.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace tessera {
+
+/// Features along one camera ray.
+struct FeatureSample {
+    Rgb albedo{0}; ///< at x_1, or of the surface that mirrors show there; black where the ray leaves the scene
+    SurfaceFeatures features;
+};
+
+/// Feature samples of all pixels: camera rays that are independent of the passes' samples. The points of a pixel
+/// are a net; at an edge, the variance of their mean falls about as count^-1.5. All passes of a render see the
+/// same points, and each pixel has as many as its variance demands.
+class PixelFeatures {
+public:
+    /// @param for_albedo  the albedo must be as accurate as radiance; otherwise only the features count
+    PixelFeatures(int width, int height, bool for_albedo) : points_(width, height), for_albedo_(for_albedo) {}
+
+    static std::uint64_t bytes(int width, int height) {
+        return sizeof(Points) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
+
+    /// Returns the number of samples of a pixel, and the number of further ones that the pass at hand takes.
+    int count(int x, int y) const { return points_(x, y).count; }
+    int wanted(int x, int y) const {
+        constexpr int most = 16; // per pass, so all pixels get some soon
+        return std::min(points_(x, y).wanted, most);
+    }
+    /// Adds a sample. Replaces an invalid one by black, so the next sample has another point, and returns false.
+    bool add(int x, int y, const FeatureSample& sample);
+
+    /// Finds, between passes, how many more samples each pixel needs for the means of so many passes.
+    void request_more(int passes);
+
+    /// Returns 1 for pixels that see several surfaces, and 0 for others. It compares the features of 3 x 3 pixels.
+    Image<std::uint8_t> mixed() const;
+
+    /// Replaces the samples of the pixels of which `other`, of another render of the same picture, has more. The
+    /// points of both are the same.
+    void take_more_of(const PixelFeatures& other);
+
+    /// Mean of the albedo of pixel i, and the variance of one sample, summed over the channels.
+    Rgb albedo(std::size_t i) const;
+    float albedo_variance(std::size_t i) const;
+    int count(std::size_t i) const { return points_.data()[i].count; }
+
+    FeatureImages images() const;
+    /// Frees all memory.
+    void clear() { points_ = {}; }
+    Memory memory() { return {memory_of(points_)}; }
+
+private:
+    struct Points {
+        glm::dvec3 albedo{0};
+        double albedo_squares = 0; ///< of the lengths of colours
+        SurfaceFeatures features{};
+        float feature_squares = 0; ///< of the lengths of features
+        int count = 0;
+        int wanted = 4; ///< further samples
+
+        void operator+=(const FeatureSample& sample);
+        void operator+=(const Points& other);
+        double relative_albedo_variance() const;
+        double guide_variance() const;
+    };
+
+    /// Returns the sums of 3 x 3 pixels: a few samples of one pixel can be equal by chance.
+    Points around(int x, int y) const;
+
+    Image<Points> points_;
+    bool for_albedo_;
+};
+
+} // namespace tessera

@@ -1,0 +1,216 @@
+// Shift: offsets joined to a vertex of the base path, or to its lights, by new edges or directions.
+#include "render/paths/shift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace tessera {
+
+/// The light paths of some slots leave y_1 that way.
+void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf) {
+    if (i > 0 || !paths_->keeps_scatters())
+        return;
+    FirstScatter& scatter = paths_->add_first_scatter(first_slot, end_slot);
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        scatter.direction.set(m, direction[m]);
+        scatter.f_cos.set(m, bsdf.f_cos[m]);
+    }
+}
+
+/// Joins the offsets to the same point of the light, at infinity to the same direction.
+/// @param is_joined  whether the base is, by its lobe
+void Shift::connect_light(int i, bool is_joined) {
+    const LightSample& x = base_->light(i);
+    const int slot = light_->emitter_slot(i);
+    LightConnection& c = light_connection_;
+    connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
+    // A copied half vector cannot meet a light without extent: that is joined to from either side.
+    if (replays() || x.light.can_be_hit())
+        keep_alike(is_joined, c.asked, c.sight);
+    y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
+    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
+    OffsetRow& row = paths_->row(slot);
+    EdgeGroup& edges = edges_->add(slot, slot + 1);
+    const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.pdf_w / x.pdf_sum;
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        const float pdf_sum = c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m];
+        // The pdf of the light's point is the same for all, so the ratio of the solid angles, the Jacobian, is the
+        // inverse of that of the pdfs per solid angle.
+        const float scale = share / c.arriving.pdf_w[m];
+        const float ratio = c.sight.valid[m] ? prefix_.ratio[m] * pdf_sum * scale : 0.0f;
+        row.set(m, ratio,
+                {prefix_.value.x[m] * c.bsdf.f_cos.x[m] * c.arriving.radiance.x[m] * scale,
+                 prefix_.value.y[m] * c.bsdf.f_cos.y[m] * c.arriving.radiance.y[m] * scale,
+                 prefix_.value.z[m] * c.bsdf.f_cos.z[m] * c.arriving.radiance.z[m] * scale});
+        edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
+    }
+    tell_of(edges.exists, [&](int m) {
+        onlooker_->ends(m, slot,
+                        last_step(slot, m, c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m],
+                                  x.pdf_w / c.arriving.pdf_w[m]));
+    });
+    edges_to_light(tracer_, *y_, c.sight.direction, x.light, edges.segments);
+    fail_others(c.asked, edges.exists, ShiftOutcome::no_light);
+}
+
+/// Joins the offsets to the environment: the same direction, so with a Jacobian of 1.
+void Shift::connect_infinity(int i) {
+    const BaseVertex& x = base(i);
+    const int slot = light_->hit_slot(i);
+    const LightPoint infinity{LightPoint::Kind::environment, x.vertex.to_world(x.to_next), glm::vec3(0), Rgb(0),
+                              0};
+    LightConnection& c = light_connection_;
+    ask_for_lobes(c.asked);
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        c.sight.direction.set(m, infinity.position);
+        c.sight.distance2[m] = std::numeric_limits<float>::infinity();
+        c.sight.valid[m] = c.asked[m];
+    }
+    keep_alike(true, c.asked, c.sight);
+    y_->evaluate(c.sight.direction, c.asked, c.bsdf);
+    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
+    OffsetRow& row = paths_->row(slot);
+    EdgeGroup& edges = edges_->add(slot, slot + 1);
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        // hit_brings is the radiance times pdf_w over the summed pdfs.
+        const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + x.hit_pdf_w) / (x.pdf_w + x.hit_pdf_w);
+        row.set(m, c.asked[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * x.hit_brings / x.pdf_w);
+        edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
+    }
+    tell_of(edges.exists,
+            [&](int m) { onlooker_->ends(m, slot, last_step(slot, m, c.bsdf.pdf_w[m] + x.hit_pdf_w, 1)); });
+    edges_to_light(tracer_, *y_, c.sight.direction, infinity, edges.segments);
+    fail_others(c.asked, edges.exists, ShiftOutcome::no_light);
+}
+
+/// Joins the offsets to x_{i+1}: for its emission, for emitter sampling there, and beyond it if that is where
+/// offsets join.
+void Shift::connect_next(int i) {
+    // The slots that go through this edge: a light path that leaves x_{i+1} by a half vector takes another way.
+    const int hit = light_->hit_slot(i), first = std::max(hit, light_->first_shared());
+    int end = hit + 1;
+    if (light_->join() == i + 1)
+        end = light_->tail_slot() + 1;
+    else if (light_->step_joins(i))
+        end = light_->hit_slot(i + 1);
+    if (!light_->is_alive(first, end))
+        return;
+    EdgeGroup& edges = edges_->add(first, end);
+    const VertexConnection& connection = connect_vertex(i, edges);
+    keep_scatter(i, first, end, connection.sight.direction, connection.bsdf);
+    if (first == hit && light_->is_alive(first))
+        shift_hit(connection);
+    if (light_->step_joins(i))
+        shift_light_beyond(connection);
+    if (light_->join() == i + 1 && light_->last_alive() >= light_->hit_slot(i + 1))
+        shift_tail(connection);
+    fail_others(connection.asked, connection.lit, ShiftOutcome::no_light);
+    if (end > hit + 1)
+        fail_others(connection.lit, connection.reached, ShiftOutcome::kind_mismatch);
+}
+
+/// The edges y_i -> x_{i+1}, unchecked, and what it costs to go along them.
+const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
+    const BaseVertex& x = base(i);
+    const Vertex& next = base(i + 1).vertex;
+    VertexConnection& c = vertex_connection_;
+    c.vertex = i;
+    ask_for_lobes(c.asked);
+    connect_to_point(*y_, c.asked, next.position, next.geometric_normal, false, c.sight);
+    keep_alike(true, c.asked, c.sight);
+    y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
+    const float roughness = next.bsdf.roughness();
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        const float jacobian = c.sight.geometry[m] / x.next_geometry; // of solid angles
+        const float scale = jacobian / x.pdf_w;
+        const bool is_lit = (c.bsdf.f_cos.x[m] > 0) | (c.bsdf.f_cos.y[m] > 0) | (c.bsdf.f_cos.z[m] > 0);
+        c.lit[m] = is_lit ? c.sight.valid[m] : 0;
+        const bool reaches = rule_.reaches_beyond(roughness, apart_[m], std::sqrt(c.sight.distance2[m]));
+        c.reached[m] = reaches ? c.lit[m] : 0;
+        c.prefix.ratio[m] = c.reached[m] ? prefix_.ratio[m] * c.bsdf.pdf_w[m] * scale : 0.0f;
+        c.prefix.value.x[m] = prefix_.value.x[m] * c.bsdf.f_cos.x[m] * scale;
+        c.prefix.value.y[m] = prefix_.value.y[m] * c.bsdf.f_cos.y[m] * scale;
+        c.prefix.value.z[m] = prefix_.value.z[m] * c.bsdf.f_cos.z[m] * scale;
+        c.to_previous.set(m, next.to_local(-c.sight.direction[m]));
+        edges.exists[m] = c.lit[m];
+    }
+    edges_to_point(tracer_, *y_, c.sight.direction, next.position, next.geometric_normal, edges.segments);
+    tell_of(c.reached, [&](int m) {
+        onlooker_->joins(m, {i, c.bsdf.pdf_w[m], false, c.sight.geometry[m] / x.next_geometry, c.prefix.ratio[m],
+                             c.prefix.value[m]});
+    });
+    return c;
+}
+
+/// x_{i+1} gives light itself: both strategies could have ended there.
+void Shift::shift_hit(const VertexConnection& c) {
+    const BaseVertex& x = base(c.vertex);
+    const Vertex& next = base(c.vertex + 1).vertex;
+    const int slot = light_->hit_slot(c.vertex);
+    const LightPoint front = next.light_toward(next.geometric_normal);
+    const glm::vec3 normal = next.geometric_normal;
+    const Vec3Lanes& direction = c.sight.direction;
+    OffsetRow& row = paths_->row(slot);
+    for (int m = 0; m < padded(y_->count()); ++m) {
+        const bool faces = direction.x[m] * normal.x + direction.y[m] * normal.y + direction.z[m] * normal.z < 0;
+        // The connection's prefix has the pdf of BSDF sampling alone, over the base's alone.
+        const float scale = c.sight.geometry[m] / (x.next_geometry * (x.pdf_w + x.hit_pdf_w));
+        const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m]) * scale;
+        row.set(m, faces && c.lit[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * front.radiance * scale);
+    }
+    tell_of(c.lit, [&](int m) {
+        onlooker_->ends(m, slot,
+                        last_step(slot, m, c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m],
+                                  c.sight.geometry[m] / x.next_geometry));
+    });
+}
+
+/// Shifts the light sample of x_{i+1}, which the offsets see from other directions than the base. Nothing else
+/// changes.
+void Shift::shift_light_beyond(const VertexConnection& c) {
+    const int next = c.vertex + 1, slot = light_->emitter_slot(next), count = y_->count();
+    if (!light_->is_alive(slot))
+        return;
+    const Vertex& x = base(next).vertex;
+    const LightSample& l = base_->light(next);
+    const std::optional<LightRay> seen = l.light.seen_from(x.position);
+    if (!seen)
+        return;
+    evaluate(x, c.to_previous, l.to_light, c.reached, count, beyond_);
+    const float bsdf_counts = l.light.can_be_hit() ? 1 : 0, scale = 1 / l.pdf_sum;
+    OffsetRow& row = paths_->row(slot);
+    for (int m = 0; m < padded(count); ++m)
+        row.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
+                c.prefix.value[m] * beyond_.f_cos[m] * seen->radiance * scale);
+    tell_of(c.reached, [&](int m) {
+        onlooker_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
+    });
+}
+
+/// All that BSDF sampling at x_{i+1} finds: a light that it meets, and the sum of what lies further on, which
+/// shares one ratio of values and one of densities.
+void Shift::shift_tail(const VertexConnection& c) {
+    const BaseVertex& x = base(c.vertex + 1);
+    const int count = y_->count(), hit_slot = light_->hit_slot(c.vertex + 1), tail_slot = light_->tail_slot();
+    evaluate(x.vertex, c.to_previous, x.to_next, c.reached, count, beyond_);
+    OffsetRow &hit = paths_->row(hit_slot), &tail = paths_->row(tail_slot);
+    const float scale = 1 / (x.pdf_w * x.survival), hit_scale = 1 / (x.pdf_w + x.hit_pdf_w);
+    for (int m = 0; m < padded(count); ++m) {
+        const Rgb value = c.prefix.value[m] * beyond_.f_cos[m] * scale;
+        // hit_brings is the radiance times pdf_w over the summed pdfs.
+        hit.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] + x.hit_pdf_w) * hit_scale, value * x.hit_brings);
+        tail.set(m, c.prefix.ratio[m] * beyond_.pdf_w[m] / x.pdf_w, value * x.arriving);
+    }
+    tell_of(c.reached, [&](int m) {
+        onlooker_->ends_beyond(m, hit_slot, last_step(hit_slot, m, beyond_.pdf_w[m] + x.hit_pdf_w, 1));
+        OffsetStep last = last_step(hit_slot, m, beyond_.pdf_w[m], 1);
+        last.ratio = tail.ratio[m];
+        last.value = tail.value[m];
+        onlooker_->ends_beyond(m, tail_slot, last);
+    });
+}
+
+} // namespace tessera

@@ -1,0 +1,266 @@
+#include "render/paths/tracer.h"
+
+#include "render/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace tessera {
+
+namespace {
+
+/// The value at barycentric coordinates of an attribute given at the corners.
+template <class T>
+T interpolate(T a, T b, T c, glm::vec2 barycentric) {
+    return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
+}
+
+/// Derivatives of the position by u and v over the triangle that is hit. False: uv says nothing of directions.
+bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
+    const glm::uvec3 t = shape.triangles[hit.triangle];
+    const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
+    const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
+    by_u = edge1; // without uvs, barycentric coordinates are the uv
+    by_v = edge2;
+    if (shape.uvs) {
+        const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
+        const float determinant = d1.x * d2.y - d1.y * d2.x;
+        by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
+        by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
+    }
+    if (hit.placement) {
+        by_u = hit.placement->vector(by_u);
+        by_v = hit.placement->vector(by_v);
+    }
+    return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
+}
+
+/// The frame about a unit normal of shading with its tangent along u, where there are uvs. Without them it lies
+/// about the triangle's normal as it happens to, which is how Mitsuba 3 has it.
+Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
+    glm::vec3 by_u, by_v;
+    if (!shape.uvs || !position_derivatives(shape, hit, by_u, by_v))
+        by_u = Frame(geometric_normal).tangent;
+    return {normal, by_u};
+}
+
+/// The unit normal of shading before relief; and the triangle's, turned to its front.
+glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& geometric_normal) {
+    geometric_normal = hit.geometric_normal;
+    if (!shape.normals)
+        return geometric_normal;
+    const glm::uvec3 t = shape.triangles[hit.triangle];
+    const glm::vec3 n0 = shape.normals[t.x], n1 = shape.normals[t.y], n2 = shape.normals[t.z];
+    const glm::vec3 sum = n0 + n1 + n2;
+    const float side =
+        hit.placement ? hit.placement->side(sum, geometric_normal) : glm::dot(sum, geometric_normal);
+    if (side < 0)
+        geometric_normal = -geometric_normal; // as front_normal() has it
+    glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
+    if (hit.placement)
+        n = hit.placement->of_normals * n;
+    const float length = glm::length(n);
+    return length > 0 ? n * (1 / length) : geometric_normal;
+}
+
+/// -1: a two-sided material is seen from its back.
+float side_shown(const ShapeRecord& shape, glm::vec3 normal, glm::vec3 direction) {
+    return shape.material->two_sided && glm::dot(normal, direction) > 0 ? -1.0f : 1.0f;
+}
+
+Frame shading_frame(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
+    return shape.has_frame_along_u ? frame_along_u(shape, hit, geometric_normal, normal) : Frame(normal);
+}
+
+/// The unit normal that relief makes of `normal`, on the same side.
+glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
+    glm::vec3 bent;
+    if (relief.kind == Relief::Kind::bump) {
+        // The surface moved along its normal by the height h: dp/du + n dh/du, with dp/du made tangent to the
+        // normal of shading [Blinn 1978].
+        const glm::vec2 gradient = relief.scale * relief.map.gradient(at);
+        bent = glm::cross(by_u + normal * (gradient.x - glm::dot(normal, by_u)),
+                          by_v + normal * (gradient.y - glm::dot(normal, by_v)));
+    } else {
+        const glm::vec3 coded = 2.0f * relief.map.evaluate(at) - 1.0f;
+        const glm::vec3 tangent = glm::normalize(by_u - normal * glm::dot(normal, by_u));
+        bent = coded.x * tangent + coded.y * glm::cross(normal, tangent) + coded.z * normal;
+    }
+    const float length = glm::length(bent);
+    if (!(length > 0) || !std::isfinite(length))
+        return normal;
+    return bent * std::copysign(1 / length, glm::dot(bent, normal));
+}
+
+/// Bsdf::terminator for normals bent by an angle with this cosine [Estevez 2019, 12.3].
+float terminator_of(const Relief& relief, float cosine) {
+    const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
+    return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
+}
+
+/// What a beam covers on a surface: one side lies across it, and one is the longer, the more it grazes.
+TextureView::Sides sides_of(const TextureView::Beam& beam, glm::vec3 normal) {
+    constexpr float least_cosine = 1e-3f;
+    const float cosine = glm::dot(beam.direction, normal);
+    const glm::vec3 tilt = beam.direction - cosine * normal;
+    const float sine = glm::length(tilt);
+    const glm::vec3 along = sine > 1e-4f ? tilt / sine : Frame(normal).tangent;
+    const float width = TextureView::share_of_pixel * beam.width;
+    return {along * (width / std::max(std::abs(cosine), least_cosine)), glm::cross(normal, along) * width};
+}
+
+void set_footprint(const TextureView::Sides& sides, glm::vec3 by_u, glm::vec3 by_v,
+                   SurfacePoint::Footprint& footprint) {
+    footprint.along = coordinates_along(sides.a, by_u, by_v);
+    footprint.across = coordinates_along(sides.b, by_u, by_v);
+}
+
+} // namespace
+
+LightPoint Vertex::light_toward(glm::vec3 direction) const {
+    const bool front = glm::dot(geometric_normal, direction) > 0;
+    return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
+}
+
+std::optional<BsdfSample> Vertex::sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
+    const float share = guide->share;
+    if (lobe >= share) {
+        auto s = bsdf.sample(to_viewer, (lobe - share) / (1 - share), u);
+        if (s)
+            s->pdf_w = s->is_delta ? (1 - share) * s->pdf_w : guided_pdf_w(s->pdf_w, to_world(s->to_next));
+        return s;
+    }
+    const DirectionMap::Sample drawn = guide->map.sample(lobe / share, u);
+    const glm::vec3 to_next = to_local(drawn.direction);
+    const BsdfValue v = bsdf.evaluate(to_viewer, to_next);
+    if (is_black(v.f_cos))
+        return {};
+    const float pdf_w = (1 - share) * v.pdf_w + share * drawn.pdf_w;
+    const bool transmits = to_next.z * to_viewer.z < 0;
+    return std::make_optional<BsdfSample>(to_next, v.f_cos, pdf_w, false,
+                                          transmits ? Scatter::transmit : Scatter::reflect);
+}
+
+Rgb Tracer::very_direct_along(Ray ray) const {
+    Rgb sum(0), throughput(1);
+    Vertex x;
+    RayKind kind = RayKind::camera;
+    TextureLookup seen = first_lookup();
+    float width = view.first_width();
+    for (int edges = 1; edges <= settings.max_depth; ++edges) {
+        const bool may_go_on = edges < settings.max_depth && scene.has_mirrors();
+        const Met met = closest_light(ray, x, kind, seen, may_go_on);
+        if (met == Met::darkness)
+            break;
+        if (met == Met::infinity)
+            return sum + throughput * environment_toward(ray.direction).radiance;
+        sum += throughput * x.light_toward(-ray.direction).radiance;
+        const DeltaValue mirrored = may_go_on && x.bsdf.is_mirror()
+                                        ? x.bsdf.evaluate_delta(x.to_previous, Scatter::reflect)
+                                        : DeltaValue{};
+        if (is_black(mirrored.value))
+            break;
+        throughput *= mirrored.value;
+        width = width_beyond(width, glm::distance(ray.origin, x.position), true);
+        seen = lookup(width, true);
+        kind = RayKind::bounce;
+        ray = leave(x, x.to_world(mirrored.to_next));
+    }
+    return sum;
+}
+
+void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, const TextureView* view,
+                 float width) {
+    const ShapeRecord& shape = scene.record(hit.shape);
+    v.position = ray.origin + hit.distance * ray.direction;
+    if (hit.distance > 8 * scene.radius()) {
+        // From so far away, that is less exact than steps off surfaces allow for.
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        v.position =
+            interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
+        if (hit.placement)
+            v.position = hit.placement->point(v.position);
+    }
+    v.guide = nullptr;
+    const glm::vec3 normal = shading_normal(shape, hit, v.geometric_normal);
+    SurfacePoint at(hit.barycentric);
+    if (shape.uvs) {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
+    }
+    if (shape.attributed) {
+        at.mesh = shape.attributed;
+        at.on_mesh = {hit.triangle, hit.barycentric};
+    } else if (glm::vec3 by_u, by_v; view && shape.uvs && position_derivatives(shape, hit, by_u, by_v)) {
+        const bool is_own = width >= 0;
+        const auto beam = [&] {
+            return is_own ? TextureView::Beam{ray.direction, width + view->angle() * hit.distance}
+                          : view->from_camera(v.position);
+        };
+        set_footprint(view->sides() ? *view->sides() : sides_of(beam(), v.geometric_normal), by_u, by_v,
+                      at.footprint);
+    }
+    // In its place, as a copy of what was only just written, number by number, has to wait.
+    new (&v.bsdf) Bsdf(shape.material->resolve(at));
+    v.bsdf.terminator = -1;
+    glm::vec3 bent = normal;
+    if (shape.material->relief) {
+        glm::vec3 by_u, by_v;
+        if (position_derivatives(shape, hit, by_u, by_v)) {
+            bent = bend(*shape.material->relief, at, normal, by_u, by_v);
+            v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
+        }
+    }
+    const float shown = side_shown(shape, normal, ray.direction);
+    const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
+    if (v.bsdf.is_bent())
+        v.bsdf.unbent_normal = frame.to_local(shown * normal);
+    v.to_previous = frame.to_local(-ray.direction);
+    v.frame = frame;
+    // What emitter sampling finds is a point, and so must be what is found by both strategies.
+    v.emitted = !shape.emission_map  ? shape.emitted
+                : view && width >= 0 ? shape.emission_map->filtered(at)
+                                     : shape.emission_map->evaluate(at);
+    v.emitter_pdf_a = shape.emitter_pdf_a;
+}
+
+FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& random) {
+    constexpr int most_bounces =
+        8; // limits paths through glass; albedos in mirrors follow base paths to max_depth
+    FeatureSample sample{Rgb(0), {Rgb(1)}};
+    SurfaceFeatures& features = sample.features;
+    float length = 0;
+    Vertex x;
+    bool is_seen_in_mirrors = true; // and in no glass
+    Tracer::TextureLookup seen = tracer.first_lookup();
+    float width = tracer.view.first_width();
+    for (int i = 1; tracer.closest(ray, x, RayKind::feature, seen); ++i) {
+        const float distance = glm::distance(ray.origin, x.position);
+        length += distance;
+        const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
+        if (is_seen_in_mirrors)
+            sample.albedo =
+                i > 1 || is_mirror ? tracer.albedo_in_mirrors(features.albedo, i, &x) : x.bsdf.albedo(x.to_previous);
+        is_seen_in_mirrors = is_seen_in_mirrors && is_mirror;
+        const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
+        const int most = is_seen_in_mirrors ? std::max(tracer.settings.max_depth, most_bounces) : most_bounces;
+        const auto s = is_mirror_or_glass && i < most
+                           ? x.sample(random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
+                           : std::nullopt;
+        if (!s) {
+            features.albedo *= x.bsdf.albedo(x.to_previous);
+            features.normal = x.to_world({0, 0, 1});
+            features.nearness = length > 0 ? 1 / length : 0;
+            features.roughness = x.bsdf.roughness();
+            break;
+        }
+        features.albedo *= s->f_cos / s->pdf_w;
+        width = tracer.width_beyond(width, distance, s->is_delta);
+        seen = tracer.lookup(width, is_seen_in_mirrors);
+        ray = tracer.leave(x, x.to_world(s->to_next));
+    }
+    return sample;
+}
+
+} // namespace tessera

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "render/session/session_state.h"
+
+#include <cstddef>
+#include <memory>
+#include <stop_token>
+#include <thread>
+
+namespace tessera {
+
+/// Reconstructs the newest snapshots of a session's panes in turn, on a thread of its own.
+class ReconstructionWorker {
+public:
+    explicit ReconstructionWorker(SessionState& shared)
+        : shared_(shared), thread_([this](std::stop_token stop) { loop(stop); }) {}
+
+    /// Ends the loop after the work under way. The destructor waits for it.
+    void request_stop() { thread_.request_stop(); }
+
+private:
+    /// A snapshot to reconstruct.
+    struct Task {
+        std::shared_ptr<const Snapshot> snapshot; // null: none
+        ReconstructionSettings settings;
+        bool cold = false; // start from nothing
+        std::stop_token stop;
+    };
+    SessionPane* next_pane();
+    Task begin(SessionPane& pane);
+    void reconstruct(SessionPane& pane, const Task& task);
+    void loop(std::stop_token stop);
+
+    SessionState& shared_;
+    std::size_t turn_ = 0; // index of the pane that is asked first
+    std::jthread thread_;  // last: ends first
+};
+
+} // namespace tessera

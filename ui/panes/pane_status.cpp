@@ -1,0 +1,231 @@
+#include "ui/gl/controls.h"
+#include "ui/gl/theme.h"
+#include "ui/gl/tone.h"
+#include "ui/panes/pane_parts.h"
+#include "ui/state/inspected.h"
+#include "ui/state/pane_labels.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+#include <glm/vec2.hpp>
+#include <imgui.h>
+
+namespace tessera {
+
+namespace {
+
+// By how much a pane is ahead when it is said to wait: passes in turn keep less of a distance.
+constexpr double least_wait = 2; // seconds
+constexpr double least_wait_spp = 3;
+
+bool is_done(const Snapshot& snapshot, const Pace& pace) {
+    return (pace.spp_limit > 0 && snapshot.spp >= pace.spp_limit) ||
+           (pace.seconds_limit > 0 && snapshot.seconds >= pace.seconds_limit);
+}
+
+/// The pane's picture of the request that is out; null: there is none yet.
+const Snapshot* snapshot_of_request(const PaneState& pane) {
+    const Snapshot* s = pane.snapshot.get();
+    return s && s->generation == pane.generation && !s->coarse() ? s : nullptr;
+}
+
+/// Whether nothing more will come of the pane, whatever the others do.
+bool is_at_rest(const PaneState& pane, const Pace& pace) {
+    const Snapshot* s = snapshot_of_request(pane);
+    return pane.failed || (s && is_done(*s, pace));
+}
+
+/// "3:10".
+std::string minutes(double seconds) {
+    char text[32];
+    const int whole = static_cast<int>(seconds);
+    std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+    return text;
+}
+
+/// "reconstruction of pass 11, 14 steps in 0.021 s".
+std::string reconstruction_text(const Snapshot& snapshot) {
+    const Reconstruction& made = *snapshot.reconstruction;
+    char text[96];
+    std::snprintf(text, sizeof text, "reconstruction of pass %d, %d step%s in %.2g s", snapshot.reconstruction_spp,
+                  made.iterations, made.iterations == 1 ? "" : "s", made.seconds);
+    return text;
+}
+
+/// "   relMSE 0.0123": of the newest picture that was measured; without a reference "   samples' relMSE ~0.0123",
+/// as it is estimated; empty: there is none yet.
+std::string error_text(const ViewerState& state, const PaneState& pane) {
+    const PaneChart& chart = state.charts.of(pane);
+    if (chart.curves.empty() || chart.generation != pane.generation ||
+        chart.reference != state.companions.reference)
+        return "";
+    return fmt::format("   {}{:.3g}", chart.reference ? "relMSE " : "samples' relMSE ~",
+                       chart.curves.back().points().back().error);
+}
+
+/// "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a share before the first step.
+std::string under_way_text(const ReconstructionUnderWay& now) {
+    char share[16] = "", text[96];
+    if (now.share > 0)
+        std::snprintf(share, sizeof share, " %.0f %%,", 100.0 * static_cast<double>(now.share));
+    std::snprintf(text, sizeof text, "reconstructing pass %d,%s %.1f s (Esc ends it)", now.spp, share,
+                  now.seconds);
+    return text;
+}
+
+} // namespace
+
+std::string status_text(const ViewerState& state, int index) {
+    const PaneState& pane = state.panes[index];
+    std::string line = pane_label(state, index);
+    const bool reconstructs_long = state.reconstructs_long(pane);
+    const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
+    // What it does comes first: a narrow pane cuts the end off.
+    if (!state.scene)
+        return line + (state.scene_info.loading.empty() ? "   no scene" : "   waiting for the scene");
+    if (pane.failed)
+        line += "   failed: see the messages (F2)";
+    else if (state.rendering.paused)
+        line += "   paused";
+    else if (is_in_long_first_pass(pane))
+        line += fmt::format("   {} {} %", is_answered ? "first pass" : "first look",
+                            static_cast<int>(100 * pane.pass_share));
+    else if (!is_answered)
+        line += "   starting";
+    else if (is_done(*pane.snapshot, state.rendering.pace))
+        line += "   done";
+    else if (const std::string waiting = waiting_text(state, index); !waiting.empty())
+        line += "   " + waiting;
+    if (!is_answered)
+        return line;
+    if (reconstructs_long)
+        line += "   " + under_way_text(*pane.reconstructing);
+    const Snapshot& snapshot = *pane.snapshot;
+    const double rate =
+        snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
+    char text[160];
+    std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
+                  rate * 1e-6);
+    line += text + error_text(state, pane);
+    if (snapshot.coarse())
+        line += "   first look";
+    else if (!reconstructs_long && snapshot.reconstruction &&
+             applied(snapshot.reconstructed_with.norm, has_gradients(snapshot.settings.method)) != Norm::none)
+        line += "   " + reconstruction_text(snapshot);
+    if (const double redistributed =
+            snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->redistributed : 0;
+        redistributed > 0)
+        line += fmt::format("   fireflies: {:.3g} % redistributed", 100 * redistributed);
+    if (snapshot.counters.refused_samples > 0)
+        line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
+    return line;
+}
+
+std::string waiting_text(const ViewerState& state, int pane) {
+    if (state.rendering.paused)
+        return "";
+    const bool by_time = state.rendering.pace.equal == Pace::Equal::time;
+    const auto had = [&](const PaneState& p) {
+        const Snapshot* s = snapshot_of_request(p);
+        return !s ? 0.0 : by_time ? s->seconds : s->spp;
+    };
+    const auto last =
+        std::min_element(state.panes.begin(), state.panes.end(), [&](const PaneState& a, const PaneState& b) {
+            return std::pair(is_at_rest(a, state.rendering.pace), had(a)) <
+                   std::pair(is_at_rest(b, state.rendering.pace), had(b));
+        });
+    const double own = had(state.panes[pane]);
+    if (is_at_rest(*last, state.rendering.pace) || own - had(*last) < (by_time ? least_wait : least_wait_spp))
+        return "";
+    const auto text = [&](double amount) {
+        return by_time ? minutes(amount) : std::to_string(static_cast<int>(amount));
+    };
+    return "waiting for pane " + std::to_string(last - state.panes.begin() + 1) + " (" + text(had(*last)) +
+           " of " + text(own) + (by_time ? "" : " spp") + "; R: all anew)";
+}
+
+std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about) {
+    char text[128];
+    if (map == ColourMap::false_colour)
+        std::snprintf(text, sizeof text, "%.4g %s", static_cast<double>(value.r * about.unit_scale), about.unit);
+    else if (map == ColourMap::direction)
+        std::snprintf(text, sizeof text, "%+.3f %+.3f %+.3f", static_cast<double>(value.x),
+                      static_cast<double>(value.y), static_cast<double>(value.z));
+    else
+        std::snprintf(text, sizeof text, "%.4g %.4g %.4g  Y %.4g", static_cast<double>(value.r),
+                      static_cast<double>(value.g), static_cast<double>(value.b),
+                      static_cast<double>(luminance(value)));
+    return text;
+}
+
+std::string cursor_text(const ViewerState& state, const PaneImages& images, int pane) {
+    if (!state.layout.cursor)
+        return "";
+    const glm::vec2 place = state.layout.cursor->place;
+    const Showing showing = showing_at(state, pane, state.layout.cursor->share);
+    const std::optional<Rgb> value = value_at(showing, images, place);
+    if (!value)
+        return "";
+    const PaneImage& image = images[showing.pane];
+    const glm::vec2 size = image.coarse() ? glm::vec2(state.request_size())
+                                          : glm::vec2(image.pixels().width(), image.pixels().height());
+    char where[48];
+    std::snprintf(where, sizeof where, "(%d, %d)  ", static_cast<int>(place.x * size.x),
+                  static_cast<int>(place.y * size.y));
+    const ReuseCounts* outcomes = showing.subtrahend < 0 ? image.outcomes_at(place) : nullptr;
+    return where + (outcomes ? outcome_shares(*outcomes)
+                             : value_text(*value, colour_map(showing, state), info(image.buffer())));
+}
+
+std::string cursor_help(const Showing& showing, const ViewerState& state) {
+    const BufferInfo& about = info(buffer_of(showing.pane, state));
+    std::string numbers = "its red, green and blue, and its luminance (Y)";
+    if (colour_map(showing, state) == ColourMap::false_colour)
+        numbers = "its number" + (*about.unit ? " in " + std::string(about.unit) : "");
+    else if (colour_map(showing, state) == ColourMap::direction)
+        numbers = "its x, y and z";
+    else if (colour_map(showing, state) == ColourMap::own)
+        numbers = "the shares of the shifts to it that ended so, the largest first";
+    return "Pixel under the mouse, counted from the top left, and " + numbers + ".\n\n" +
+           (showing.subtrahend >= 0 ? label_of(showing, state) + ": the difference of their numbers.\n\n" : "") +
+           about.label + ": " + about.help;
+}
+
+void draw_status(const std::string& id, int pane, const ViewerState& state, const PaneImages& images,
+                 Controls& controls) {
+    const std::string status = status_text(state, pane);
+    const std::string cursor = cursor_text(state, images, pane);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float room = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = ImGui::GetTextLineHeight();
+    ImGui::PushFont(mono_font());
+    const float width = cursor.empty() ? 0 : ImGui::CalcTextSize(cursor.c_str()).x;
+    ImGui::PopFont();
+
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float left = std::max(at.x + room - width, at.x); // of the numbers
+    list.PushClipRect(at, {cursor.empty() ? at.x + room : left - height * 0.5f, at.y + height * 1.3f}, true);
+    list.AddText(at, colours::dim_text, status.c_str());
+    list.PopClipRect();
+    if (!cursor.empty())
+        list.AddText(mono_font(), ImGui::GetFontSize(), {left, at.y}, colours::text, cursor.c_str());
+
+    ImGui::Dummy({room, height});
+    const std::string help = // a narrow pane cuts the line off
+        status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
+                 "second; the pass that the picture on show is reconstructed from, the steps of its solver and "
+                 "their wall seconds, or a reconstruction that takes long.";
+    controls.place((id + ".status").c_str(), help.c_str());
+    if (cursor.empty())
+        return;
+    ImGui::SetCursorScreenPos({left, at.y});
+    ImGui::Dummy({std::min(width, room), height});
+    const Showing showing = showing_at(state, pane, state.layout.cursor->share);
+    controls.place((id + ".value").c_str(), cursor_help(showing, state).c_str());
+}
+
+} // namespace tessera
