@@ -93,7 +93,13 @@ grep -q '<polyline' "$svg" && tail -1 "$svg" | grep -q '</svg>' || fail "the cha
 press ctrl+e '^messages '
 exr=$(saved -gpr.exr) || exit 1
 "$tessera" compare "$exr" "$work/reference.exr" >"$work/compared" || fail "the saved files cannot be compared"
-error_in_chart() { awk -F, -v pane=$1 -v spp=$spp '$1 == pane && $6 == spp { error = $8 } END { print error }' "$csv"; }
+error_in_chart() { # of the pane with this number, at the last sample
+    awk -F, -v pane="$1" -v spp=$spp '
+        NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+        $column["pane"] == pane && $column["spp"] == spp { error = $column["relMSE"] }
+        /^$/ { exit }
+        END { print error }' "$csv"
+}
 echo "relMSE in the chart: PT $(error_in_chart 1), G-PR $(error_in_chart 2)"
 awk -v chart="$(error_in_chart 2)" '/floor-free/ { off = chart / $3 - 1 } END { exit !(off != "" && off ^ 2 < 1e-6) }' \
     "$work/compared" || fail "the chart has another error than: $(cat "$work/compared")"
