@@ -12,10 +12,10 @@
 
 namespace tessera {
 
-/// Random numbers of one pass: the positions of its camera rays in the pixel and on the lens, and the numbers that
-/// its paths draw. Positions and the numbers at x_1 are nets over the passes. Every pixel uses the point of the
-/// pass with a digital shift, the exclusive or with a pattern. Pixels with the same position share a pattern. The
-/// patterns at x_1 are nets, too, over blocks of pixels.
+/// Random numbers of one pass: the positions of its camera rays in the pixel and on the lens, and the numbers
+/// that its paths draw. Positions and the numbers at x_1 are nets over the passes. Every pixel uses the point of
+/// the pass with a digital shift, the exclusive or with a pattern. Pixels with the same position share a pattern.
+/// The patterns at x_1 are nets, too, over blocks of pixels.
 class PassNumbers {
 public:
     /// @param begin_at_x1  pass with which the nets at x_1 begin. It selects the net, so the points are
@@ -60,12 +60,12 @@ public:
         const int count = static_cast<int>(positions_.size()), row = (3 * count + 4) / 8;
         return (pixel.x + row * pixel.y + first_turn_) % count;
     }
-    /// Returns the numbers of a pixel's path. At x_1 they are points of the pass with digital shifts from a second
-    /// net, over a block of 16x16 pixels in Z-order [Morton 1966, Ahmed 2020]. So aligned squares of 2x2, 4x4, 8x8
-    /// and 16x16 pixels are stratified in each pass, and each pixel is stratified over the passes. Two nets can be
-    /// correlated, which raises the variance of some integrands. So each block draws, for each purpose, one of
-    /// several independent variants of the net and an order of its pixels. Choices (of a light, of a lobe)
-    /// exchange rows and columns of the block relative to the numbers used for the chosen item.
+    /// Returns the numbers of a pixel's path. At x_1 they are points of the pass with digital shifts from a
+    /// second net, over a block of 16x16 pixels in Z-order [Morton 1966, Ahmed 2020]. So aligned squares of 2x2,
+    /// 4x4, 8x8 and 16x16 pixels are stratified in each pass, and each pixel is stratified over the passes. Two
+    /// nets can be correlated, which raises the variance of some integrands. So each block draws, for each
+    /// purpose, one of several independent variants of the net and an order of its pixels. Choices (of a light,
+    /// of a lobe) exchange rows and columns of the block relative to the numbers used for the chosen item.
     Random of_path(glm::ivec2 pixel, int path) const {
         const glm::ivec2 place = pixel + first_block_, within = place % block_size;
         const auto block = static_cast<std::uint32_t>(place.y / block_size) << 16 |

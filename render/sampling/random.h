@@ -109,10 +109,10 @@ inline std::uint32_t scrambled(std::uint32_t digits, std::uint32_t key) {
 
 /// Returns point `index` of a scrambled (0, 2)-sequence [Sobol 1967], as digits for unit_square(). The 2^n points
 /// from a multiple of 2^n on are stratified: each of the 2^n equal rectangles of any one shape, made by repeated
-/// halving of the square, contains one point. The order is shuffled within blocks of 2^n points, so sequences with
-/// different keys are uncorrelated [Burley 2020]. Two sequences together are no net, and pairs of their first
-/// digits can be less uniform than independent pairs. A digital shift, the exclusive or of all points with one
-/// pattern, keeps these properties.
+/// halving of the square, contains one point. The order is shuffled within blocks of 2^n points, so sequences
+/// with different keys are uncorrelated [Burley 2020]. Two sequences together are no net, and pairs of their
+/// first digits can be less uniform than independent pairs. A digital shift, the exclusive or of all points with
+/// one pattern, keeps these properties.
 inline std::uint64_t net_point(std::uint32_t index, std::uint64_t key) {
     const std::uint64_t order = Random::mix(2 * key + 1), keys = Random::mix(2 * key + 2);
     const std::uint32_t i = scrambled(index, static_cast<std::uint32_t>(order));

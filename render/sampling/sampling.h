@@ -34,8 +34,8 @@ struct Frame {
         bitangent = {b, sign + n.y * n.y * a, -n.y};
     }
 
-    /// Builds a frame around a unit normal whose tangent is the projection of `along`. The tangent is arbitrary if
-    /// `along` is parallel to the normal or not finite.
+    /// Builds a frame around a unit normal whose tangent is the projection of `along`. The tangent is arbitrary
+    /// if `along` is parallel to the normal or not finite.
     Frame(glm::vec3 n, glm::vec3 along) : Frame(n) {
         const glm::vec3 across = glm::cross(n, along);
         const float length2 = glm::dot(across, across);
@@ -165,8 +165,8 @@ inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(wei
         entries_[i] = {1, i, 0, 0};
         (share[i] < 1 ? small : large).push_back(i);
     }
-    // A slot with a share below 1 gives the rest of its place to an entry with a larger share. Entries that remain
-    // in the end have a share of 1 up to rounding. Thresholds have 24 bits, as random numbers have.
+    // A slot with a share below 1 gives the rest of its place to an entry with a larger share. Entries that
+    // remain in the end have a share of 1 up to rounding. Thresholds have 24 bits, as random numbers have.
     while (!small.empty() && !large.empty()) {
         const std::uint32_t s = small.back(), l = large.back();
         small.pop_back();
