@@ -67,7 +67,7 @@ void PathReuse::shift_to_all(int base) {
 
 /// Random replay: every pixel traces a path with the base's random numbers [Hua 2019, 3.1]. In the space of these
 /// numbers the shift is the identity, for each strategy alone: r_m is 1, and c_m is the slot of the offset's own
-/// path, with its MIS weights. A slot without light has r_m = 0, for base and offset alike.
+/// path, with its MIS weights. A slot without light, of base or offset, has r_m = 0.
 void PathReuse::replay_to_all(int base) {
     const BasePath& path = *set_[base];
     replayed_scatters_.clear();

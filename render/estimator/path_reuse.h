@@ -23,7 +23,7 @@ public:
 
     /// Starts another sampling set. Throws std::logic_error for more than most_lanes pixels.
     /// @param set     base paths of T, one for each pixel; must stay valid until the next begin()
-    /// @param counts  g of each base path (SamplingSet::counts); likewise
+    /// @param counts  g of each base path (SamplingSet::counts); must stay valid until the next begin()
     void begin(std::span<const BasePath* const> set, std::span<const float> counts);
 
     /// Shifts one base path to all pixels of T and adds its light to them, METHODS (9).

@@ -110,7 +110,7 @@ public:
     Rgb value(int slot, int m) const { return row(slot).value[m]; }
 
     bool keeps_scatters() const { return !scatter_of_slot_.empty(); }
-    /// Returns a new scatter, for the caller to fill in. It becomes the first scatter of those of the slots
+    /// Returns a new scatter, for the caller to fill in. It becomes the first scatter of the slots in
     /// [first_slot, end_slot) that have none. Requires keeps_scatters().
     FirstScatter& add_first_scatter(int first_slot, int end_slot);
     /// Returns the index of a slot's first scatter; -1: none.

@@ -14,8 +14,8 @@ struct OffsetStep {
     bool is_delta = false;
     float jacobian = 1; ///< |J| of this step: solid angle at the offset over that at the base, METHODS (14) and
                         ///< (15); with random replay the quotient of the pdfs
-    float ratio = 0; ///< r_m up to here, METHODS (6), no unit
-    Rgb value{0};    ///< c_m up to here, METHODS (7), without the light; at the end with it, radiance
+    float ratio = 0;    ///< r_m up to here, METHODS (6), no unit
+    Rgb value{0};       ///< c_m up to here, METHODS (7), without the light; at the end with it, radiance
 };
 
 /// Observer of the steps of shifts. Only the path inspector has one.
