@@ -241,7 +241,7 @@ void GuidingLearner::learn(std::span<const std::vector<FoundLight>> found) {
 /// Learns from the first pass. Guides made from the same samples that evaluate them would seem to pay everywhere,
 /// so each half of the samples evaluates the guides of the other half.
 void GuidingLearner::learn_by_halves(std::span<const std::vector<FoundLight>> found) {
-    constexpr std::size_t run = 64; // samples of one half in a row, so most paths stay in one half
+    constexpr std::size_t run = 64; // consecutive samples of one half: most paths stay in one half
     const auto for_each = [&](const auto& visit) {
         std::size_t i = 0;
         for (const std::vector<FoundLight>& block : found)

@@ -59,8 +59,7 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
     if (is_unrefracted)
         base_to_next = across(base_to_next);
     const glm::vec3 half = half_vector(base.to_previous, base_to_next, base_index);
-    // A microfacet cannot refract light to the side it came from. Diffuse transmission can, so it is excluded
-    // here.
+    // A microfacet cannot refract light to the side it came from. Diffuse transmission can, and fails here.
     if (refracts && glm::dot(base.to_previous, half) * glm::dot(base_to_next, half) >= 0)
         return {};
     const glm::vec3 copied = rotate_between_frames(base.frame, offset.frame, half);

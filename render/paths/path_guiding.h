@@ -30,8 +30,7 @@ public:
         glm::vec3 direction; ///< unit, world
         float pdf_w;
     };
-    /// Samples a direction.
-    /// @param choice, u  uniform in [0, 1)
+    /// Samples a direction. @param choice, u  uniform in [0, 1)
     Sample sample(float choice, glm::vec2 u) const {
         const auto bits = static_cast<unsigned>(choice * static_cast<float>(units));
         const Slot& slot = slots_[bits / units_a_slot];
@@ -137,8 +136,7 @@ struct GuidingGrid {
 /// have the same pdf at the same place.
 class PathGuiding {
 public:
-    /// @param known            index of each cell's guide; -1: none
-    /// @param left_of_squares  see left_of_squares()
+    /// @param known  index of each cell's guide; -1: none
     PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides,
                 double left_of_squares)
         : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)),

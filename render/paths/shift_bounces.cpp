@@ -152,8 +152,7 @@ void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     edges.segments.to.set(m, way.to);
 }
 
-/// Ends a light path at `light` after a repeated scatter at `origin`, METHODS (6) and (7). Fails if the light is
-/// black.
+/// Ends a light path at `light` after a repeated scatter at `origin`, METHODS (6) and (7); fails if it is black.
 /// @param base_pdf_sum  pdf of the base's last step, summed over strategies
 void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                          float base_pdf_sum, bool is_delta) {
@@ -185,8 +184,7 @@ bool Shift::is_joined_alike(int i, int m, float distance, const Vertex& next) co
     return !connectable || misses == (base(i + 1).vertex.bsdf.roughness() > 0 && !light_->step_joins(i));
 }
 
-/// Returns whether a step from y_i by a lobe can have the base's connectability for any edge length. It avoids
-/// rays.
+/// Returns false if no edge length makes a step from y_i by a lobe as connectable as the base's. It saves rays.
 bool Shift::may_agree(int i, int m) const {
     const float roughness = y_->roughness[m];
     return light_->step_is_connectable(i) ? !rule_.covers_none(roughness) : !rule_.covers_all(roughness);

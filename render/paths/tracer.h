@@ -65,8 +65,7 @@ private:
     std::optional<BsdfSample> sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const;
 };
 
-/// Pixel width of a ray to a vertex that several pixels reuse: there it must not depend on the pixel
-/// (TextureView).
+/// Pixel width for a vertex that several pixels reuse: its footprint must not depend on the pixel (TextureView).
 inline constexpr float no_width = -1;
 
 /// Sets `vertex` to the surface at `hit` on `ray`. It writes in place, because a vertex is large.
@@ -167,11 +166,9 @@ struct Tracer {
     /// Returns whether all rays from one point into a mirror see the same surface. Opacity masks, which some rays
     /// pass, prevent that.
     bool sees_the_same_in_mirrors() const { return !scene.has_masks(); }
-    /// Returns the approximate albedo of a pixel that sees x_index through mirrors. It is never 0, because
-    /// radiance is divided by it. It is almost black if x_index is a mirror, or if max_depth allows no edge
-    /// beyond it.
-    /// @param throughput  of the mirrors
-    /// @param seen        x_index; null: the mirrors show nothing
+    /// Returns the approximate albedo of a pixel that sees x_index through mirrors with this throughput. It is
+    /// positive, because radiance is divided by it: 1e-4 if x_index (`seen`) is null, a mirror, or has no edge
+    /// beyond it by max_depth.
     Rgb albedo_in_mirrors(Rgb throughput, int index, const Vertex* seen) const {
         const bool has_light = seen && !seen->bsdf.is_mirror() && index < settings.max_depth;
         const Rgb albedo = has_light ? throughput * seen->bsdf.albedo(seen->to_previous) : Rgb(0);
@@ -204,10 +201,8 @@ struct Tracer {
         return scene.intersector().occluded(segment);
     }
 
-    /// Finds which new edges of shifts are occluded. They share an end or are parallel, so they are traced as
-    /// packets.
-    /// @param lanes    lanes to trace, of the first `count`
-    /// @param blocked  receives the result
+    /// Finds which new edges of shifts are occluded. They share an end or are parallel, so they are traced in
+    /// packets. Traces those of the first `count` that are set in `lanes`.
     void occluded(const SegmentLanes& segments, const LaneMask& lanes, int count, LaneMask& blocked) const {
         std::uint64_t rays = 0;
         for (int lane = 0; lane < count; ++lane)
