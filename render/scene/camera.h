@@ -30,7 +30,7 @@ struct Camera {
     float fov = 45; ///< degrees, along fov_axis; perspective only
     FovAxis fov_axis = FovAxis::x;
     bool is_orthographic = false;  ///< parallel rays; the image is 2 units of camera space wide
-    glm::vec2 principal_offset{0}; ///< shift of the image right and down, as fractions of its width and height
+    glm::vec2 principal_offset{0}; ///< shift of the image window right and down, fractions of its size
     float aperture_radius = 0;     ///< lens radius; 0: pinhole
     float focus_distance = 1;      ///< distance of the plane in focus, > 0
 
