@@ -15,7 +15,7 @@ namespace tessera {
 struct Slide {
     enum class Kind {
         share,     ///< spot: a square picture, a factor on the intensity
-        irradiance ///< projector: in the bitmap's proportions; a plane at distance 1 receives pi times the picture
+        irradiance ///< projector, in the bitmap's proportions; irradiance at distance 1 is pi times the picture
     };
     Texture picture{Rgb(1)};
     Camera camera; ///< orientation and field of view; unscaled

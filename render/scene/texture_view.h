@@ -20,8 +20,8 @@ class TextureView {
 public:
     /// Disables filtering.
     TextureView() = default;
-    /// @param spares_first  leaves x_1 and what mirrors show there unfiltered; set with albedo demodulation, where
-    ///                      the mean albedo of several points per pixel is better than a footprint (PixelFeatures)
+    /// @param spares_first  leaves x_1, and what mirrors at x_1 show, unfiltered. Set with albedo demodulation:
+    ///                      the mean albedo of many points per pixel is better than a footprint (PixelFeatures).
     TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size)
         : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(spares_first) {
         const Projection projection(camera, size);

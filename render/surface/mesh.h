@@ -58,7 +58,7 @@ struct MeshAttribute {
     bool is_of_faces() const { return name.starts_with("face_"); }
 };
 
-/// Triangles in world space.
+/// Triangles in world space, or in the local space of a ShapeGroup.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;        ///< unit, one per position; empty: flat shading
