@@ -373,9 +373,9 @@ TEST_F(CommandLine, BadCameraFilesGetAMessageAndExitCode2) {
         {"[]", "c.json:1:1: a camera file holds one object"},
         {"{\"fov\": 40}", "c.json:1:1: the camera has no 'to_world'"},
         {"{" + unit + "}", "c.json:1:1: the camera has no 'fov'"},
-        {"{" + unit + ",\n \"fov\": \"wide\"}", "c.json:2:9: 'fov' must be made of numbers, not of string"},
+        {"{" + unit + ",\n \"fov\": \"wide\"}", "c.json:2:9: 'fov' must be numeric, not string"},
         {"{" + unit + ",\n \"fov\": 180}", "c.json:2:9: the field of view must be between 0 and 180 degrees"},
-        {"{" + unit + ",\n \"fov\": 40, \"zoom\": 2}", "c.json:2:21: a camera has no field 'zoom'"},
+        {"{" + unit + ",\n \"fov\": 40, \"zoom\": 2}", "c.json:2:21: unknown camera field 'zoom'"},
         {"{\"fov\": 40, \"to_world\": [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]}", "the camera's transform is flat"},
     };
     for (const auto& [json, expected] : cases) {
