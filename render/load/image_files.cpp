@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// Dark where the file holds what is no light, so that it cannot spread, and nowhere too bright.
+/// Replaces infinite and NaN channels by 0, so that they cannot spread, and clamps the others to `brightest`.
 Rgb bounded(Rgb c) {
     for (int i = 0; i < 3; ++i)
         c[i] = std::isfinite(c[i]) ? std::min(c[i], brightest) : 0.0f;
@@ -46,9 +46,9 @@ Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool s
         return bitmap_of(parse_png(encoded, wanted), srgb);
     if (is_jpeg(encoded))
         return bitmap_of(parse_jpeg(encoded, wanted), srgb);
-    if (is_bmp(encoded) || extension == ".tga") // which has no mark: there the name must say it
+    if (is_bmp(encoded) || extension == ".tga") // TGA has no signature
         return bitmap_of(parse_bmp_or_tga(encoded, wanted), srgb);
-    throw std::runtime_error("it is no OpenEXR, Radiance, PNG, JPEG, BMP or TGA picture");
+    throw std::runtime_error("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA picture");
 }
 
 Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& wanted) {

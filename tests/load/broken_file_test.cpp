@@ -117,8 +117,8 @@ TEST_F(BrokenFile, EmptyAndForeign) {
     EXPECT_NE(error_of_shape("serialized", "empty").find("the file ends too early"), std::string::npos);
     EXPECT_NE(error_of_shape("ply", "foreign").find("does not begin with 'ply'"), std::string::npos);
     EXPECT_NE(error_of_shape("serialized", "foreign").find("not a file of serialized"), std::string::npos);
-    EXPECT_NE(error_of_texture("empty").find("it is no OpenEXR"), std::string::npos);
-    EXPECT_NE(error_of_texture("foreign").find("it is no OpenEXR"), std::string::npos);
+    EXPECT_NE(error_of_texture("empty").find("it is not an OpenEXR"), std::string::npos);
+    EXPECT_NE(error_of_texture("foreign").find("it is not an OpenEXR"), std::string::npos);
     // OBJ has no mark at its beginning, and any line may be a word of some dialect.
     EXPECT_EQ(error_of_shape("obj", "empty"), "no error");
 }
@@ -164,7 +164,7 @@ TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
     for (const char* name : {"a.pic", "a.png", "a.hdr"}) {
         folder.write(name, softimage);
         EXPECT_THAT(error_of_texture(name),
-                    testing::HasSubstr("it is no OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
+                    testing::HasSubstr("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
     }
 }
 
