@@ -19,8 +19,8 @@
 namespace tessera {
 
 /// Kind of quantity that a spectrum describes. A reflectance is converted under D65, the white of sRGB, so a
-/// constant one is grey. An emission is converted without an illuminant, as in Mitsuba 3, so a constant one (equal
-/// energy) is slightly reddish.
+/// constant one is grey. An emission is converted without an illuminant, as in Mitsuba 3, so a constant one
+/// (equal energy) is slightly reddish.
 enum class SpectrumOf { reflectance, emission };
 
 /// A plugin's element, such as <bsdf type="...">, with its parameters. It records which parameters are read;

@@ -121,8 +121,8 @@ struct Metal {
 };
 
 // Measured spectra [Palik, Handbook of Optical Constants of Solids; SOPRA database] in Rec. 709 primaries, as
-// published by the renderers Tungsten and Yocto/GL; negative values are set to 0. The names are those of
-// Mitsuba's table. AlSb is missing, because its red index is negative.
+// published by the renderers Tungsten and Yocto/GL; negative values are set to 0. Names as in Mitsuba. AlSb is
+// missing, because its red index is negative.
 const Metal metals[] = {
     {"none", {Rgb(0), Rgb(1)}},
     {"a-C", {{2.944100f, 2.227150f, 1.968167f}, {0.887433f, 0.799322f, 0.815286f}}},

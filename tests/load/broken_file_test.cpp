@@ -196,7 +196,7 @@ TEST_F(BrokenFile, AbsurdImages) {
         folder.write(file, bytes);
         EXPECT_NE(error_of_texture(file).find(message), std::string::npos) << error_of_texture(file);
     };
-    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': it is no readable picture");
+    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': the picture cannot be read");
     expect("b.png", png_header(17000, 17000), "an image of 17000 by 17000 pixels is too large");
     expect("c.png", png_header(16000, 16000), "the file is too short for 16000 by 16000 pixels");
     expect("a.exr", exr_header(1000000, 1000000), "cannot load 'a.exr'");
