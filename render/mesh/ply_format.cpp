@@ -65,7 +65,7 @@ public:
             else if (words[0] == "property")
                 parse_property(words);
             else
-                fail("'" + std::string(words[0]) + "' is no word of a header");
+                fail("'" + std::string(words[0]) + "' is not a header keyword");
         }
         if (!has_format_)
             fail("the header names no format");
@@ -105,7 +105,7 @@ private:
     void parse_element(const std::vector<std::string_view>& words) {
         PlyElement element;
         if (words.size() != 3)
-            fail("an element has a name and a count");
+            fail("an element needs a name and a count");
         const char* const end = words[2].data() + words[2].size();
         const auto [read, error] = std::from_chars(words[2].data(), end, element.count);
         if (read != end || error != std::errc())
@@ -116,11 +116,11 @@ private:
 
     void parse_property(const std::vector<std::string_view>& words) {
         if (header_.elements.empty())
-            fail("a property stands before the first element");
+            fail("a property precedes the first element");
         PlyProperty property;
         property.is_list = words.size() == 5 && words[1] == "list";
         if (words.size() != 3 && !property.is_list)
-            fail("a property has a type and a name, or is a list of such");
+            fail("a property needs a type and a name, or 'list', two types and a name");
         if (property.is_list)
             property.count_type = parse_type(words[2]);
         property.type = parse_type(words[words.size() - 2]);
@@ -203,7 +203,7 @@ double PlyValues::next_word() {
     const auto [read, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
     if (read != end || error == std::errc::invalid_argument)
         throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a number");
-    if (error == std::errc::result_out_of_range) // as good as 0, or more than any number
+    if (error == std::errc::result_out_of_range) // underflow or overflow
         value = parse_number(word).value_or(std::numeric_limits<double>::infinity());
     bytes_.take(word.size());
     return value;
