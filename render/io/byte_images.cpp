@@ -44,8 +44,8 @@ ByteImage image_of(std::int64_t width, std::int64_t height, std::size_t file_byt
     throw std::runtime_error("the picture cannot be read: " + what);
 }
 
-void check_wanted(const std::function<bool()>& wanted) {
-    if (!wanted())
+void check_not_cancelled(const std::function<bool()>& keep_reading) {
+    if (!keep_reading())
         throw std::runtime_error("reading was cancelled");
 }
 
@@ -141,7 +141,7 @@ bool is_bmp(std::string_view bytes) {
     return bytes.starts_with("BM");
 }
 
-ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_png(std::string_view bytes, const std::function<bool()>& keep_reading) {
     PngReader reader(bytes);
     if (!reader.read_header())
         fail(reader.error());
@@ -151,21 +151,21 @@ ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted)
         fail("its pixels cannot be converted to RGB");
     for (int pass = 0; pass < reader.passes(); ++pass)
         for (int y = 0; y < image.height; ++y) {
-            check_wanted(wanted);
+            check_not_cancelled(keep_reading);
             if (!reader.read_row(image.rgb.data() + row_bytes * static_cast<std::size_t>(y)))
                 fail(reader.error());
         }
     return image;
 }
 
-ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& keep_reading) {
     const TurboJpeg jpeg;
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     int width = 0, height = 0, subsampling = 0, colours = 0;
     if (tjDecompressHeader3(jpeg.handle, data, bytes.size(), &width, &height, &subsampling, &colours) != 0)
         fail(tjGetErrorStr2(jpeg.handle));
     ByteImage image = image_of(width, height, bytes.size());
-    check_wanted(wanted);
+    check_not_cancelled(keep_reading);
     // TJFLAG_LIMITSCANS: decoding thousands of scans of the whole picture would take minutes.
     const bool succeeded = tjDecompress2(jpeg.handle, data, bytes.size(), image.rgb.data(), width, 0, height,
                                          TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) == 0;
@@ -176,7 +176,7 @@ ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted
     return image;
 }
 
-ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& keep_reading) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (bytes.size() > std::size_t{1} << 30)
         fail("the file is larger than 1 GiB");
@@ -185,7 +185,7 @@ ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& 
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         fail(stbi_failure_reason());
     ByteImage image = image_of(width, height, bytes.size());
-    check_wanted(wanted);
+    check_not_cancelled(keep_reading);
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
     if (!pixels || width != image.width || height != image.height)

@@ -98,7 +98,7 @@ bool has_layer(const Imf::ChannelList& channels, const LayerName& layer) {
     return true;
 }
 
-/// Returns the layers that have three channels, the plain one first, in the order of the file.
+/// Returns the layers of three channels: the plain one, then RGB and then XYZ layers in file order.
 std::vector<LayerName> layers_of_three(const Imf::ChannelList& channels) {
     std::vector<LayerName> layers;
     if (has_layer(channels, {""}) || channels.findChannel("Y"))
@@ -115,7 +115,7 @@ std::vector<LayerName> layers_of_three(const Imf::ChannelList& channels) {
     return layers;
 }
 
-/// Returns all layers: those of three channels, then a layer for each other channel but alpha.
+/// Returns all layers: those with three channels, then one for each other channel but alpha.
 std::vector<LayerName> layers_in(const Imf::ChannelList& channels) {
     std::vector<LayerName> layers = layers_of_three(channels);
     std::set<std::string> taken;

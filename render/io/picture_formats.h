@@ -22,12 +22,12 @@ struct ByteImage {
 
 // Decode images in memory with libpng, libjpeg-turbo or stb_image. Grey is repeated, 16-bit values keep their
 // upper 8 bits, and alpha is dropped. Gamma and colour spaces stated in the file are ignored, because the scene
-// states them. All poll `wanted`. They throw std::runtime_error with the reason, also for sizes beyond
-// check_image_size() and once `wanted` returns false, and OutOfMemory.
-ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted);
-ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted);
+// states them. All poll `keep_reading`. They throw std::runtime_error with the reason, also for sizes beyond
+// check_image_size() and once `keep_reading` returns false, and OutOfMemory.
+ByteImage parse_png(std::string_view bytes, const std::function<bool()>& keep_reading);
+ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& keep_reading);
 /// Decodes bytes with the signature of BMP as BMP, and all others as TGA.
-ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted);
+ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& keep_reading);
 
 /// Returns the image with bytes scaled to [0, 1], without decoding sRGB.
 RgbImage to_rgb(const ByteImage& picture);
@@ -36,8 +36,8 @@ RgbImage to_rgb(const ByteImage& picture);
 bool is_radiance(std::string_view bytes);
 
 /// Decodes a Radiance image: RGBE, rows from top to bottom, plain or run-length encoded [Ward, "Real Pixels",
-/// Graphics Gems II, 1991]. Polls `wanted` at each row. Throws std::runtime_error with the reason, also once
-/// `wanted` returns false.
-RgbImage parse_radiance(std::string_view bytes, const std::function<bool()>& wanted);
+/// Graphics Gems II, 1991]. Polls `keep_reading` at each row. Throws std::runtime_error with the reason, also
+/// once `keep_reading` returns false.
+RgbImage parse_radiance(std::string_view bytes, const std::function<bool()>& keep_reading);
 
 } // namespace tessera

@@ -92,7 +92,7 @@ bool is_radiance(std::string_view bytes) {
     return bytes.starts_with(signatures[0]) || bytes.starts_with(signatures[1]);
 }
 
-RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& wanted) {
+RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& keep_reading) {
     Bytes bytes(encoded);
     bool is_rgbe = false;
     for (std::string line = bytes.line(); !line.empty(); line = bytes.line())
@@ -110,7 +110,7 @@ RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& w
     RgbImage image(width, height);
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {
-        if (!wanted())
+        if (!keep_reading())
             throw std::runtime_error("reading was cancelled");
         read_row(bytes, row);
         for (int x = 0; x < width; ++x)

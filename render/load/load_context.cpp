@@ -96,13 +96,13 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
         std::optional<std::string> error;
     };
     std::vector<Outcome> outcomes(jobs_.size());
-    const std::function<bool()> wanted = [&] { return !progress.given_up(); };
+    const std::function<bool()> keep_reading = [&] { return !progress.given_up(); };
     parallel_for(static_cast<int>(jobs_.size()), [&](int i) {
         if (progress.given_up())
             return;
         const auto index = static_cast<std::size_t>(i);
         try {
-            outcomes[index].note = jobs_[index].read(wanted);
+            outcomes[index].note = jobs_[index].read(keep_reading);
         } catch (const std::exception& e) {
             outcomes[index].error = message_of(e);
         }

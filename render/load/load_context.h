@@ -48,9 +48,9 @@ private:
 /// Jobs that read the files named by a scene. They run in parallel once the XML is read.
 class FileJobs {
 public:
-    /// Reads a file and returns the text of a note, or nothing. Polls `wanted`, and throws soon after it
+    /// Reads a file and returns the text of a note, or nothing. Polls `keep_reading`, and throws soon after it
     /// returns false.
-    using Read = std::function<std::string(const std::function<bool()>& wanted)>;
+    using Read = std::function<std::string(const std::function<bool()>& keep_reading)>;
 
     /// Adds a job, which runs once on any thread. `where` is the parameter whose value is the file name;
     /// messages point at it.

@@ -92,12 +92,12 @@ void read_sensor(LoadContext& context, const XmlElement& element);
 
 /// Reads an image as three channels: OpenEXR and Radiance as linear floats, PNG, JPEG, TGA and BMP as bytes,
 /// sRGB-encoded or linear as `srgb` says. The content decides on the format; only TGA, which has no signature,
-/// needs its extension ".tga". Alpha is dropped, grey is repeated. Polls `wanted`. Throws std::runtime_error,
-/// also for a size that file or memory cannot hold, and once `wanted` returns false.
-Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& wanted);
+/// needs its extension ".tga". Alpha is dropped, grey is repeated. Polls `keep_reading`. Throws
+/// std::runtime_error, also for a size that file or memory cannot hold, and once `keep_reading` returns false.
+Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading);
 
 /// Does the same for an image in memory; `extension` is its file name's.
 Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
-                    const std::function<bool()>& wanted);
+                    const std::function<bool()>& keep_reading);
 
 } // namespace tessera

@@ -142,10 +142,10 @@ glm::vec3 Properties::point(std::string_view parameter, glm::vec3 fallback) {
     return read_point(*element);
 }
 
-std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {
+std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& predicate) {
     std::vector<XmlElement> result;
     for (Parameter& p : parameters_) {
-        if (p.used || !wanted(p.element))
+        if (p.used || !predicate(p.element))
             continue;
         p.used = true;
         result.push_back(p.element);

@@ -51,8 +51,8 @@ public:
     glm::mat3 rotation(std::string_view parameter);
     glm::vec3 point(std::string_view parameter, glm::vec3 fallback);
 
-    /// Takes the children that were not taken yet and fulfil `wanted`.
-    std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& wanted);
+    /// Takes the children that were not taken yet and fulfil `predicate`.
+    std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& predicate);
 
     /// Takes parameters that have no effect in Tessera.
     void ignore(std::initializer_list<std::string_view> parameters);

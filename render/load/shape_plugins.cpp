@@ -175,8 +175,8 @@ int area_light_parameter(LoadContext& context, Properties& p) {
     return emitter ? add_shape_emitter(context, *emitter) : -1;
 }
 
-/// Adds a shape with triangles to `shapes`. The vector must not be moved until all files are read. An unknown
-/// type is skipped, with a note.
+/// Adds a shape with triangles to `shapes`. The vector must stay at its address until all files are read. An
+/// unknown type is skipped, with a note.
 void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
     const auto* plugin = find_plugin(plugins, properties.type());
     if (!plugin) {
@@ -264,10 +264,11 @@ void note_missing_attributes(LoadContext& context) {
         if (shape.area_light >= 0)
             textures.push_back(&scene.area_lights[shape.area_light].radiance);
         for (const Texture* texture : textures) {
-            const auto* wanted = std::get_if<AttributeTexture>(&texture->kind);
-            if (wanted && !shape.mesh.attribute(wanted->name))
-                context.notes.push_back({loaded.element.position(), "the shape has no attribute '" + wanted->name +
-                                                                        "'; white is used instead"});
+            const auto* attribute = std::get_if<AttributeTexture>(&texture->kind);
+            if (attribute && !shape.mesh.attribute(attribute->name))
+                context.notes.push_back(
+                    {loaded.element.position(),
+                     "the shape has no attribute '" + attribute->name + "'; white is used instead"});
         }
     }
 }

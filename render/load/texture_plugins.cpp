@@ -154,8 +154,8 @@ std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties&
     if (!shared) {
         shared = std::make_shared<Bitmap>();
         context.jobs.add(file->parameter,
-                         [target = shared, path = file->path, srgb](const std::function<bool()>& wanted) {
-                             *target = read_bitmap(path, srgb, wanted);
+                         [target = shared, path = file->path, srgb](const std::function<bool()>& keep_reading) {
+                             *target = read_bitmap(path, srgb, keep_reading);
                              return std::string();
                          });
     }
