@@ -24,7 +24,7 @@ namespace tessera {
 
 namespace {
 
-constexpr int rows_at_once = 64; // rows read between calls of the watch; not tuned
+constexpr int rows_per_call = 64; // rows read between calls of the watch; not tuned
 
 /// Name and channels of a layer.
 struct LayerName {
@@ -146,10 +146,10 @@ Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
 void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch) {
     const auto row = [&](std::int64_t n) { return static_cast<int>(std::min<std::int64_t>(first + n, last)); };
     const std::int64_t count = std::int64_t{last} - first + 1;
-    for (std::int64_t done = 0; done < count; done += rows_at_once) {
+    for (std::int64_t done = 0; done < count; done += rows_per_call) {
         if (watch && !watch(static_cast<float>(done) / static_cast<float>(count)))
             throw std::runtime_error("reading was cancelled");
-        part.readPixels(row(done), row(done + rows_at_once - 1));
+        part.readPixels(row(done), row(done + rows_per_call - 1));
     }
 }
 
@@ -163,13 +163,13 @@ std::map<std::string, std::string> attributes_of(const Imf::Header& header) {
 
 /// Asks for the memory of reading: the pixels, and a chunk of rows of all channels, which OpenEXR decompresses.
 void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
-    constexpr std::uint64_t most_rows_a_chunk = 256; // in DWAB compression
+    constexpr std::uint64_t max_rows_per_chunk = 256; // in DWAB compression
     std::uint64_t channels = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         ++channels;
     const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
     ask_for_memory(sizeof(Rgb) * width * height * layers +
-                       2 * sizeof(float) * width * std::min(height, most_rows_a_chunk) * channels,
+                       2 * sizeof(float) * width * std::min(height, max_rows_per_chunk) * channels,
                    "its pixels");
 }
 

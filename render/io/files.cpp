@@ -27,7 +27,7 @@ namespace tessera {
 namespace {
 
 // No format exceeds it: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
-constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
+constexpr std::uintmax_t max_pixels_per_byte = std::uintmax_t{1} << 14;
 
 } // namespace
 
@@ -52,7 +52,7 @@ void check_image_size(std::int64_t width, std::int64_t height) {
 
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
     check_image_size(width, height);
-    if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
+    if (static_cast<std::uintmax_t>(width * height) / max_pixels_per_byte > file_bytes)
         throw std::runtime_error("the file is too short for " + size_text(width, height));
 }
 
@@ -128,11 +128,11 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 /// Returns the end of a chain of links, which need not exist; the path itself if it is no link. The system
 /// resolves links among its parent folders.
 std::filesystem::path end_of_links(const std::filesystem::path& path) {
-    constexpr int most_links = 40; // as in Linux
+    constexpr int max_links = 40; // as in Linux
     std::filesystem::path end = path;
     std::error_code none;
     for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(end, none)); ++i) {
-        if (i == most_links)
+        if (i == max_links)
             throw std::filesystem::filesystem_error(
                 "cannot be written", path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
         end = folder_of(end) / std::filesystem::read_symlink(end);

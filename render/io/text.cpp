@@ -19,7 +19,7 @@ namespace tessera {
 namespace {
 
 // Longest excerpt of a source line, which may hold a whole file. Fits a line of a terminal.
-constexpr std::size_t shown_length = 150;
+constexpr std::size_t max_excerpt = 150;
 
 /// Returns the number of code points of UTF-8 text, which approximates its columns in a terminal.
 std::size_t width_of(const std::string& text) {
@@ -31,17 +31,17 @@ std::string with_caret(const std::string& source_line, int column) {
     std::string line = source_line;
     std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
     if (column < 1)
-        return "\n    " + line.substr(0, shown_length);
+        return "\n    " + line.substr(0, max_excerpt);
     std::size_t at = std::min(static_cast<std::size_t>(column - 1), line.size());
     std::string prefix;
-    if (at > shown_length * 2 / 3) {
-        const std::size_t cut = at - shown_length / 2;
+    if (at > max_excerpt * 2 / 3) {
+        const std::size_t cut = at - max_excerpt / 2;
         line.erase(0, cut);
         at -= cut;
         prefix = "...";
     }
     const std::size_t caret = prefix.size() + width_of(line.substr(0, at));
-    return "\n    " + prefix + line.substr(0, shown_length) + "\n    " + std::string(caret, ' ') + "^";
+    return "\n    " + prefix + line.substr(0, max_excerpt) + "\n    " + std::string(caret, ' ') + "^";
 }
 
 } // namespace

@@ -150,15 +150,15 @@ bool leave_out_straight_light(Material& material) {
     return changed;
 }
 
-constexpr int most_parts = 256; // each is evaluated at every scattering event; not tuned
+constexpr int max_parts = 256; // each is evaluated at every scattering event; not tuned
 
-/// Counts the BSDFs that a material contains, at any depth. Counting stops soon after most_parts.
+/// Counts the BSDFs that a material contains, at any depth. Counting stops soon after max_parts.
 int count_parts(const Material& material) {
     if (const auto* coated = std::get_if<CoatedMaterial>(&material.kind))
         return 1 + count_parts(*coated->base);
     const auto* mixture = std::get_if<MixtureMaterial>(&material.kind);
     int count = mixture ? 0 : 1;
-    for (std::size_t i = 0; mixture && i < mixture->parts.size() && count <= most_parts; ++i)
+    for (std::size_t i = 0; mixture && i < mixture->parts.size() && count <= max_parts; ++i)
         count += count_parts(*mixture->parts[i]);
     return count;
 }
@@ -179,8 +179,8 @@ Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlEl
     Material material{{}, mixture};
     if (first && !first->thin && leave_out_straight_light(material))
         p.note("the unscattered transmission of 'hk' is left out, because another <bsdf> refracts");
-    if (count_parts(material) > most_parts)
-        p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(most_parts) +
+    if (count_parts(material) > max_parts)
+        p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(max_parts) +
                          " BSDFs, counting nested ones at each use");
     const bool all_two_sided = two_sided == nested.size();
     if (two_sided > 0 && !all_two_sided)

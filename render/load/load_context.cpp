@@ -120,7 +120,7 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
 }
 
 namespace {
-constexpr int deepest_nesting = 64;
+constexpr int max_nesting = 64;
 }
 
 XmlElement LoadContext::resolve(const XmlElement& element) const {
@@ -164,7 +164,7 @@ std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, 
 }
 
 NestingGuard::NestingGuard(LoadContext& context, const XmlElement& element) : context_(context) {
-    if (context.depth >= deepest_nesting)
+    if (context.depth >= max_nesting)
         element.fail("nested too deep: is this a circle of references?");
     ++context.depth;
 }

@@ -11,9 +11,9 @@ namespace tessera {
 
 namespace {
 
-constexpr std::size_t deepest_include = 15;    // as in Mitsuba
-constexpr int most_includes = 10000;           // not tuned
-constexpr std::size_t longest_value = 1 << 20; // bytes; nested variables grow exponentially
+constexpr std::size_t max_include_depth = 15;     // as in Mitsuba
+constexpr int max_includes = 10000;               // not tuned
+constexpr std::size_t max_value_length = 1 << 20; // bytes; nested variables grow exponentially
 
 bool is_name_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -46,7 +46,7 @@ private:
         while (true) {
             const std::size_t dollar = std::min(value.find('$'), value.size());
             result += value.substr(0, dollar);
-            if (result.size() > longest_value)
+            if (result.size() > max_value_length)
                 element.fail("the variables make a value of more than a million characters", attribute);
             if (dollar == value.size())
                 return result;
@@ -113,11 +113,11 @@ private:
         const XmlElement element(document, node);
         const std::filesystem::path file = files_.find(element, "filename");
         fail_if_circular(element, file, document);
-        if (chain_.size() >= deepest_include)
-            element.fail("files include each other more than " + std::to_string(deepest_include) + " deep",
+        if (chain_.size() >= max_include_depth)
+            element.fail("files include each other more than " + std::to_string(max_include_depth) + " deep",
                          "filename");
-        if (++includes_ > most_includes)
-            element.fail("there are more than " + std::to_string(most_includes) + " included files", "filename");
+        if (++includes_ > max_includes)
+            element.fail("there are more than " + std::to_string(max_includes) + " included files", "filename");
         XmlDocument& included = document.include(
             node, std::make_unique<XmlDocument>(read_text(file), file.string(), file.parent_path()));
         note_version(document, included);

@@ -21,8 +21,8 @@ namespace tessera {
 namespace {
 
 constexpr int default_resolution = 512;
-constexpr int highest_resolution = 8192;
-constexpr float smallest_disk = 1e-4f; // radians; floats are too coarse for smaller disks; not tuned
+constexpr int max_resolution = 8192;
+constexpr float min_disk_radius = 1e-4f; // radians; floats are too coarse for smaller disks; not tuned
 
 PlaceAndTime place_and_time(Properties& p) {
     PlaceAndTime when;
@@ -89,9 +89,8 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
     settings.extend = p.boolean("extend", false);
     settings.scale = Rgb(hosek_level * scale);
     const int resolution = p.integer("resolution", default_resolution);
-    if (resolution < 4 || resolution > highest_resolution)
-        p.take("resolution")
-            ->fail("'resolution' must be from 4 to " + std::to_string(highest_resolution), "value");
+    if (resolution < 4 || resolution > max_resolution)
+        p.take("resolution")->fail("'resolution' must be from 4 to " + std::to_string(max_resolution), "value");
     p.note("the Preetham sky, scaled by " + std::to_string(hosek_level).substr(0, 3) +
            ", replaces the Hosek-Wilkie sky, which is not implemented");
     if (p.has("albedo"))
@@ -127,7 +126,7 @@ void add_sun(LoadContext& context, Properties& p, const Daylight& day, float sca
     }
     const Rgb radiance = scale * sun_radiance(day.turbidity, day.elevation());
     const glm::vec3 direction = disk_direction(day);
-    if (radius < smallest_disk)
+    if (radius < min_disk_radius)
         context.scene.directional_lights.push_back({direction, sun_irradiance(radiance)});
     else if (context.scene.environment.sun)
         p.note("the scene has another sun already; this one gives no light");

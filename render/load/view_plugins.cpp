@@ -20,7 +20,7 @@ namespace tessera {
 namespace {
 
 constexpr int unlimited_depth = 65;
-constexpr int largest_film = 16384; // pixels a side
+constexpr int max_film_side = 16384; // pixels a side
 
 FovAxis fov_axis_parameter(Properties& p) {
     const std::string name = p.text("fov_axis", "x");
@@ -65,9 +65,9 @@ void read_placement(Properties& p, Camera& camera) {
 
 int film_side(Properties& p, std::string_view name, int fallback) {
     const int side = p.integer(name, fallback);
-    if (side < 1 || side > largest_film)
+    if (side < 1 || side > max_film_side)
         p.take(name)->fail(
-            "the film's " + std::string(name) + " must be from 1 to " + std::to_string(largest_film), "value");
+            "the film's " + std::string(name) + " must be from 1 to " + std::to_string(max_film_side), "value");
     return side;
 }
 

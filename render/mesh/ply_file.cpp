@@ -19,7 +19,7 @@ namespace tessera {
 namespace {
 
 /// Returns the smallest number of bytes that a row of the element can take.
-std::size_t smallest_row(const PlyElement& element, bool is_text) {
+std::size_t min_row_bytes(const PlyElement& element, bool is_text) {
     if (is_text)
         return 2 * element.properties.size(); // each takes a digit, and a space or line end
     std::size_t size = 0;
@@ -31,7 +31,7 @@ std::size_t smallest_row(const PlyElement& element, bool is_text) {
 /// Throws std::runtime_error if the rest of the file cannot hold the declared rows. Call it before allocating.
 void check_count(const PlyElement& element, const PlyValues& values) {
     const std::uint64_t available = values.left() + 1; // the last text line may lack its line end
-    if (element.count > available / smallest_row(element, values.is_text()))
+    if (element.count > available / min_row_bytes(element, values.is_text()))
         throw std::runtime_error("the header declares " + std::to_string(element.count) + " rows of '" +
                                  element.name + "', but the file ends too early for them");
     if (element.count >= std::numeric_limits<std::uint32_t>::max())
@@ -52,7 +52,7 @@ void skip(PlyValues& values, const PlyProperty& property) {
 }
 
 /// Returns the value of full intensity: 1 for floats, the largest value for integers.
-float largest_color(PlyType type) {
+float full_intensity(PlyType type) {
     if (type == PlyType::float32 || type == PlyType::float64)
         return 1;
     const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
@@ -159,7 +159,7 @@ private:
     }
 
     float decoded(float color, PlyType type) const {
-        const float largest = largest_color(type);
+        const float largest = full_intensity(type);
         const bool is_srgb = largest == 1 ? colors_.srgb_floats : colors_.srgb_bytes;
         return is_srgb ? srgb_to_linear(color / largest) : color / largest;
     }

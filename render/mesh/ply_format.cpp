@@ -144,7 +144,7 @@ private:
     PlyHeader header_;
 };
 
-constexpr std::size_t longest_word = 4096; // bytes; a longer one is no number
+constexpr std::size_t max_word_length = 4096; // bytes; a longer one is no number
 
 } // namespace
 
@@ -196,7 +196,7 @@ void PlyValues::skip_white_space() {
 
 double PlyValues::next_word() {
     skip_white_space();
-    bytes_.fill(longest_word);
+    bytes_.fill(max_word_length);
     const std::string_view word = bytes_.bytes().substr(0, bytes_.bytes().find_first_of(white_space));
     double value = 0;
     const char* const end = word.data() + word.size();

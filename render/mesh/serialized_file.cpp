@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "serialized files are little endian");
 
 constexpr std::uint16_t file_signature = 0x041C;
-constexpr std::uint64_t most_inflated = 1032; // bytes per compressed byte [RFC 1951: 258 bytes in 2 bits]
+constexpr std::uint64_t max_inflation = 1032; // bytes per compressed byte [RFC 1951: 258 bytes in 2 bits]
 
 enum Flag : std::uint32_t {
     has_normals = 0x0001,
@@ -143,7 +143,7 @@ void read_triangles(ZlibReader& zlib, Mesh& mesh, std::uint64_t count) {
 /// allocating.
 void check_counts(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t vertex_bytes,
                   std::uint64_t size) {
-    const std::uint64_t largest = size * most_inflated;
+    const std::uint64_t largest = size * max_inflation;
     if (vertices > largest / vertex_bytes || triangles > largest / sizeof(glm::uvec3))
         throw std::runtime_error("the file declares " + std::to_string(vertices) + " vertices and " +
                                  std::to_string(triangles) + " triangles, but is too short for them");
