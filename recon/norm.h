@@ -59,7 +59,7 @@ std::string_view to_string(Convergence convergence);
 /// Bias of a reconstruction, with default settings otherwise.
 struct Guarantee {
     Convergence convergence;
-    std::string_view reason; ///< one sentence: why, and what the bias is at few samples
+    std::string_view reason; ///< one sentence: the reason, and the bias at few samples
 };
 
 /// Returns the guarantee of a reconstruction. Help, tooltips and the table in METHODS.md have their words from

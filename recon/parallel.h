@@ -22,22 +22,23 @@ inline void serial_for(int count, const std::function<void(int)>& body) {
 class SolveWatch {
 public:
     SolveWatch() = default;
-    /// @param share  receives the fraction of steps done, in [0, 1], and must outlive the watch; null: no progress
-    SolveWatch(std::stop_token stop, std::atomic<float>* share = nullptr)
-        : stop_(std::move(stop)), share_(share) {}
+    /// @param progress  receives the fraction of steps done, in [0, 1], and must outlive the watch; null: no
+    /// progress
+    SolveWatch(std::stop_token stop, std::atomic<float>* progress = nullptr)
+        : stop_(std::move(stop)), progress_(progress) {}
 
     bool is_stopped() const { return stop_.stop_requested(); }
 
     /// Records that `done` of `of` steps are done. Returns false if the solver must stop.
     bool goes_on(int done, int of) const {
-        if (share_)
-            *share_ = static_cast<float>(done) / static_cast<float>(of);
+        if (progress_)
+            *progress_ = static_cast<float>(done) / static_cast<float>(of);
         return !is_stopped();
     }
 
 private:
     std::stop_token stop_;
-    std::atomic<float>* share_ = nullptr;
+    std::atomic<float>* progress_ = nullptr;
 };
 
 } // namespace tessera

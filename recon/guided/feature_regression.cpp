@@ -13,8 +13,7 @@ namespace {
 
 constexpr int radius = 2, edge = 2 * radius + 1;
 constexpr int most_terms = feature_count + 1; // a slope for each feature, and the constant last
-constexpr float rounding =
-    1e-5f; // ridge relative to a feature's own sum of squares, above the resolution of floats
+constexpr float rounding = 1e-5f;             // ridge relative to a feature's sum of squares, for precision
 
 /// Window of a row, from `radius` pixels left of lane 0 on; 0 outside the picture.
 class RowWindow {

@@ -16,7 +16,8 @@ namespace tessera {
 
 class PictureSolvers;
 
-// Tessera's denoiser: `guided` for methods with gradients, `smoothed` for the primal alone. Its stages, in order:
+// Tessera's denoiser, METHODS (41) to (60): `guided` for methods with gradients, `smoothed` for the primal alone.
+// Its stages:
 //   1 fireflies       clamps the brightest sample of each pixel                      (fireflies.h)
 //   2 edge weights    weights gradients by their variances; guided only              (edge_weights.h)
 //   3 solve           weighted screened Poisson, of the picture and of its noise; guided only (poisson_weighted.h)

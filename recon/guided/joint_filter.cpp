@@ -105,8 +105,7 @@ private:
         });
         take_wide_means(noise, parameters_.noise_radius + step, shrinkage_.rows, parallel_for_);
         for_pixels(width_, height_, parallel_for_, [&](std::size_t i) {
-            constexpr float gaussian_variance =
-                std::numbers::pi_v<float> / 2; // of a Gaussian, relative to its squared mean absolute value
+            constexpr float gaussian_variance = std::numbers::pi_v<float> / 2; // over squared mean of |noise|
             noise.data()[i] *= gaussian_variance * noise.data()[i];
         });
         make_planes(fit_.weights[level], width_, height_);

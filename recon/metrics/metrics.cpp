@@ -77,8 +77,8 @@ std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
     return pieces;
 }
 
-/// Errors of near pixels correlate, those of pieces hardly. The variance is that of a mean over pieces of unequal
-/// size [Cochran 1977, 6.4].
+/// Treats pieces as independent, since errors of near pixels correlate. The variance is that of a mean over pieces
+/// of unequal size [Cochran 1977, 6.4].
 FloorFreeError mean_of_pieces(const Image<double>& errors) {
     constexpr int piece_edge = 16, few_pixels = 16 * piece_edge * piece_edge;
     const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : piece_edge);

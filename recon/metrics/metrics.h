@@ -25,8 +25,7 @@ struct ErrorMetrics {
     double mse = 0;                  ///< mean of (I - r)^2
     double mape = 0;                 ///< mean of |I - r| / (|r| + mape_epsilon); 1 is 100 %
     double mean_ratio = 0;           ///< mean of I over mean of r
-    std::size_t bad_pixels =
-        0; ///< pixels of I that are not finite; if there are any, the other errors are not finite
+    std::size_t bad_pixels = 0;      ///< pixels of I that are not finite; if > 0, other errors are not finite
 };
 
 /// Returns all errors. Throws std::invalid_argument if the sizes differ or the images are empty.

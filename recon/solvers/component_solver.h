@@ -21,9 +21,8 @@ namespace tessera {
 ///   l2        w = 1, v = 0: linear in the data, up to the truncation error of conjugate gradients
 ///   mixed     lengths in place of the first row's squares, by reweighting [Fang 2024, 4]; v = 0
 ///   l1        the same as mixed, since [Fang 2024] squares the primal in L1
-///   weighted  w and v from variances (weights_of_gradients): components count where they are smoother, the
-///   gradients of the
-///             whole where those are. This replaces mixing finished pictures [Fang 2024, 3.3].
+///   weighted  w and v from variances (weights_of_gradients): components count where they are smoother, and
+///             gradients of the whole elsewhere. This replaces mixing finished pictures [Fang 2024, 3.3].
 ///
 /// The method is conjugate gradients over all components, preconditioned by the direct solver for each [Concus and
 /// Golub 1973]. It starts from each component's own solution.

@@ -84,6 +84,7 @@ Image<float> relative(const Image<float>& variances, const Brightness& brightnes
     return result;
 }
 
+/// Returns w of METHODS (38), for a primal of weight alpha^2.
 float weight(float alpha, float k, float gradient_variance, float one_primal_variance,
              float other_primal_variance) {
     const float primal = alpha * alpha * std::min(one_primal_variance, other_primal_variance),

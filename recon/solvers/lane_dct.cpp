@@ -210,7 +210,7 @@ ComplexLanes LaneDct::forward(ComplexLanes lines, ComplexLanes scratch) const {
 }
 
 ComplexLanes LaneDct::inverse(ComplexLanes spectra, ComplexLanes scratch) const {
-    // A[k] = conj(w) (X[k] - i X[size - k]), likewise B, and F = A + iB; A and B are those of real lines.
+    // A[k] = conj(w) (X[k] - i X[size - k]), B[k] in the same way, and F = A + iB; the lines of A and B are real.
     const float scale = 1 / static_cast<float>(size());
     store(spectra.re, scale * load(spectra.re));
     store(spectra.im, scale * load(spectra.im));

@@ -213,7 +213,7 @@ void Window::record_place(ViewerState& state) const {
     WindowPlace& place = state.layout.window;
     place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
     if (place.maximised)
-        return; // position and size stay those to restore
+        return; // position and size are kept for restoring the window
     glm::ivec2 corner(0), size(0);
     glfwGetWindowPos(window_, &corner.x, &corner.y);
     glfwGetWindowSize(window_, &size.x, &size.y);
