@@ -22,7 +22,7 @@ inline Rgb coefficient(Rgb radiance, Rgb albedo) {
     return is_black(radiance) ? Rgb(0) : radiance / albedo;
 }
 
-/// What one pass measures at one pixel.
+/// One pixel's sample of one pass.
 struct PixelSample {
     Rgb primal{0};      ///< radiance divided by `albedo`
     Rgb dx{0};          ///< difference of the primals to the pixel on the right
@@ -50,7 +50,7 @@ struct PixelSample {
     }
 };
 
-/// What a film stores besides primal and directly visible emission.
+/// Optional contents of a film, besides primal and directly visible emission.
 struct FilmBuffers {
     bool gradients = false;
     bool albedo = false;     ///< moments of the albedos by which radiance was divided, and of radiance
@@ -97,7 +97,7 @@ public:
     /// Adds one feature sample of a pixel in pass `pass`. Rejects and counts an invalid sample.
     void add_feature_sample(int x, int y, int pass, const FeatureSample& sample, Counters& counters);
 
-    /// Replaces the feature samples of the pixels of which `features` has more.
+    /// Replaces the feature samples of each pixel for which `features` has more.
     void take_features(const PixelFeatures& features) { features_.take_more_of(features); }
 
     /// Assigns the pass to one of the two halves. To be called after each pass.

@@ -47,7 +47,7 @@ public:
     /// Returns 1 for mixed pixels, whose features have a large variance over 3 x 3 pixels, and 0 for others.
     Image<std::uint8_t> mixed() const;
 
-    /// Replaces the samples of the pixels of which `other`, of another render of the same picture, has more. The
+    /// Replaces the samples of each pixel for which `other`, of another render of the same picture, has more. The
     /// points of both are the same.
     void take_more_of(const PixelFeatures& other);
 

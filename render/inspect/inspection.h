@@ -45,7 +45,7 @@ struct InspectedVertex : SeenVertex {
     float survival;                      ///< survival probability of the roulette on path length
     Rgb sampled;                         ///< direct light by emitter sampling, with its MIS weight
     Rgb hit;                             ///< direct light by BSDF sampling, with its MIS weight
-    std::optional<InspectedLight> light; ///< the light sample, if it brings light and is not at infinity
+    std::optional<InspectedLight> light; ///< the light sample, if it contributes and is not at infinity
     Footprint footprint{};     ///< of one of the samples so far; area 0: unknown, or another pixel's path
     float footprint_width = 0; ///< scalar footprint: side of a square, scene units
 };

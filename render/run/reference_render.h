@@ -35,8 +35,8 @@ struct PassShare {
 struct ReferenceRecipe {
     RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
     glm::ivec2 size{640, 360};
-    int spp = 512; ///< samples a pixel of both halves together; one more if it is odd
-    /// Of both halves. L2 is linear in the raw samples, and so unbiased.
+    int spp = 512; ///< samples per pixel of both halves together; odd numbers are rounded up
+    /// Reconstruction of both halves. L2 is linear in the raw samples, and so unbiased.
     ReconstructionSettings reconstruction{.norm = Norm::l2};
     double checkpoint_seconds = 60; ///< wall time between checkpoints
     PassShare share;                ///< the shard to render (reference_share.h)

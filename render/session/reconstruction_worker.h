@@ -32,7 +32,7 @@ private:
     void loop(std::stop_token stop);
 
     SessionState& shared_;
-    std::size_t turn_ = 0; // index of the pane that is asked first
+    std::size_t turn_ = 0; // index of the first pane that next_pane() considers
     std::jthread thread_;  // last member: ends first
 };
 

@@ -64,13 +64,13 @@ public:
 
 private:
     Reconstructor reconstructor_;
-    // Of the last snapshot.
+    // These describe the last snapshot.
     std::uint64_t generation_ = 0;
     int divisor_ = 0;
     ReconstructionSettings settings_;
 };
 
-/// A pane of a session. Guarded by SessionState::mutex, except `pass_share` and the parts of one thread.
+/// A pane of a session. Guarded by SessionState::mutex, except `pass_share`, `own` and `solver`.
 struct SessionPane {
     RenderRequest request;
     std::uint64_t generation = 0; // of the request; 0: none yet
