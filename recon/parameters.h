@@ -13,6 +13,7 @@ struct GuidedStages {
     bool redistribution = true; ///< clamped energy is redistributed; off: it is lost
     bool filter = true;         ///< cross-bilateral filter
     bool regression = true;     ///< regression on features
+    bool bounds = true;         ///< pixels are limited to what their own samples allow
 };
 
 /// Constants of the stages. METHODS.md, "Ablation", shows how the errors change when some of them are halved or
@@ -57,6 +58,11 @@ struct GuidedParameters {
     int noise_radius = 6;   ///< radius of the squares over which noise and differences are measured
     float square_width = 5; ///< noise variances by which the brightness of two squares may differ
     float ridge = 1e-5f;    ///< ridge of the regression, relative to the sum of weights of a square
+
+    // Upper bounds, METHODS (61) and (62).
+    float bound_reach = 2;        ///< standard errors by which a pixel may exceed its own samples
+    std::size_t bound_levels = 3; ///< kernel levels over which standard errors are averaged: wider than a tile
+    float bound_lit = 0.5f;       ///< fraction of the surrounding pixels that must have found light
 };
 
 } // namespace tessera

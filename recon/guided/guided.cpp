@@ -1,6 +1,7 @@
 #include "recon/guided/guided.h"
 
 #include "recon/guided/demodulation.h"
+#include "recon/guided/upper_bounds.h"
 #include "recon/local_brightness.h"
 #include "recon/pixel_loops.h"
 #include "recon/solvers/edge_weights.h"
@@ -38,6 +39,7 @@ GuidedPicture Guided::picture() {
         filter(picture);
     if (watch_.is_stopped() || picture.empty())
         return {};
+    limit(picture);
     finish(picture);
     const double clamped_energy = sum_of_sizes(clamped_.clamped, parallel_for_),
                  energy = clamped_energy > 0 ? sum_of_sizes(raw_.radiance(), parallel_for_) : 0;
@@ -124,6 +126,15 @@ void Guided::filter(RgbImage& picture) {
                                   : tessera::filter(std::move(noisy), raw_.features, *fit_.kernels, fit_.local,
                                                     parameters_, fit_.filter, parallel_for_, watch_)
                                         .image;
+}
+
+/// Stage 8.
+void Guided::limit(RgbImage& picture) const {
+    if (!parameters_.stages.bounds || !can_bound(images()))
+        return;
+    const RgbImage bounds = upper_bounds(images(), *fit_.kernels, parameters_, parallel_for_);
+    for_pixels(picture.width(), picture.height(), parallel_for_,
+               [&](std::size_t i) { picture.data()[i] = glm::min(picture.data()[i], bounds.data()[i]); });
 }
 
 /// Raises radiance below min(m(v), 0) to it, and blackens pixels that see no surface and in which no sample found

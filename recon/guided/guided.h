@@ -25,7 +25,9 @@ class PictureSolvers;
 //   5 redistribution  returns the energy clamped by stage 1                          (redistribution.h)
 //   6 filter          cross-bilateral filter at several scales                       (joint_filter.h)
 //   7 regression      fits radiance to features, against the noise of edges          (feature_regression.h)
-// Stages 6 and 7 need features and half differences, and are left out without these.
+//   8 bounds          limits pixels to what their own samples allow                  (upper_bounds.h)
+// Stages 6 and 7 need features and half differences, stage 8 needs variances of pixels that share their paths.
+// Without these they are left out.
 
 /// Data of the stages that hardly change from one picture to the next, such as kernels and weights. A picture of
 /// nearly the same samples takes half of the time or less with it (incremental reconstruction).
@@ -73,6 +75,7 @@ private:
     void redistribute(RgbImage& picture);
     RgbImage noise();
     void filter(RgbImage& picture);
+    void limit(RgbImage& picture) const;
     void finish(RgbImage& picture) const;
 
     const GradientImages& raw_;

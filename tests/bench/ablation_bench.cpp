@@ -45,6 +45,7 @@ Parameters parameters_of(GuidedParameters& p) {
             {"redistribution", &s.redistribution},
             {"filter", &s.filter},
             {"regression", &s.regression},
+            {"bounds", &s.bounds},
             {"firefly_fraction", &p.firefly_fraction},
             {"firefly_factor", &p.firefly_factor},
             {"firefly_own", &p.firefly_own},
@@ -65,7 +66,10 @@ Parameters parameters_of(GuidedParameters& p) {
             {"levels", &p.levels},
             {"noise_radius", &p.noise_radius},
             {"square_width", &p.square_width},
-            {"ridge", &p.ridge}};
+            {"ridge", &p.ridge},
+            {"bound_reach", &p.bound_reach},
+            {"bound_levels", &p.bound_levels},
+            {"bound_lit", &p.bound_lit}};
 }
 
 struct References {
