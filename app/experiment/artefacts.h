@@ -27,8 +27,8 @@ struct Artefacts {
     double halo_peak = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Returns how many of the worst pixels are kept: more than one in a thousand, so that the worst pixels of several
-/// runs together contain the 99.99th percentile of all.
+/// Returns how many of the worst pixels are kept: more than one in a thousand, so that the worst pixels of
+/// several runs together contain the 99.99th percentile of all.
 std::size_t worst_count(std::size_t pixels);
 
 /// Measures the artefacts of an image against two independent references. A pixel's squared error is
@@ -61,8 +61,8 @@ struct TileSpectrum {
     /// Ratio for the squared differences between neighbouring pixels, averaged over columns and over rows. It
     /// rises above 1 for noise that is correlated within tiles on a fixed grid, which is visible as a grid.
     double edges = 0;
-    /// Largest mean squared difference by position within the tile, over the mean at the other positions; infinite
-    /// if that is 0. Mean of both directions.
+    /// Largest mean squared difference by position within the tile, over the mean at the other positions;
+    /// infinite if that is 0. Mean of both directions.
     double edge_ratio = 0;
 };
 

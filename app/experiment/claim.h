@@ -61,9 +61,8 @@ public:
 
     /// Claims a file. Returns null if the file exists or another process holds a live claim on it. A claim counts
     /// as live until its heartbeat has not changed for its `silence`, by this process's own clock. Throws
-    /// std::runtime_error that names the file if no claim can be created.
-    /// Claims only save work; correctness does not depend on them. If two processes hold the same claim, both make
-    /// the same file.
+    /// std::runtime_error that names the file if no claim can be created. Claims only save work; correctness does
+    /// not depend on them. If two processes hold the same claim, both make the same file.
     std::unique_ptr<Claim> take(const std::filesystem::path& file);
 
     /// Returns the worker_name() of the file's owner; empty: no claim, or its first line is not written yet.

@@ -55,14 +55,14 @@ struct ExperimentOptions {
 nlohmann::json key_of_run(const ExperimentOptions& options, const std::string& scene, const Setup& setup,
                           std::uint64_t seed);
 
-/// Renders that are compared with each other, as jobs that any number of processes can share. The results of a job
-/// are in its own file, OUTPUT/jobs/NAME.jsonl. The same program with the same references never repeats a finished
-/// job.
+/// Renders that are compared with each other, as jobs that any number of processes can share. The results of a
+/// job are in its own file, OUTPUT/jobs/NAME.jsonl. The same program with the same references never repeats a
+/// finished job.
 class Experiment {
 public:
-    /// Setups of one scene and one seed. They take turns pass by pass, so that other load on the machine slows all
-    /// of them equally. With a time limit a job has all setups, since their errors depend on the speed. With a
-    /// sample count it has the setups of one point of the variations. Setups that differ only in reconstruction
+    /// Setups of one scene and one seed. They take turns pass by pass, so that other load on the machine slows
+    /// all of them equally. With a time limit a job has all setups, since their errors depend on the speed. With
+    /// a sample count it has the setups of one point of the variations. Setups that differ only in reconstruction
     /// share a render.
     struct Job {
         std::size_t scene;
@@ -83,12 +83,12 @@ public:
     /// Returns the file that the job makes; empty: a reference is missing, so its checksum is unknown.
     std::filesystem::path file_of(std::size_t job);
     bool is_done(std::size_t job);
-    /// Returns the files of other job lists that together contain all results of the job, which then makes no file
-    /// of its own; empty: the job makes its own file.
+    /// Returns the files of other job lists that together contain all results of the job, which then makes no
+    /// file of its own; empty: the job makes its own file.
     std::vector<std::filesystem::path> known_in(std::size_t job) const;
     /// Renders a job whose references exist, and makes its file. Calls `tell` with the finished fraction. Throws
-    /// as open_scene and check_available do, and BadInput for references of another scene. Returns false if Ctrl-C
-    /// interrupted it.
+    /// as open_scene and check_available do, and BadInput for references of another scene. Returns false if
+    /// Ctrl-C interrupted it.
     bool run(std::size_t job, Claim& claim, const std::function<void(double)>& tell);
     /// Renders a reference of the scene. Throws as run() does. Returns false if Ctrl-C interrupted it.
     bool render_reference(std::size_t scene, FolderReference& reference);

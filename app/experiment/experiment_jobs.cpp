@@ -62,7 +62,7 @@ bool ExperimentJobs::run(std::size_t item, Claim& claim) {
         start_ = std::chrono::steady_clock::now();
     }
     if (i.reference) {
-        progress_.reset(); // a reference has its own
+        progress_.reset(); // a reference shows its own progress
         is_done_[item] = i.experiment->render_reference(i.scene, *i.reference);
         return is_done_[item] != 0;
     }
@@ -176,22 +176,22 @@ std::string ExperimentJobs::mark() {
 
 namespace {
 
-/// The report, which is written by one process at a time. That it was written when all was done is a file, as that
-/// of a job.
+/// The report of a command. One process writes it at a time, under a claim. A file named by
+/// ExperimentJobs::mark() records that the final report is written.
 class Report {
 public:
     Report(ExperimentJobs& jobs, const ExperimentOptions& options, const std::function<void()>& write)
         : jobs_(jobs), options_(options), folder_(options.output / "jobs"), silence_(options.sharing.silence),
           claims_(silence_), write_(write) {}
 
-    /// Not all is done: the last one is still to be written, whatever was written before.
+    /// Removes the record of a final report, as jobs are unfinished.
     void forget() {
         if (const std::string mark = jobs_.mark(); !mark.empty())
             fs::remove(folder_ / mark);
     }
 
-    /// Says what is to be done; again when more is known, as files are named by what references there are. Where
-    /// that cannot be written, those who look at the folder see less, and the work goes on.
+    /// Writes the plan, until it has the names of all files: these depend on the references. A plan that cannot
+    /// be written only causes a warning, since only viewers of the folder need it.
     void write_plan() {
         if (is_plan_whole_)
             return;
@@ -206,26 +206,26 @@ public:
         }
     }
 
-    /// Writes one of what there is, unless another process is writing.
+    /// Writes a report of the finished jobs, unless another process is writing one.
     void write_if_free() {
         if (const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report"))
             write_();
     }
 
-    /// The same, if the last one was long enough ago.
+    /// Writes a report if enough time has passed since the last one.
     void write_now_and_then() {
         using Clock = std::chrono::steady_clock;
         const Clock::time_point begin = Clock::now();
         if (begin < next_)
             return;
-        write_plan(); // a reference may be there since
+        write_plan(); // references may have been finished since
         write_if_free();
         constexpr int pauses = 20;
         const Clock::time_point end = Clock::now();
         next_ = end + pauses * (end - begin);
     }
 
-    /// Writes the last one, unless another process has since all is done. `anew`: in any case.
+    /// Writes the final report, unless another process has written it. `anew`: in any case.
     void write_last(bool anew) {
         const fs::path written = folder_ / jobs_.mark();
         for (Patience patience(silence_); anew || !fs::exists(written);) {
@@ -249,13 +249,13 @@ private:
     fs::path folder_;
     double silence_;
     Claims claims_;
-    bool is_plan_whole_ = false; ///< it was written with the names of all files
-    bool has_warned_ = false;    ///< that it cannot be written
+    bool is_plan_whole_ = false; ///< the written plan has the names of all files
+    bool has_warned_ = false;    ///< that the plan cannot be written
     const std::function<void()>& write_;
     std::chrono::steady_clock::time_point next_{};
 };
 
-/// Does what is asked for of the jobs. False: Ctrl-C ended it.
+/// Performs the task on the jobs. Returns false if Ctrl-C interrupted it.
 bool work(ExperimentJobs& jobs, const Sharing& sharing, Report& report) {
     if (sharing.task == Sharing::Task::report)
         return true;
@@ -282,9 +282,9 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
     const bool was_done = jobs.left() == 0;
     if (!was_done)
         report.forget();
-    jobs.keep_marks_in(options.output / "jobs"); // from now on it says the truth
+    jobs.keep_marks_in(options.output / "jobs"); // from here on the mark is valid
     const bool has_ended = work(jobs, options.sharing, report);
-    report.write_plan(); // a reference may be there since
+    report.write_plan(); // references may have been finished since
     const std::size_t left = jobs.left();
     const bool is_of_one = options.sharing.task == Sharing::Task::one_job;
     if (left == 0)
@@ -293,7 +293,7 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
         report.write_if_free();
     if (has_ended && (left == 0 || is_of_one))
         return exit_ok;
-    fmt::print(stderr, "{}: not complete, {} of {} jobs are left; the same command goes on with them\n",
+    fmt::print(stderr, "{}: not complete, {} of {} jobs are left; run the same command again to continue\n",
                options.output.string(), left, jobs.job_count());
     return exit_failure;
 }

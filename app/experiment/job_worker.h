@@ -47,11 +47,11 @@ public:
 private:
     enum class State : std::uint8_t { open, taken, done };
 
-    void look();
+    void scan_folders();
     bool is_left() const { return done_ < states_.size(); }
     void set(std::size_t job, State state);
-    std::size_t anywhere();
-    std::size_t next(State state);
+    std::size_t random_position();
+    std::size_t next_in(State state);
     std::unique_ptr<Claim> attempt(std::size_t job);
     std::unique_ptr<Claim> find_open();
     std::unique_ptr<Claim> find_silent();
@@ -61,9 +61,9 @@ private:
     Claims claims_;
     std::vector<State> states_; ///< state of each job as last seen
     std::size_t open_ = 0, done_ = 0;
-    std::chrono::steady_clock::time_point next_look_{};
-    std::size_t place_ = 0; ///< index at which the search for the next job begins
-    std::minstd_rand chance_{std::random_device()()};
+    std::chrono::steady_clock::time_point next_scan_{};
+    std::size_t position_ = 0; ///< index at which the search for the next job begins
+    std::minstd_rand random_{std::random_device()()};
 };
 
 /// Waits for a growing interval, at most a tenth of the silence and at most a second. Returns false after Ctrl-C.

@@ -59,8 +59,9 @@ Measurement measurement_from_json(const nlohmann::json& json);
 /// A scene of an experiment with its references.
 class MeasuredScene {
 public:
-    /// Creates one reference for each size and depth of the setups, in `folder`. Missing references use the recipe
-    /// with that size and depth. Throws BadInput if the scene file does not exist, and as FolderReference does.
+    /// Creates one reference for each size and depth of the setups, in `folder`. Missing references use the
+    /// recipe with that size and depth. Throws BadInput if the scene file does not exist, and as FolderReference
+    /// does.
     MeasuredScene(SceneSource source, const std::vector<Setup>& setups, const std::filesystem::path& folder,
                   const ReferenceRecipe& recipe);
 

@@ -41,8 +41,8 @@ void write_plan(const std::filesystem::path& file, const JobPlan& plan);
 /// Returns the first line of the plan's file, which has its checksum; empty: the file is missing or no plan.
 std::string plan_mark(const std::filesystem::path& file);
 
-/// Reads a plan. Throws std::runtime_error that names the file for malformed JSON, with line and column, and for a
-/// plan of another version.
+/// Reads a plan. Throws std::runtime_error that names the file for malformed JSON, with line and column, and for
+/// a plan of another version.
 JobPlan read_plan(const std::filesystem::path& file);
 
 } // namespace tessera

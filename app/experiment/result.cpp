@@ -68,7 +68,7 @@ std::vector<Result> results_of(const std::vector<Record>& records, const std::ve
     }
     std::vector<Result> results;
     for (auto& [place, result] : by_place) {
-        std::ranges::sort(result.runs, {}, &Measurement::seed); // in whatever order the jobs were done
+        std::ranges::sort(result.runs, {}, &Measurement::seed); // jobs finish in any order
         results.push_back(std::move(result));
     }
     return results;
@@ -168,7 +168,7 @@ double error_deviation(const Result& r) {
 double error_uncertainty(const Result& r) {
     const double of_pieces = mean(r, [](const Measurement& run) { return run.floor_free.standard_error; });
     const double of_seeds = error_deviation(r) / std::sqrt(count(r));
-    return of_seeds > of_pieces ? of_seeds : of_pieces; // of_seeds may be no number
+    return of_seeds > of_pieces ? of_seeds : of_pieces; // false if of_seeds is NaN
 }
 bool is_certain(const Result& r) {
     return error_of(r) > error_uncertainty(r);

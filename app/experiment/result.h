@@ -71,8 +71,8 @@ struct NamedScene {
     std::filesystem::path file;
 };
 
-/// Groups records into results, ordered by scene, kind of machine, setup and increasing effort. Results of several
-/// kinds of machines are separate unless `takes_any_machine`.
+/// Groups records into results, ordered by scene, kind of machine, setup and increasing effort. Results of
+/// several kinds of machines are separate unless `takes_any_machine`.
 std::vector<Result> results_of(const std::vector<Record>& records, const std::vector<NamedScene>& scenes,
                                const std::vector<Setup>& setups, bool takes_any_machine);
 

@@ -15,8 +15,8 @@ namespace tessera {
 
 namespace {
 
-/// I_x(a, b) by its continued fraction, for x < (a + 1) / (a + b + 2) [Abramowitz and Stegun 1964, 26.5.8],
-/// evaluated from the front [Lentz 1976].
+/// Returns the continued fraction of I_x(a, b) for x < (a + 1) / (a + b + 2) [Abramowitz and Stegun 1964,
+/// 26.5.8], evaluated forwards [Lentz 1976].
 double beta_fraction(double x, double a, double b) {
     constexpr double tiny = 1e-300;
     double c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), fraction = d;
@@ -37,7 +37,7 @@ double beta_fraction(double x, double a, double b) {
     return fraction;
 }
 
-/// The regularised incomplete beta function.
+/// Returns the regularised incomplete beta function I_x(a, b).
 double incomplete_beta(double x, double a, double b) {
     if (x <= 0 || x >= 1)
         return x <= 0 ? 0 : 1;
@@ -47,7 +47,7 @@ double incomplete_beta(double x, double a, double b) {
                                      : 1 - front * beta_fraction(1 - x, b, a) / b;
 }
 
-/// Where a falling function passes the value, between 0 and `high`.
+/// Returns the argument in [0, high] at which a decreasing function has the value, by bisection.
 template <class Function>
 double inverse(Function function, double value, double high) {
     double low = 0;
@@ -101,8 +101,8 @@ double sigmas(double probability) {
     return inverse([](double z) { return std::erfc(z / std::sqrt(2.0)); }, probability, 37);
 }
 
-/// Drops the points that only some of the seeds have reached, whose first pass was over in time: their mean is of
-/// other seeds than that of the next.
+/// Removes the points that only some of the seeds have reached (the others' first pass took longer): their means
+/// are over other seeds than those of the later points.
 static void drop_partial(Curve& curve) {
     std::size_t most = 0;
     for (const Result& result : curve)
@@ -155,8 +155,8 @@ struct Place {
     double log_time, log_error;
 };
 
-/// The nearest curve that never rises: where one sample of a few seeds makes the error rise for a while, the
-/// places about it get their mean (pool adjacent violators [Ayer 1955]).
+/// Replaces the curve by its least-squares non-increasing fit: points where the error rises, which happens for
+/// few seeds, get their mean (pool adjacent violators [Ayer 1955]).
 void level(std::vector<Place>& places) {
     struct Pool {
         double sum;
@@ -178,7 +178,7 @@ void level(std::vector<Place>& places) {
             (place++)->log_error = pool.mean();
 }
 
-/// The certain results in the order of time, as on a log-log chart.
+/// Returns the significant results in order of time, in log-log coordinates.
 std::vector<Place> places_of(const Curve& curve) {
     std::vector<Place> places;
     for (const Result& result : curve)
@@ -194,7 +194,8 @@ double least_error(const std::vector<Place>& places) {
         ->log_error;
 }
 
-/// The time at which the error was last passed on its way down; empty: it was below from the first.
+/// Returns the log time at which the error last crosses the value while falling; empty: it is below from the
+/// start.
 std::optional<double> time_of(const std::vector<Place>& places, double log_error) {
     for (std::size_t i = places.size(); i-- > 1;) {
         const Place &before = places[i - 1], &after = places[i];
@@ -208,7 +209,7 @@ std::optional<double> time_of(const std::vector<Place>& places, double log_error
     return is_first ? std::optional(places.front().log_time) : std::nullopt;
 }
 
-/// The speed-up without its confidence.
+/// Returns the speed-up without its confidence interval.
 SpeedUp estimate(const Curve& slower, const Curve& faster) {
     const std::vector<Place> slow = places_of(slower), fast = places_of(faster);
     if (slow.empty() || fast.empty())

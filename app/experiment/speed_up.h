@@ -42,8 +42,8 @@ struct SceneCurves {
 /// its seeds have reached.
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results);
 
-/// Returns the exponent b of error ~ (CPU seconds)^b over the significant results (recon/metrics/metrics.h): about
-/// -1 for unbiased methods. NaN for fewer than two points.
+/// Returns the exponent b of error ~ (CPU seconds)^b over the significant results (recon/metrics/metrics.h):
+/// about -1 for unbiased methods. NaN for fewer than two points.
 double slope_of(const Curve& curve);
 
 /// Returns the result after the longest time.
@@ -69,9 +69,9 @@ struct SpeedUp {
     double error = 0;         ///< the relMSE at which the curves are compared
 };
 
-/// Compares two curves at the smallest error that both reach. Times are interpolated linearly in the log-log chart
-/// of the curves, after these are made monotone, and never extrapolated. The confidence interval is from the
-/// jackknife over seeds of the factor's logarithm [Efron and Stein 1981] and Student's t.
+/// Compares two curves at the smallest error that both reach. Times are interpolated linearly in the log-log
+/// chart of the curves, after these are made monotone, and never extrapolated. The confidence interval is from
+/// the jackknife over seeds of the factor's logarithm [Efron and Stein 1981] and Student's t.
 SpeedUp speed_up(const Curve& slower, const Curve& faster);
 
 /// Formats the factor: "12.3 (10.1 to 15.0)", "at least 40" or "out of range".

@@ -88,7 +88,8 @@ std::string known_failure(const std::filesystem::path& file);
 
 /// Returns the scene files of the suite in order of their names, from the first folder assets/stability found in
 /// the current folder, the program's folder, or a parent of either. If there is none, unpacks the embedded scenes
-/// to $XDG_CACHE_HOME/tessera/stability (default ~/.cache/tessera/stability). Throws std::exception if that fails.
+/// to $XDG_CACHE_HOME/tessera/stability (default ~/.cache/tessera/stability). Throws std::exception if that
+/// fails.
 std::vector<std::filesystem::path> built_in_stability_scenes();
 
 /// Writes the embedded scenes, and the files that they refer to, to a folder.

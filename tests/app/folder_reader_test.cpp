@@ -119,7 +119,7 @@ TEST_F(FollowedFolderTest, SaysWhatIsNoSuchFolder) {
         refusal(folder_reader(folder() / "foreign")),
         HasSubstr("foreign: no tessera bench, sweep or stability of this version has begun in that folder"));
     std::ofstream(folder() / "foreign/jobs/plan.json") << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
-    EXPECT_THAT(refusal(folder_reader(folder() / "foreign")), HasSubstr("plan.json: is no list of jobs"));
+    EXPECT_THAT(refusal(folder_reader(folder() / "foreign")), HasSubstr("plan.json: is not a list of jobs"));
 }
 
 TEST_F(FollowedFolderTest, SaysWhichFileIsDamaged) {
@@ -146,8 +146,8 @@ TEST_F(FollowedFolderTest, GoesOnWhereWhatWasDamagedIsMended) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->trouble.size(), 1u);
     std::ofstream(plan_path) << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
-    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs"));
-    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs")) << "and again";
+    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs"));
+    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs")) << "and again";
     std::ofstream(plan_path) << plan;
     std::ofstream(job) << found;
     seen = reader();
