@@ -125,9 +125,9 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
         "sample is that of a render with the same scene, -D, --camera, --size, method, settings and --seed. "
         "Defaults are those of `tessera render`: one pane, G-PR, the scene's size");
     command.add_option("--reference", options.reference, "EXR file to show errors against");
-    forbid_empty(command.add_option("--follow", options.jobs,
-                                    "output folder of a running bench, sweep or stability: shows its jobs and "
-                                    "curves"));
+    forbid_empty(
+        command.add_option("--follow", options.jobs,
+                           "output folder of a running bench, sweep or stability: shows its jobs and curves"));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
     command.add_flag("!--no-gallery", options.shows_gallery, "start without the gallery of scenes");
@@ -252,8 +252,7 @@ int run_command_line(int argc, char** argv) {
     }
     if (app.get_subcommands().empty())
         throw BadInput("no command was given: view, render, reconstruct, reference, merge, sweep, bench, "
-                       "stability, compare or info "
-                       "(tessera --help)");
+                       "stability, compare or info (tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("reconstruct"))

@@ -89,9 +89,9 @@ ImageComparison compare(const CompareOptions& options) {
     result.flip = mean_flip(image, references.first);
     if (options.tile > 0) {
         if (options.tile < 2 || std::min(image.width(), image.height()) < 4 * options.tile)
-            throw std::runtime_error(options.image.string() +
-                                     ": a tile spectrum needs tiles of at least 2 pixels, "
-                                     "and 4 tiles along each edge");
+            throw std::runtime_error(
+                options.image.string() +
+                ": a tile spectrum needs tiles of at least 2 pixels, and 4 tiles along each edge");
         result.tiles = measure_tile_spectrum(image, references.first, options.tile);
     }
     result.share_without_light = share_without_light(image);

@@ -31,10 +31,10 @@ using Buffers = std::vector<NamedImage>;
 
 ExrFile read_layers(const std::filesystem::path& path) {
     if (extension_of(path) != ".exr")
-        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers, as `tessera render "
-                                   "--buffers` writes it; or give three or four files: primal, dx, dy and the "
-                                   "directly visible emission",
-                                   path.string()));
+        throw BadInput(
+            fmt::format("{}: a single input must be an EXR file with layers, as `tessera render --buffers` writes "
+                        "it; or give three or four files: primal, dx, dy and the directly visible emission",
+                        path.string()));
     return read_exr(path);
 }
 

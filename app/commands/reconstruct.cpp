@@ -42,14 +42,13 @@ void add_reconstruct(CLI::App& app, ReconstructWords& words) {
     CLI::App& command =
         *app.add_subcommand("reconstruct", "reconstruct a picture from saved buffers of any program");
     command.footer(
-        "The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted "
-        "downward; other programs may define them differently. dx may be a column "
-        "narrower than the primal, and dy a row lower: the last column of dx and the last row of dy count as 0 in "
-        "any case.\n"
-        "One EXR file needs the layers primal_without_direct (radiance without directly visible "
-        "emission), dx and dy, or coefficient, coefficient_dx and coefficient_dy, and the layer direct if "
-        "there is such emission; without a layer direct, primal may replace primal_without_direct. Its "
-        "plain RGB is a reconstruction and is not used.");
+        "The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted downward; "
+        "other programs may define them differently. dx may be a column narrower than the primal, and dy a row "
+        "lower: the last column of dx and the last row of dy count as 0 in any case.\n"
+        "One EXR file needs the layers primal_without_direct (radiance without directly visible emission), dx and "
+        "dy, or coefficient, coefficient_dx and coefficient_dy, and the layer direct if there is such emission; "
+        "without a layer direct, primal may replace primal_without_direct. Its plain RGB is a reconstruction and "
+        "is not used.");
     ReconstructOptions& options = words.options;
     add_inputs(command, words);
     add_norms(command, words.norms, "or several: one layer each")->capture_default_str();
