@@ -58,7 +58,7 @@ struct Finding {
 };
 
 /// Returns "worse 1.17" for "worse than PT" and "1.1653"; only the verdict if there is no factor.
-std::string in_short(const std::string& verdict, const std::string& factor) {
+std::string short_verdict(const std::string& verdict, const std::string& factor) {
     const std::optional<double> number = parse_number(factor);
     return verdict.substr(0, verdict.find(' ')) + (number ? fmt::format(" {:.3g}", *number) : "");
 }
@@ -79,7 +79,7 @@ std::vector<Finding> findings_of(std::string_view table) {
         const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
         found.push_back({cell("scene"),
                          recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
-                         in_short(verdict, cell("factor")), verdict == "ok"});
+                         short_verdict(verdict, cell("factor")), verdict == "ok"});
     }
     return found;
 }

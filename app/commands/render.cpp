@@ -45,7 +45,7 @@ ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
 }
 
 /// Returns the finished fraction, by the limit that is nearer.
-double share_done(const RenderOptions& options, const ResolvedRender& wanted, const Render& render) {
+double fraction_done(const RenderOptions& options, const ResolvedRender& wanted, const Render& render) {
     double done = wanted.spp > 0 ? static_cast<double>(render.spp()) / wanted.spp : 0;
     if (options.time)
         done = std::max(done, (options.clock == ClockChoice::cpu ? render.cpu_seconds() : render.seconds()) /
@@ -59,7 +59,7 @@ void render_passes(const RenderOptions& options, const ResolvedRender& wanted, R
     double done = 0;
     do {
         render.pass(pool);
-        done = share_done(options, wanted, render);
+        done = fraction_done(options, wanted, render);
         const std::string target = wanted.spp > 0 ? fmt::format(" of {}", wanted.spp) : "";
         progress.update(done, render.seconds(), fmt::format("{}{} spp", render.spp(), target));
     } while (done < 1 && !interrupted());

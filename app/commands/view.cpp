@@ -55,21 +55,21 @@ private:
         if (!options_.log_actions)
             return;
         const double seconds = std::chrono::duration<double>(WallClock::now() - start_).count();
-        if (!window_seen_)
+        if (!window_logged_)
             print_line("time window " + std::to_string(seconds));
-        window_seen_ = true;
+        window_logged_ = true;
         const auto& panes = viewer_.state().panes;
         const auto pictures = std::count_if(panes.begin(), panes.end(),
                                             [](const PaneState& pane) { return pane.snapshot != nullptr; });
-        for (; pictures_seen_ < pictures; ++pictures_seen_)
+        for (; pictures_logged_ < pictures; ++pictures_logged_)
             print_line("time picture " + std::to_string(seconds));
     }
 
     void set_title() {
-        if (viewer_.state().scene_info.name == titled_)
+        if (viewer_.state().scene_info.name == title_scene_)
             return;
-        titled_ = viewer_.state().scene_info.name;
-        surface_.set_title(title(titled_));
+        title_scene_ = viewer_.state().scene_info.name;
+        surface_.set_title(title(title_scene_));
     }
 
     bool take_screenshot() {
@@ -99,9 +99,9 @@ private:
     Surface& surface_;
     Viewer& viewer_;
     WallClock::time_point start_;
-    bool window_seen_ = false;
-    std::ptrdiff_t pictures_seen_ = 0;
-    std::string titled_; // the scene in the window's title
+    bool window_logged_ = false;
+    std::ptrdiff_t pictures_logged_ = 0;
+    std::string title_scene_; // the scene in the window's title
     PictureSaver saver_;
     int exit_code_ = 0;
 };

@@ -120,7 +120,7 @@ bool Experiment::render_reference(std::size_t scene, FolderReference& reference)
     return reference.render(scenes_[scene].source(), open(scene), pool(options_.settings.threads));
 }
 
-bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& tell) {
+bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& report_progress) {
     check_norms();
     const Job& job = jobs_[index];
     std::string found;
@@ -139,7 +139,7 @@ bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(d
         double left = 0;
         for (const SharedRun& shared : runs)
             left += std::max(1 - shared.run->done(), 0.0);
-        tell(1 - left / count);
+        report_progress(1 - left / count);
     }
     for (std::size_t setup : job.setups) // the new file must be complete, also with results of other files
         if (const nlohmann::json known = recalled(job, setup); !known.is_null())

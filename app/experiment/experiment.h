@@ -86,10 +86,10 @@ public:
     /// Returns the files of other job lists that together contain all results of the job, which then makes no
     /// file of its own; empty: the job makes its own file.
     std::vector<std::filesystem::path> known_in(std::size_t job) const;
-    /// Renders a job whose references exist, and makes its file. Calls `tell` with the finished fraction. Throws
-    /// as open_scene and check_available do, and BadInput for references of another scene. Returns false if
-    /// Ctrl-C interrupted it.
-    bool run(std::size_t job, Claim& claim, const std::function<void(double)>& tell);
+    /// Renders a job whose references exist, and makes its file. Calls `report_progress` with the finished
+    /// fraction. Throws as open_scene and check_available do, and BadInput for references of another scene.
+    /// Returns false if Ctrl-C interrupted it.
+    bool run(std::size_t job, Claim& claim, const std::function<void(double)>& report_progress);
     /// Renders a reference of the scene. Throws as run() does. Returns false if Ctrl-C interrupted it.
     bool render_reference(std::size_t scene, FolderReference& reference);
 

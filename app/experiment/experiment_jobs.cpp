@@ -68,18 +68,18 @@ bool ExperimentJobs::run(std::size_t item, Claim& claim) {
     }
     if (!progress_)
         progress_.emplace("measuring");
-    is_done_[item] = i.experiment->run(i.job, claim, [&](double share) { tell(i, share); });
+    is_done_[item] = i.experiment->run(i.job, claim, [&](double fraction) { show_progress(i, fraction); });
     if (is_done_[item] && done + 1 == items_.size())
         progress_.reset();
     return is_done_[item] != 0;
 }
 
-void ExperimentJobs::tell(const Item& item, double share) {
+void ExperimentJobs::show_progress(const Item& item, double fraction) {
     const auto done = static_cast<double>(std::count(is_done_.begin(), is_done_.end(), 1));
     const auto first = static_cast<double>(*done_at_first_), all = static_cast<double>(items_.size());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
     const Experiment::Job& job = item.experiment->jobs()[item.job];
-    progress_->update((done - first + share) / (all - first), seconds.count(),
+    progress_->update((done - first + fraction) / (all - first), seconds.count(),
                       fmt::format("{}, {:g} of {:g} jobs done", item.experiment->text_of(job), done, all));
 }
 
@@ -131,7 +131,7 @@ std::string ExperimentJobs::list() {
 JobPlan ExperimentJobs::plan(const fs::path& folder) {
     JobPlan plan;
     std::map<const Experiment*, std::size_t> works;
-    const auto near = [from = fs::absolute(folder).lexically_normal()](const fs::path& file) {
+    const auto relative = [from = fs::absolute(folder).lexically_normal()](const fs::path& file) {
         return file.empty() ? fs::path() : fs::absolute(file).lexically_normal().lexically_proximate(from);
     };
     for (std::size_t item = 0; item < items_.size(); ++item) {
@@ -147,10 +147,10 @@ JobPlan ExperimentJobs::plan(const fs::path& folder) {
         job.work = work->second;
         job.what = i.reference ? "reference " + file.filename().string()
                                : i.experiment->text_of(i.experiment->jobs()[i.job]);
-        job.file = near(file);
+        job.file = relative(file);
         job.is_reference = i.reference != nullptr;
         if (!i.reference)
-            std::ranges::transform(i.experiment->known_in(i.job), std::back_inserter(job.known_in), near);
+            std::ranges::transform(i.experiment->known_in(i.job), std::back_inserter(job.known_in), relative);
     }
     return plan;
 }
@@ -225,17 +225,17 @@ public:
         next_ = end + pauses * (end - begin);
     }
 
-    /// Writes the final report, unless another process has written it. `anew`: in any case.
-    void write_last(bool anew) {
+    /// Writes the final report, unless another process has written it and `always` is not set.
+    void write_last(bool always) {
         const fs::path written = folder_ / jobs_.mark();
-        for (Patience patience(silence_); anew || !fs::exists(written);) {
+        for (Patience patience(silence_); always || !fs::exists(written);) {
             const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
             if (!claim) {
                 if (!patience.wait())
                     return;
                 continue;
             }
-            if (anew || !fs::exists(written)) {
+            if (always || !fs::exists(written)) {
                 write_();
                 write_text(written, worker_name() + "\n");
             }

@@ -56,7 +56,7 @@ private:
         std::size_t job;
     };
 
-    void tell(const Item& item, double share);
+    void show_progress(const Item& item, double fraction);
 
     std::vector<Item> items_;
     std::filesystem::path marks_;

@@ -101,7 +101,7 @@ Counters total(const Result& result) {
     return sum;
 }
 
-double share(std::uint64_t part, std::uint64_t all) {
+double fraction(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : none;
 }
 
@@ -128,9 +128,10 @@ const ResultColumn columns[] = {
     {"shift_success_share",
      [](const Result& r) {
          const Counters sum = total(r);
-         return share(sum.shifts[static_cast<std::size_t>(ShiftOutcome::ok)], sum.shift_attempts());
+         return fraction(sum.shifts[static_cast<std::size_t>(ShiftOutcome::ok)], sum.shift_attempts());
      }},
-    {"mean_path_vertices", [](const Result& r) { return share(total(r).path_vertices, total(r).camera_paths); }},
+    {"mean_path_vertices",
+     [](const Result& r) { return fraction(total(r).path_vertices, total(r).camera_paths); }},
     {"tile_error_spectrum",
      [](const Result& r) {
          return mean(r, [](const Measurement& m) { return m.tiles ? m.tiles->error : none; });
@@ -196,13 +197,13 @@ double efficiency_of(const Result& r) {
 }
 
 double reused_share(const Result& r) {
-    return share(total(r).reused_paths, total(r).set_paths());
+    return fraction(total(r).reused_paths, total(r).set_paths());
 }
 double skipped_share(const Result& r) {
-    return share(total(r).skipped_paths, total(r).set_paths());
+    return fraction(total(r).skipped_paths, total(r).set_paths());
 }
 double dark_share(const Result& r) {
-    return share(total(r).dark_paths, total(r).set_paths());
+    return fraction(total(r).dark_paths, total(r).set_paths());
 }
 
 } // namespace tessera

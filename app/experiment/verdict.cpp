@@ -84,9 +84,9 @@ Deviation energy_of(const Result& result, const ReferenceNoise& reference, doubl
     return energy;
 }
 
-void find_spikes(const Result& result, Findings& f) {
+void find_outliers(const Result& result, Findings& f) {
     Numbers worst;
-    double share = 0;
+    double squared_sum = 0;
     for (const Measurement& run : result.runs) {
         const Artefacts& a = *run.artefacts;
         worst.insert(worst.end(), a.worst.begin(), a.worst.end());
@@ -95,14 +95,14 @@ void find_spikes(const Result& result, Findings& f) {
             f.worst_pixel = a.worst_pixel;
         }
         for (double error : a.worst)
-            share += error;
+            squared_sum += error;
     }
     std::sort(worst.begin(), worst.end(), std::greater<>());
     const glm::ivec2 size = result.setup.settings.size;
     const double pixels = static_cast<double>(size.x) * size.y * static_cast<double>(result.runs.size());
     const auto rank = static_cast<std::size_t>(1e-4 * pixels);
     f.spike = std::sqrt(worst[std::min(rank, worst.size() - 1)]);
-    f.worst_share = f.error > 0 ? share / (f.error * pixels) : 0;
+    f.worst_share = f.error > 0 ? squared_sum / (f.error * pixels) : 0;
 }
 
 double cost_of_sample(const Result& result) {
@@ -134,12 +134,12 @@ void find_factor(const Result& result, const Result& pt, double reference_error,
             std::log(cost_of(without(e, i), without(t, i)) / cost_of(without(e_pt, i), without(t_pt, i))));
     const double of_seeds = jackknife_error(logs);
     const double of_reference = reference_error * (1 / mean_of(e) - 1 / mean_of(e_pt));
-    const double reach = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
-    if (!std::isfinite(reach))
+    const double half_width = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
+    if (!std::isfinite(half_width))
         return;
     f.factor = cost_of(e, t) / cost_of(e_pt, t_pt);
-    f.low = f.factor * std::exp(-reach);
-    f.high = f.factor * std::exp(reach);
+    f.low = f.factor * std::exp(-half_width);
+    f.high = f.factor * std::exp(half_width);
 }
 
 bool is_biased(const Findings& f, double level) {
@@ -206,7 +206,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);
     f.energy = energy_of(result, reference, tolerance.energy);
     f.squared_bias = squared_bias_of(result, reference, tolerance.pieces);
-    find_spikes(result, f);
+    find_outliers(result, f);
     f.tone_mapped = mean_of(tone_mapped);
     f.tenfold = mean_of(tenfold);
     f.halo_energy = halo_energies.empty() ? none : mean_of(halo_energies);
