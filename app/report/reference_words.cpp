@@ -60,10 +60,7 @@ std::string words_on_judged_method(const ExperimentOptions& options, const std::
     const double ratio = error_ratio(options, results, origin);
     std::string reason;
     if (ratio > 1)
-        reason =
-            fmt::format("; its reference is used because at equal time its error is {:.2g} times lower than path "
-                        "tracing's",
-                        ratio);
+        reason = fmt::format("; at equal time its error is {:.2g} times lower than path tracing's", ratio);
     else if (std::isfinite(ratio))
         reason = fmt::format("; at equal time its error is {:.2g} times path tracing's", 1 / ratio);
     return fmt::format(
