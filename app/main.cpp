@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Pictures come and go with every solve. What they leave is kept for the next: pages that the system has to clear
-/// anew cost a tenth of a reconstruction.
+/// Keeps freed memory of pictures for the next reconstruction. Getting zeroed pages from the system again costs
+/// about 10 % of its time.
 void keep_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 64 << 20);
@@ -22,7 +22,7 @@ void keep_memory() {
 
 } // namespace
 
-/// One message and an exit code for whatever goes wrong: nobody is left with a stack trace.
+/// Reports every error in one message, with an exit code.
 int main(int argc, char** argv) {
     keep_memory();
     try {

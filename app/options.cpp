@@ -22,7 +22,7 @@ namespace tessera {
 
 namespace {
 
-/// The words of the command line, before they are given a meaning.
+/// Command-line arguments before they are parsed.
 struct Words {
     std::string scene, camera, methods, norms, clock = "wall", sample;
     std::vector<std::string> definitions;
@@ -41,7 +41,7 @@ struct Words {
 void add_scene(CLI::App& command, Words& words, bool required) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
-    command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
+    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
 }
 
 void add_settings(CLI::App& command, Words& words) {
@@ -73,7 +73,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     add_settings(command, words);
     add_method(command, words.settings.method);
     add_setting(command, spp_setting(words.spp))->default_str(std::to_string(usual_spp));
-    limit_to_seconds(command.add_option("--time", words.time, "seconds of rendering, without loading"));
+    limit_to_seconds(command.add_option("--time", words.time, "render time in seconds, without loading"));
     add_clock(command, words.clock);
     add_norms(command, words.norms, "or several: one layer each (default guided with gradients)");
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
@@ -81,26 +81,28 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
     command.add_flag(
         "--buffers", options.layers.buffers,
-        "also write to the EXR file: gradients, variances and what else `tessera reconstruct` reads; the feature "
-        "buffers albedo, N, Z and roughness; with path reuse, maps of reused paths, shift outcomes, Russian "
-        "roulette and samples");
+        "also write everything that `tessera reconstruct` reads to the EXR file, such as gradients and variances; "
+        "the feature buffers albedo, N, Z and roughness; and, with path reuse, maps of reused paths, shift "
+        "outcomes, Russian roulette and samples");
     command.footer(
         "An EXR file has the reconstruction as plain RGB and the radiance as sampled, directly visible "
         "emission included, as the layer primal, unless the two are equal. The attribute "
-        "tessera:redistributed says which fraction of the radiance each reconstruction redistributed from "
+        "tessera:redistributed has the fraction of the radiance that each reconstruction redistributed from "
         "fireflies, if any.");
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
-    CLI::App& command = *app.add_subcommand("compare", "errors of an image against one or two references");
+    CLI::App& command =
+        *app.add_subcommand("compare", "measure the errors of an image against one or two references");
     command.add_option("image", options.image, "EXR file")->required();
     command.add_option("reference", options.reference, "EXR file")->required();
     command.add_option(
         "reference2", options.reference2,
-        "an independent second one, where the first has no halves of its own: errors without its noise");
+        "second, independent reference, if the first has no halves: errors exclude the noise of references");
     command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
-    limit(command.add_option("--tile", options.tile,
-                             "edge of tiles, pixels: says how much their grid shows in the error (1: not at all)"),
+    limit(command.add_option(
+              "--tile", options.tile,
+              "tile edge, pixels: measures how visible the tile grid is in the error (1: not visible)"),
           2, 64);
     command.add_flag("--json", options.json, "print JSON");
 }
@@ -110,7 +112,7 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     add_scene(command, words, false);
     add_settings(command, words);
     add_setting(command, spp_setting(words.spp))
-        ->description("samples a pixel after which to rest")
+        ->description("samples per pixel at which the panes stop")
         ->default_str("");
     CLI::Option* panes = command.add_option("--panes", words.panes, "renders side by side: 1, 2 or 4")
                              ->check(CLI::IsMember({1, 2, 4}))
@@ -119,23 +121,23 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
         ->excludes(panes);
     command.add_option(
         "--inspect", words.sample,
-        "X,Y,PASS: opens this sample in the path inspector, pixel and pass from 0, of the last pane. It is "
-        "that of a render with the same scene, -D, --camera, --size, method, settings and --seed, and only "
-        "of such a one; what is not given is as in `tessera render`: one pane, G-PR, the scene's size");
+        "X,Y,PASS: opens this sample in the path inspector, in the last pane; pixel and pass count from 0. The "
+        "sample is that of a render with the same scene, -D, --camera, --size, method, settings and --seed. "
+        "Defaults are those of `tessera render`: one pane, G-PR, the scene's size");
     command.add_option("--reference", options.reference, "EXR file to show errors against");
-    forbid_empty(command.add_option("--follow", options.jobs,
-                                    "folder in which bench, sweep or stability is at work: shows its jobs and "
-                                    "curves as they come"));
+    forbid_empty(
+        command.add_option("--follow", options.jobs,
+                           "output folder of a running bench, sweep or stability: shows its jobs and curves"));
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
-    command.add_flag("!--no-gallery", options.shows_gallery, "begins without the gallery of scenes");
-    command.add_option("--script", options.script, "file with steps to play, a line each");
+    command.add_flag("!--no-gallery", options.shows_gallery, "start without the gallery of scenes");
+    command.add_option("--script", options.script, "file with script steps, one per line");
     command.footer("Steps of a script:\n" + script_help());
     Setting window = size_setting(words.window);
     window.id = "window";
     add_setting(command, window)->description("WIDTHxHEIGHT of the window, pixels")->default_str("");
-    limit_to_seconds(
-        command.add_option("--seconds", words.seconds, "of rendering for each method, where there is no display"))
+    limit_to_seconds(command.add_option("--seconds", words.seconds,
+                                        "seconds of rendering for each method, if there is no display"))
         ->capture_default_str();
     command.add_flag("--log-actions", options.log_actions, "print every change of a setting");
 }
@@ -146,7 +148,7 @@ std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) 
     if (command.count("--method")) {
         const std::vector<Method> methods = parse_methods(words.methods);
         if (methods.size() > most_panes)
-            throw BadInput(fmt::format("-m {}: there are up to {} panes", words.methods, most_panes));
+            throw BadInput(fmt::format("-m {}: at most {} methods, one for each pane", words.methods, most_panes));
         panes.resize(methods.size());
         for (std::size_t i = 0; i < methods.size(); ++i)
             panes[i].render.method = methods[i];
@@ -160,7 +162,7 @@ std::vector<PaneSettings> panes_of(const CLI::App& command, const Words& words) 
     return panes;
 }
 
-/// A sample is one of a picture of a certain size, whatever the window's.
+/// Returns the render size. A sample to inspect belongs to a picture of fixed size, independent of the window.
 SizeChoice size_of(const Words& words) {
     const bool has_sample = !words.sample.empty();
     if (words.size == glm::ivec2(0))
@@ -176,7 +178,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     const int threads = words.threads;
     options.scene = origin_of(source, threads);
     options.open = [source, threads](const std::filesystem::path& file) {
-        // Camera and variables were given for one scene, however it is named.
+        // The camera and the variables apply to one scene, under any of its names.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
         return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
@@ -198,7 +200,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     if (result != view_needs_display)
         return result;
     if (options.sample)
-        throw BadInput(fmt::format("There is no display to open --inspect {} on", words.sample));
+        throw BadInput(fmt::format("There is no display for --inspect {}", words.sample));
     ContactSheetOptions sheet;
     sheet.scene = source;
     sheet.threads = threads;
@@ -206,8 +208,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
     sheet.size = words.size;
     if (!options.screenshot.empty())
         sheet.output = options.screenshot;
-    fmt::print(stderr, "There is no display: rendering the viewer's comparison to {} instead.\n",
-               sheet.output.string());
+    fmt::print(stderr, "There is no display: rendering a contact sheet to {} instead.\n", sheet.output.string());
     return run_contact_sheet(sheet);
 }
 
@@ -216,7 +217,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
 int run_command_line(int argc, char** argv) {
     CLI::App app("Tessera: explore light transport by path reuse", "tessera");
     app.set_version_flag("--version", TESSERA_VERSION);
-    // The last of a repeated option counts.
+    // A repeated option overrides the earlier ones.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Words render_words, view_words, info_words;
     RenderOptions render_options;
@@ -235,13 +236,14 @@ int run_command_line(int argc, char** argv) {
     add_stability(app, stability_words);
     add_reconstruct(app, reconstruct_words);
     add_compare(app, compare_options);
-    CLI::App& info = *app.add_subcommand("info", "what a scene holds, and what of it is not understood");
+    CLI::App& info =
+        *app.add_subcommand("info", "print the contents of a scene, and its parts that are not supported");
     add_scene(info, info_words, true);
     group_help(app);
     std::vector<const char*> words(argv, argv + argc);
     const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");
     const bool has_display = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-    if (is_alone || (argc == 1 && has_display)) // a scene, or a folder, or what there is, is to be looked at
+    if (is_alone || (argc == 1 && has_display)) // a scene, a folder, or nothing: open the viewer
         words.insert(words.begin() + 1, "view");
     try {
         app.parse(static_cast<int>(words.size()), words.data());
@@ -250,8 +252,7 @@ int run_command_line(int argc, char** argv) {
     }
     if (app.get_subcommands().empty())
         throw BadInput("no command was given: view, render, reconstruct, reference, merge, sweep, bench, "
-                       "stability, compare or info "
-                       "(tessera --help)");
+                       "stability, compare or info (tessera --help)");
     if (app.got_subcommand("render"))
         return render(*app.get_subcommand("render"), render_words, render_options);
     if (app.got_subcommand("reconstruct"))

@@ -5,9 +5,9 @@
 
 namespace tessera {
 
-/// A file within the program (cmake/embed.cmake).
+/// A file embedded into the program (cmake/embed.cmake).
 struct EmbeddedFile {
-    const char* name; ///< its path in the folder that was embedded
+    const char* name; ///< path within the embedded folder
     const unsigned char* bytes;
     std::size_t size;
 

@@ -17,7 +17,7 @@ namespace {
 
 struct HelpGroup {
     std::string name;
-    std::vector<std::string> options; ///< in their order in the help
+    std::vector<std::string> options; ///< in the order of the help
 };
 
 /// Returns the groups in the order of the help. The first group that lists an option has it.
@@ -34,9 +34,9 @@ const std::vector<HelpGroup>& help_groups() {
     return groups;
 }
 
-constexpr std::size_t many = 12; // commands with fewer options have no groups
+constexpr std::size_t min_grouped = 12; // a command with fewer options has no groups
 
-/// Lists the options of a group in its order.
+/// Lists the options of a group in the group's order.
 class OrderedHelp : public CLI::Formatter {
 public:
     std::string make_group(std::string name, bool is_positional,
@@ -56,7 +56,7 @@ public:
 /// Assigns the options of a command to their groups.
 void group_options(CLI::App& command) {
     const auto is_optional = [](const CLI::Option* option) { return option->nonpositional(); };
-    if (command.get_options(is_optional).size() < many)
+    if (command.get_options(is_optional).size() < min_grouped)
         return;
     for (CLI::Option* option : command.get_options(is_optional)) {
         const auto has = [&](const HelpGroup& group) {

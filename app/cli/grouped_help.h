@@ -6,7 +6,7 @@ class App;
 
 namespace tessera {
 
-/// Lets the help of each command with many options list them in groups, the essential ones first.
+/// Makes the help of each command with many options list them in groups, the essential ones first.
 void group_help(CLI::App& app);
 
 } // namespace tessera

@@ -26,7 +26,7 @@ namespace tessera {
 
 namespace {
 
-constexpr std::size_t most_named = 3; // places after the first
+constexpr std::size_t max_listed = 3; // positions listed after the first
 
 std::string place(const FilePosition& where, const FilePosition& first) {
     return where.file == first.file && where.line > 0 ? fmt::format("{}:{}", where.line, where.column)
@@ -39,7 +39,7 @@ std::string line_of(const std::vector<const LoadNote*>& same) {
     if (same.size() == 1)
         return line;
     std::vector<std::string> places;
-    for (std::size_t i = 1; i < std::min(same.size(), most_named + 1); ++i)
+    for (std::size_t i = 1; i < std::min(same.size(), max_listed + 1); ++i)
         places.push_back(place(same[i]->where, first));
     line += fmt::format(" (also at {}", fmt::join(places, ", "));
     const std::size_t unnamed = same.size() - 1 - places.size();
@@ -50,7 +50,7 @@ std::string line_of(const std::vector<const LoadNote*>& same) {
 
 constexpr int per_cent = 100; // steps of the BVH's progress
 
-/// What goes wrong knows no file: it gets the scene's name.
+/// Builds the scene, and adds its name to errors.
 std::shared_ptr<const Scene> build(SceneDescription description, const std::string& name) {
     try {
         return with_memory_for("its BVH and lights",
@@ -113,7 +113,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     const double cpu_at_start = process_cpu_seconds();
     std::optional<Camera> camera;
     if (!source.camera.empty())
-        camera = read_camera(source.camera); // first: it is read in no time, and may be broken
+        camera = read_camera(source.camera); // first: reading it is fast, and it may be invalid
     LoadedScene loaded = with_memory_for("the scene " + to_string(source), [&] {
         return source.file.empty()
                    ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for,
@@ -127,15 +127,15 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     opened.file_seconds = loaded.file_seconds;
     const double cpu_after_load = process_cpu_seconds();
     opened.load_cpu_seconds = cpu_after_load - cpu_at_start;
-    LoadProgress nobodys;
-    LoadProgress& told = progress ? *progress : nobodys;
-    told.begin(LoadProgress::Stage::bvh, per_cent);
+    LoadProgress unused;
+    LoadProgress& shown = progress ? *progress : unused;
+    shown.begin(LoadProgress::Stage::bvh, per_cent);
     std::atomic<int> done = 0;
-    const BuildMonitor monitor([&](double share) {
-        for (int known = done; known < static_cast<int>(share * per_cent);)
+    const BuildMonitor monitor([&](double fraction) {
+        for (int known = done; known < static_cast<int>(fraction * per_cent);)
             if (done.compare_exchange_weak(known, known + 1))
-                told.step();
-        return !told.given_up();
+                shown.step();
+        return !shown.given_up();
     });
     opened.scene = build(std::move(loaded.description), to_string(source));
     opened.bvh_seconds = opened.scene->bvh_seconds();
@@ -150,7 +150,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
 
 SceneLoader loader_of(const SceneSource& source, int threads) {
     return [source, threads](SceneNotes& notes, LoadProgress& progress) {
-        work_in_background(); // and so will the threads that it starts, which take its priority
+        work_in_background(); // its worker threads inherit the priority
         ThreadPool pool(threads);
         const OpenedScene opened = open_scene(source, pool, &progress);
         notes = group_notes(opened.notes);

@@ -49,7 +49,7 @@ SceneVariables parse_variables(const std::vector<std::string>& definitions) {
 
 namespace {
 
-/// Values with commas between them, of an enum with these choices.
+/// Parses comma-separated ids of the choices of an enum.
 template <class Enum>
 std::vector<Enum> parse_list(const std::string& option, const std::string& text,
                              std::span<const SettingChoice> choices) {
@@ -57,7 +57,7 @@ std::vector<Enum> parse_list(const std::string& option, const std::string& text,
     for (const std::string& name : CLI::detail::split(text, ',')) {
         const auto found = std::ranges::find(choices, name, &SettingChoice::id);
         if (found == choices.end())
-            throw BadInput(fmt::format("{} {}: must be of {}", option, name, ids_of(choices)));
+            throw BadInput(fmt::format("{} {}: must be one of {}", option, name, ids_of(choices)));
         values.push_back(static_cast<Enum>(found - choices.begin()));
     }
     return values;
@@ -82,7 +82,7 @@ SampleChoice parse_sample(const std::string& option, const std::string& text) {
     const char *at = text.data(), *const end = at + text.size();
     int numbers[3] = {};
     for (int i = 0; i < 3; ++i) {
-        const auto [rest, error] = std::from_chars(at, end, numbers[i]); // refuses what an int cannot hold
+        const auto [rest, error] = std::from_chars(at, end, numbers[i]); // fails on overflow
         const bool ends_well = i == 2 ? rest == end : rest != end && *rest == ',';
         if (error != std::errc() || numbers[i] < 0 || !ends_well)
             throw BadInput(fmt::format("{} {}: must be X,Y,PASS, such as 120,45,0", option, text));
@@ -114,14 +114,14 @@ CLI::Option* limit_to_seconds(CLI::Option* option) {
 
 namespace {
 
-/// --rr-delta for "rr_delta".
+/// Returns the option of a setting: "--rr-delta" for "rr_delta".
 std::string option_name(const Setting& setting) {
     std::string name = "--" + std::string(setting.id);
     std::ranges::replace(name, '_', '-');
     return name;
 }
 
-/// An option that takes one of the choices by its id, and is named `name`.
+/// Adds an option called `name` that takes the id of one of the setting's choices.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const Setting& setting) {
     std::vector<std::string> words;
     for (const SettingChoice& choice : std::get<Setting::OneOf>(setting.kind).choices)
@@ -132,20 +132,20 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, const Settin
         ->check(CLI::IsMember(words));
 }
 
-/// Adds the option that fits the kind of a setting.
+/// Adds the option for a setting of any kind.
 struct OptionAdder {
     CLI::App& command;
     const Setting& setting;
     std::string name = option_name(setting), help{setting.help};
 
-    /// Whole numbers, numbers and seconds have limits.
+    /// Integers, numbers and seconds, which have limits.
     CLI::Option* operator()(const auto& number) const {
         return limit(command.add_option(name, *number.value, help), number.least, number.most);
     }
     CLI::Option* operator()(const Setting::Natural& natural) const {
         return command.add_option(name, *natural.value, help)
             ->check(
-                [](const std::string& text) { // -1 would wrap, and so would 2^64
+                [](const std::string& text) { // CLI11 wraps -1 and 2^64
                     std::uint64_t value = 0;
                     const char* const end = text.data() + text.size();
                     const auto [rest, error] = std::from_chars(text.data(), end, value);
@@ -195,7 +195,7 @@ CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings) {
 }
 
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
-    return command.add_option("--clock", clock, "what --time counts: cpu or wall")
+    return command.add_option("--clock", clock, "the time that --time limits: cpu or wall")
         ->check(CLI::IsMember({"wall", "cpu"}))
         ->capture_default_str();
 }

@@ -18,59 +18,58 @@ namespace tessera {
 
 struct SampleChoice;
 
-// Values on the command line that stand for more than a word or a number. All throw BadInput that names the
-// option.
+// Parsers of option values with a structure. All throw BadInput that names the option.
 
-/// "WxH" in pixels, as given to `option`.
+/// Parses the value "WxH" of `option`, in pixels.
 glm::ivec2 parse_size(const std::string& option, const std::string& text);
-/// "name=value" each, as given to -D.
+/// Parses the values "name=value" of -D.
 SceneVariables parse_variables(const std::vector<std::string>& definitions);
-/// "l2,none", as given to --recon.
+/// Parses the value "l2,none" of --recon.
 std::vector<Norm> parse_norms(const std::string& text);
-/// Throws BadInput where this machine lacks the library that one of them needs: before something is rendered or
-/// reconstructed, not where it is only spoken of.
+/// Throws BadInput if this machine lacks a library that one of the norms needs. Call it before anything is
+/// rendered or reconstructed.
 void check_available(const std::vector<Norm>& norms);
-/// "gpr,pt", as given to -m.
+/// Parses the value "gpr,pt" of -m.
 std::vector<Method> parse_methods(const std::string& text);
 
-/// "X,Y,PASS", as given to `option`: a sample of whatever pane.
+/// Parses the value "X,Y,PASS" of `option`: a sample of any pane.
 SampleChoice parse_sample(const std::string& option, const std::string& text);
 
-/// Lets an option take only finite numbers from `least` to `most`: CLI11's own ranges let NaN pass. Returns the
+/// Restricts an option to finite numbers from `least` to `most`; CLI11's own ranges accept NaN. Returns the
 /// option.
 CLI::Option* limit(CLI::Option* option, double least, double most);
-/// Lets an option take no empty name: "$1" of a script that was given nothing is no wish for the built-in scene.
+/// Forbids an empty name: an unset "$1" in a script must not select the built-in scene.
 CLI::Option* forbid_empty(CLI::Option* option);
-/// Lets an option take only seconds above 0, at most most_seconds.
+/// Restricts an option to seconds from 0.001 to most_seconds.
 CLI::Option* limit_to_seconds(CLI::Option* option);
 
-// Options made from the table of settings. What they write to must outlive the command. Each returns the option,
-// for a command that describes it otherwise.
+// Options made from the table of settings. The variables that they write to must outlive the command. Each
+// function returns the option, so that a command can change its description.
 
-/// The setting's own option, with its help, limits and, where the value is one by itself, default.
+/// Adds the setting's option with its help, limits and default.
 CLI::Option* add_setting(CLI::App& command, const Setting& setting);
 
-/// -m of one method.
+/// Adds -m for one method.
 CLI::Option* add_method(CLI::App& command, Method& method);
-/// -m of several, whose text is for parse_methods. `rest` follows their names in the help.
+/// Adds -m for several methods, whose text parse_methods() reads. `rest` follows the names in the help.
 CLI::Option* add_methods(CLI::App& command, std::string& methods, const std::string& rest);
-/// --recon of one reconstruction.
+/// Adds --recon for one reconstruction.
 CLI::Option* add_norm(CLI::App& command, ReconstructionSettings& settings);
-/// --recon of several, whose text is for parse_norms. `rest` follows their names in the help.
+/// Adds --recon for several reconstructions, whose text parse_norms() reads. `rest` follows the names in the
+/// help.
 CLI::Option* add_norms(CLI::App& command, std::string& norms, const std::string& rest);
-/// --alpha.
+/// Adds --alpha.
 CLI::Option* add_alpha(CLI::App& command, ReconstructionSettings& settings);
-/// --clock, "cpu" or "wall": what --time counts.
+/// Adds --clock, "cpu" or "wall": the time that --time limits.
 CLI::Option* add_clock(CLI::App& command, std::string& clock);
 
-/// The options that lead from some settings to others, as words of a command line: " --tile 4 --no-adapt-tile".
-/// Without method and seed.
+/// Returns the options that change `from` into `to`, except for method and seed: " --tile 4 --no-adapt-tile".
 std::string option_words(RenderSettings from, RenderSettings to);
 
-/// The options of all render settings but the method, "--tile", in the order of the panel.
+/// Returns the option names of all render settings but the method, such as "--tile", in the order of the panel.
 std::vector<std::string> render_option_names();
 
-/// Where options of a picture are written to.
+/// Destinations of the options of a picture.
 struct PictureWords {
     glm::ivec2& size; ///< 0: not given
     RenderSettings& settings;

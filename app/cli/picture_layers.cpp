@@ -33,8 +33,7 @@ void add_numbers(ExrFile& file, std::string name, const Image<float>& numbers) {
         add_layer(file, std::move(name), grey(numbers), ExrChannels::single);
 }
 
-/// Returns the radiance as sampled, directly visible emission included. Takes it from `images`, or copies it where
-/// they are `kept`.
+/// Returns the radiance as sampled, directly visible emission included. Moves it out of `images` unless `kept`.
 RgbImage raw_primal(GradientImages& images, bool kept) {
     RgbImage& radiance = images.demodulation.empty() ? images.primal : images.demodulation.value;
     RgbImage sum = kept ? radiance : std::move(radiance);
@@ -43,7 +42,7 @@ RgbImage raw_primal(GradientImages& images, bool kept) {
     return sum;
 }
 
-/// Returns the depths of mean inverse distances.
+/// Converts mean inverse distances to depths.
 Image<float> depth_of(const Image<float>& nearness) {
     Image<float> depth(nearness.width(), nearness.height());
     std::transform(nearness.begin(), nearness.end(), depth.begin(),
@@ -119,7 +118,7 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_parts(file, std::move(images.parts));
 }
 
-/// Whether the images have the same pixels.
+/// Returns whether the images have the same pixels.
 bool are_equal(const RgbImage& a, const RgbImage& b) {
     return a.width() == b.width() && std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
@@ -151,7 +150,7 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
         most = std::max(most, images + done + Reconstructor().bytes_for(picture, applied(norm, gradients)));
         done += pixels * sizeof(Rgb);
     }
-    // The layer "primal", and "Z" beside the nearness it is made of.
+    // Memory of the layer "primal", and of "Z" beside the nearness from which it is computed.
     return std::max(most,
                     images + done + pixels * (sizeof(Rgb) + (wanted.buffers ? sizeof(Rgb) + sizeof(float) : 0)));
 }
@@ -163,7 +162,7 @@ ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& 
     ReconstructionSettings settings = wanted.settings;
     for (Norm norm : wanted.norms) {
         settings.norm = norm;
-        Reconstructor solver; // one a norm: only one solver's memory at a time
+        Reconstructor solver; // a new one for each norm, to free the memory of the last
         // Open Image Denoise has threads of its own.
         const auto cpu_seconds = [&] { return norm == Norm::oidn ? process_cpu_seconds() : pool.cpu_seconds(); };
         const double cpu = cpu_seconds();
@@ -235,7 +234,7 @@ std::filesystem::path free_temporary_name(const std::string& extension) {
             return path;
 }
 
-/// Writes the picture to the temporary folder. Returns words that say where; empty if that fails, too.
+/// Writes the picture to the temporary folder. Returns a text with its name; empty if that also fails.
 std::string keep_aside(const std::string& extension, const ExrFile& file) {
     try {
         const std::filesystem::path kept = free_temporary_name(extension);

@@ -35,19 +35,20 @@ inline constexpr const char* albedo_layer = "albedo";
 inline constexpr const char* normal_layer = "N"; ///< channels X, Y, Z
 inline constexpr const char* depth_layer = "Z";  ///< one channel
 inline constexpr const char* roughness_layer = "roughness";
-/// The layer with FeatureImages::nearness, of which "Z" is the inverse, up to rounding.
+/// The layer with FeatureImages::nearness; "Z" is its inverse, up to rounding.
 inline constexpr const char* nearness_layer = "nearness";
 
-/// The layer "Z" where the camera sees no surface, as Blender writes it; finite, so that programs can scale it.
+/// Value of the layer "Z" where the camera sees no surface, as in Blender. It is finite, so that programs can
+/// scale it.
 inline constexpr float no_depth = 1e10f;
 
-/// Returns the layer that holds of the coefficient what layer `name` holds of the radiance: "primal", "dx",
-/// "dx_variance".
+/// Returns the coefficient's counterpart of a layer of the radiance: "coefficient", "coefficient_dx" or
+/// "coefficient_dx_variance" for "primal", "dx" or "dx_variance".
 inline std::string coefficient_layer(const std::string& name) {
     return name.starts_with("primal") ? "coefficient" + name.substr(6) : "coefficient_" + name;
 }
 
-/// The layer with what the coefficient's part l has as `name`: "projection", "primal", "dx", "dx_variance".
+/// Returns the layer `name` of basis component l: "part0_projection", "part0_primal", "part0_dx".
 inline std::string part_layer(std::size_t l, const std::string& name) {
     return "part" + std::to_string(l) + "_" + name;
 }
@@ -77,8 +78,8 @@ std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, 
                                int threads);
 
 /// Makes the layers of a picture: the reconstructions, named after their norms but for the first, which is the
-/// plain RGB; the layer "primal", unless the plain RGB equals it; and the buffers, those that are not empty. Moves
-/// the buffers out of `images`. Appends the cost of each reconstruction to `stats`. Throws OutOfMemory if a
+/// plain RGB; the layer "primal", unless the plain RGB equals it; and the buffers, those that are not empty.
+/// Moves the buffers out of `images`. Appends the cost of each reconstruction to `stats`. Throws OutOfMemory if a
 /// reconstruction does not fit into memory; `images` are then unchanged. No other thread may use the pool.
 ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& wanted, ThreadPool& pool,
                            std::vector<ReconstructionStats>& stats);

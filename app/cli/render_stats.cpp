@@ -16,7 +16,7 @@ namespace tessera {
 
 namespace {
 
-/// The text as one word of a shell's command line.
+/// Quotes the text for a shell.
 std::string shell_word(const std::string& text) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=,:+@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
@@ -33,8 +33,8 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
     if (std::max(render.size().x, render.size().y) > most_render_pixels_an_edge)
         return "";
     const RenderSettings& settings = render.settings();
-    RenderSettings usual;
-    usual.max_depth = std::min(render.scene()->max_depth(), most_edges);
+    RenderSettings defaults;
+    defaults.max_depth = std::min(render.scene()->max_depth(), most_edges);
     std::string command = "tessera view";
     if (!source.file.empty())
         command += " " + shell_word(source.file.string());
@@ -42,10 +42,10 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
         command += " -D " + shell_word(name + "=" + value);
     if (!source.camera.empty())
         command += " --camera " + shell_word(source.camera.string());
-    if (settings.method != usual.method)
+    if (settings.method != defaults.method)
         command += fmt::format(" -m {}", short_name(settings.method));
-    command += fmt::format(" --size {}x{}", render.size().x, render.size().y) + option_words(usual, settings);
-    if (settings.seed != usual.seed)
+    command += fmt::format(" --size {}x{}", render.size().x, render.size().y) + option_words(defaults, settings);
+    if (settings.seed != defaults.seed)
         command += fmt::format(" --seed {}", settings.seed);
     return command + fmt::format(" --inspect {},{},{}", sample.x, sample.y, sample.pass);
 }
@@ -57,9 +57,9 @@ void warn_of_refused(const SceneSource& source, const Render& render) {
     const std::string command = inspect_command(source, render, first.front());
     fmt::print(stderr, "warning: {}\n{}\n", refused_text(render.counters(), render.settings().seed),
                command.empty()
-                   ? fmt::format("The viewer cannot open it: its pictures have up to {} pixels an edge.",
+                   ? fmt::format("The viewer cannot open it: it supports at most {} pixels along each edge.",
                                  most_render_pixels_an_edge)
-                   : "The same scene, size, settings and seed open it in the viewer:\n    " + command);
+                   : "This command opens it in the viewer:\n    " + command);
 }
 
 nlohmann::json refused_json(const SceneSource& source, const Render& render) {

@@ -14,18 +14,18 @@
 
 namespace tessera {
 
-// The first three functions report invalid samples (NaN, infinite), which a render leaves out; the others report
-// what a render did and cost.
+// The first three functions report invalid samples (NaN, infinite), which a render leaves out. The others report
+// results and costs of a render.
 
-/// The command that opens a sample of such a render in the viewer: what decides its bits and is not so by itself.
-/// Empty: the viewer has no pictures of that size.
+/// Returns the command that opens a sample of the render in the viewer: the options that determine its value and
+/// are not defaults. Empty: the viewer does not support pictures of that size.
 std::string inspect_command(const SceneSource& source, const Render& render, const RefusedSample& sample);
 
-/// Says on stderr how many there were, which was the first, and how to look at it. Nothing, if there were none.
+/// Prints to stderr the number of invalid samples, the first one, and how to open it; nothing if there are none.
 void warn_of_refused(const SceneSource& source, const Render& render);
 
-/// The first refused sample: pixel, pass and seed, and the command that opens it and the others, if one does.
-/// Empty: there was none.
+/// Returns an array of the first invalid samples: pixel, pass, seed and, if the viewer supports the size, the
+/// command that opens it.
 nlohmann::json refused_json(const SceneSource& source, const Render& render);
 
 /// Prints to stderr which fraction of the radiance each reconstruction redistributed from fireflies; nothing if
@@ -36,10 +36,10 @@ void print_redistributed(const std::filesystem::path& output,
 /// Returns an array with the cost and the redistributed fraction of each reconstruction.
 nlohmann::json reconstructions_json(const std::vector<ReconstructionStats>& reconstructions);
 
-/// What was counted: rays, paths, shifts.
+/// Returns the counts of rays, paths and shifts.
 nlohmann::json counters_json(const Counters& counters);
 
-/// The contents of --stats: times in seconds, memory in bytes.
+/// Returns the contents of the --stats file: times in seconds, memory in bytes.
 nlohmann::json stats_json(const nlohmann::json& settings, const OpenedScene& opened, const Render& render,
                           int threads, const std::vector<ReconstructionStats>& reconstructions, bool interrupted);
 

@@ -24,9 +24,9 @@ namespace tessera {
 
 namespace {
 
-std::atomic<bool> seen = false;
+std::atomic<bool> signal_seen = false;
 
-void reset() {
+void restore_handlers() {
     for (int signal : {SIGINT, SIGTERM})
         std::signal(signal, SIG_DFL);
 }
@@ -34,20 +34,20 @@ void reset() {
 } // namespace
 
 InterruptGuard::InterruptGuard() {
-    seen = false;
+    signal_seen = false;
     for (int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int) {
-            seen = true;
-            reset(); // of either kind, the second one ends the process
+            signal_seen = true;
+            restore_handlers(); // a second signal ends the process
         });
 }
 
 InterruptGuard::~InterruptGuard() {
-    reset();
+    restore_handlers();
 }
 
 bool interrupted() {
-    return seen;
+    return signal_seen;
 }
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}

@@ -9,19 +9,19 @@
 
 namespace tessera {
 
-// What the program and whoever started it tell each other: exit codes, bad input, interrupts and progress.
+// Exit codes, errors in user input, interrupts, progress on the terminal, and facts about the machine.
 
-/// What the process returns to the shell.
+/// Exit code of the process.
 enum ExitCode : int { exit_ok = 0, exit_failure = 1, exit_bad_input = 2 };
 
-/// Something that the user gave cannot be used: reported in one message, exit code 2.
+/// Unusable input from the user: reported in one message, exit code 2.
 class BadInput : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// While one lives, Ctrl-C (SIGINT) or SIGTERM ask for an end in good order; a second one, of either
-/// kind, ends the process.
+/// While one exists, the first SIGINT (Ctrl-C) or SIGTERM requests an orderly end. A second signal of either kind
+/// ends the process.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -30,10 +30,10 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-/// Whether the latest guard has seen either.
+/// Returns whether a signal has arrived since the latest guard was created.
 bool interrupted();
 
-/// Tells on standard error how far a long job is: a bar with the time left on a terminal, else a plain line at
+/// Shows the progress of a long job on stderr: on a terminal a bar with the remaining time, otherwise a line at
 /// each tenth.
 class Progress {
 public:
@@ -42,8 +42,8 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// @param done    share of the work done, 0 to 1
-    /// @param seconds wall time it took
+    /// @param done    finished fraction, 0 to 1
+    /// @param seconds elapsed wall time
     /// @param detail  such as "12 of 64 spp"
     void update(double done, double seconds, const std::string& detail);
 
@@ -55,8 +55,8 @@ private:
     double drawn_at_ = -1;
 };
 
-/// Tells on standard error, where that is a terminal, how far a scene is loaded, once that has taken a moment.
-/// Leaves no trace when it ends.
+/// Shows the progress of loading a scene on stderr if that is a terminal, after 0.3 s. Erases its line at the
+/// end.
 class LoadBar {
 public:
     LoadBar();
@@ -64,36 +64,36 @@ public:
     LoadBar(const LoadBar&) = delete;
     LoadBar& operator=(const LoadBar&) = delete;
 
-    /// What the loader writes to.
+    /// Returns the object to which the loader reports.
     LoadProgress& progress() { return progress_; }
 
 private:
     void draw(std::stop_token stop) const;
 
     LoadProgress progress_;
-    std::jthread thread_; // not where there is no terminal
+    std::jthread thread_; // not started without a terminal
 };
 
-/// CPU time of the whole process, user and system, in seconds (getrusage).
+/// Returns the CPU time of the process, user and system, in seconds.
 double process_cpu_seconds();
 
-/// The largest resident memory so far, in bytes.
+/// Returns the peak resident memory of the process, in bytes.
 double peak_memory_bytes();
 
-/// What the system calls its processor, such as "Intel(R) Xeon(R) CPU @ 2.20GHz"; "unknown" where it does not say.
+/// Returns the system's name of the processor, such as "Intel(R) Xeon(R) CPU @ 2.20GHz"; "unknown" if it has
+/// none.
 std::string cpu_model();
 
-/// Machines of which CPU seconds can be compared: processor and hardware threads, "AMD EPYC (2 threads)".
+/// Returns the kind of machine, within which CPU seconds are comparable: "AMD EPYC (2 threads)".
 std::string machine_kind();
 
-/// The processor and what there is of it, "AMD EPYC, 2 hardware threads, 8 GB": memory in 10^9 bytes (left out
-/// where the system does not say).
+/// Describes the machine: "AMD EPYC, 2 hardware threads, 8 GB". Memory is in 10^9 bytes and omitted if unknown.
 std::string machine_text();
 
-/// The date in UTC, such as "2026-11-22".
+/// Returns the date in UTC, such as "2026-11-22".
 std::string today();
 
-/// The program's version and a checksum of its file, so that two builds are told apart: "0.1.0 5f3a0c11".
+/// Returns the version and a checksum of the program file, which distinguishes builds: "0.1.0 5f3a0c11".
 const std::string& program_identity();
 
 } // namespace tessera

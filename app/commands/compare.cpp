@@ -26,7 +26,7 @@ struct ImageComparison {
     std::optional<FloorFreeError> floor_free;
     std::optional<std::array<double, 4>> energy_change;
     std::optional<TileSpectrum> tiles;
-    double share_without_light = 0; ///< of the pixels, those whose luminance is 0 or less
+    double share_without_light = 0; ///< fraction of the pixels with a luminance of 0 or less
 };
 
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
@@ -39,7 +39,7 @@ RgbImage read_plain(const std::filesystem::path& path, const std::string& layer)
     return plain ? *plain : read_layer(path, layer);
 }
 
-/// What is compared with: one image, or two that are independent of each other.
+/// One reference, or two independent ones.
 struct References {
     RgbImage first;
     std::optional<RgbImage> second;
@@ -89,8 +89,9 @@ ImageComparison compare(const CompareOptions& options) {
     result.flip = mean_flip(image, references.first);
     if (options.tile > 0) {
         if (options.tile < 2 || std::min(image.width(), image.height()) < 4 * options.tile)
-            throw std::runtime_error(options.image.string() + ": a spectrum of tiles takes tiles of 2 pixels and "
-                                                              "more, and 4 of them along either edge");
+            throw std::runtime_error(
+                options.image.string() +
+                ": a tile spectrum needs tiles of at least 2 pixels, and 4 tiles along each edge");
         result.tiles = measure_tile_spectrum(image, references.first, options.tile);
     }
     result.share_without_light = share_without_light(image);
@@ -105,7 +106,7 @@ void print_text(const ImageComparison& c) {
     std::printf("MAPE                 %.6g\n", c.metrics.mape);
     std::printf("mean ratio           %.6f\n", c.metrics.mean_ratio);
     std::printf("PSNR                 %.2f dB   as shown on a screen (sRGB, exposure 0)\n", c.psnr);
-    std::printf("FLIP                 %.4f   likewise, in the mean\n", c.flip);
+    std::printf("FLIP                 %.4f   mean, as shown on a screen\n", c.flip);
     if (c.floor_free)
         std::printf("relMSE, floor-free   %.6g +- %.2g   mean of (I - r1)(I - r2) / (r^2 + %g)\n",
                     c.floor_free->relative_mse, c.floor_free->standard_error, relative_mse_epsilon);
@@ -117,12 +118,15 @@ void print_text(const ImageComparison& c) {
             100 * change[0], 100 * change[1], 100 * change[2], 100 * change[3]);
     }
     if (c.tiles) {
-        std::printf("tiles, in error      %.4g   power at multiples of their frequency, over that about them\n",
+        std::printf("tiles, in error      %.4g   power at multiples of the tile frequency, over that at "
+                    "neighbouring frequencies\n",
                     c.tiles->error);
-        std::printf("tiles, in edges      %.4g   the same of squared steps, as means over columns and rows\n",
+        std::printf("tiles, in edges      %.4g   the same ratio for squared differences of neighbours, averaged "
+                    "over rows and columns\n",
                     c.tiles->edges);
-        std::printf("tiles, edge ratio    %.4g   squared steps where tiles meet, over those elsewhere\n",
-                    c.tiles->edge_ratio);
+        std::printf(
+            "tiles, edge ratio    %.4g   largest squared difference by position in the tile, over the others\n",
+            c.tiles->edge_ratio);
     }
     std::printf("without light        %.3g %%   of the pixels: luminance 0 or less\n",
                 100 * c.share_without_light);
@@ -130,7 +134,7 @@ void print_text(const ImageComparison& c) {
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
 
-/// Prints all figures; one that is not finite becomes null.
+/// Prints all values; those that are not finite become null.
 void print_json(const CompareOptions& options, const ImageComparison& c) {
     nlohmann::ordered_json out;
     out["image"] = options.image.string();

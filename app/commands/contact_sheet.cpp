@@ -17,7 +17,7 @@ namespace tessera {
 
 namespace {
 
-/// A gradient as +/- about middle grey.
+/// Maps a gradient to colours around middle grey, 0.2.
 RgbImage around_grey(const RgbImage& gradient) {
     RgbImage image = gradient;
     for (Rgb& c : image)
@@ -63,7 +63,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
         {label(pt, "picture"), reconstruct(pt.images(), {}).image},
         {label(gpr, "reconstruction"), reconstruct(images, {}).image},
         {label(gpr, "primal"), images.radiance()},
-        {label(gpr, "dx about grey"), around_grey(images.dx)},
+        {label(gpr, "dx around grey"), around_grey(images.dx)},
     };
     write_png(options.output, picture_sheet(pictures, 2), 0);
     fmt::print("{}: path tracing and gradient-domain path reusing after equal wall time\n",

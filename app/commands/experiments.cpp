@@ -52,7 +52,7 @@ int run_sweep(const ExperimentOptions& options) {
 
 namespace {
 
-/// The options of the whole suite, made those of one of its scenes.
+/// Derives the options of one scene from those of the suite.
 ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptions& suite) {
     ExperimentOptions options = suite;
     options.scenes = {scene.source.file};
@@ -62,7 +62,8 @@ ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptio
     options.seeds = scene.needs.seeds.value_or(suite.seeds);
     if (scene.needs.spp) {
         options.effort = {static_cast<double>(*scene.needs.spp), Effort::Unit::spp};
-        options.recipe.spp = std::max(suite.recipe.spp, 2 * *scene.needs.spp); // each half as good as a picture
+        // Each half has at least as many samples as a picture.
+        options.recipe.spp = std::max(suite.recipe.spp, 2 * *scene.needs.spp);
     }
     options.measures_artefacts = true;
     options.keeps_images = true;
@@ -70,14 +71,14 @@ ExperimentOptions options_for(const StabilityScene& scene, const ExperimentOptio
     return options;
 }
 
-/// Throws BadInput for a reference that is not by PT: a bias that a method shares with its reference cannot show,
-/// and PT reuses no paths.
+/// Throws BadInput for a reference that is not by PT. PT reuses no paths; a bias that a method shares with its
+/// reference would not be visible.
 void check_references(const MeasuredScene& scene) {
     for (const FolderReference* reference : scene.references()) {
         if (!reference->is_complete())
             continue;
         if (origin_of(reference->image()).method != Method::pt)
-            throw BadInput(fmt::format("{} was not made by PT, which alone can judge the others",
+            throw BadInput(fmt::format("{} was not made by PT; the stability suite needs references by PT",
                                        reference->path().string()));
     }
 }

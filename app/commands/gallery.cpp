@@ -25,7 +25,7 @@ namespace tessera {
 
 namespace {
 
-/// The setup whose verdict stands below a picture, and those that its help has.
+/// The setup whose verdict is below a picture, and the setups in its tooltip.
 constexpr std::string_view judged_setup = "gpr-guided";
 constexpr std::string_view shown_setups[] = {"pr", "gpt-guided", "gpr-weighted", judged_setup};
 
@@ -37,7 +37,7 @@ RgbImage picture_of(const std::string& name) {
     return {};
 }
 
-/// The cells of a line of CSV, of which some are in quotes.
+/// Splits a line of CSV into cells and removes quotes.
 std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells(1);
     bool is_quoted = false;
@@ -51,19 +51,19 @@ std::vector<std::string> cells_of(std::string_view line) {
     return cells;
 }
 
-/// What the suite has found of a setup on a scene, or on one of the values that it is varied by.
+/// Verdict of the stability suite on a setup, for a scene or for one value of its variable.
 struct Finding {
-    std::string scene, setup, text; ///< "glossy-0.01", "gpr-weighted", "worse 1.17"
+    std::string scene, setup, text; ///< such as "glossy-0.01", "gpr-weighted", "worse 1.17"
     bool is_ok = false;
 };
 
-/// "worse than PT" and "1.1653" as "worse 1.17"; without a factor, the verdict alone.
-std::string in_short(const std::string& verdict, const std::string& factor) {
+/// Returns "worse 1.17" for "worse than PT" and "1.1653"; only the verdict if there is no factor.
+std::string short_verdict(const std::string& verdict, const std::string& factor) {
     const std::optional<double> number = parse_number(factor);
     return verdict.substr(0, verdict.find(' ')) + (number ? fmt::format(" {:.3g}", *number) : "");
 }
 
-/// All of them, of a table that the suite has written.
+/// Parses a table written by the suite (stability.csv).
 std::vector<Finding> findings_of(std::string_view table) {
     std::vector<Finding> found;
     std::istringstream in{std::string(table)};
@@ -79,12 +79,12 @@ std::vector<Finding> findings_of(std::string_view table) {
         const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
         found.push_back({cell("scene"),
                          recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
-                         in_short(verdict, cell("factor")), verdict == "ok"});
+                         short_verdict(verdict, cell("factor")), verdict == "ok"});
     }
     return found;
 }
 
-/// Adds what the suite has found of a scene, or of the values that it was varied by. `names`: of all scenes.
+/// Adds the verdicts of a scene and of the values of its variable. `names` holds the names of all scenes.
 void add_verdicts(GalleryEntry& entry, const std::vector<Finding>& findings, const std::set<std::string>& names) {
     std::string scene;
     for (const Finding& finding : findings) {
@@ -110,7 +110,7 @@ GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()
     const std::vector<Finding> findings = findings_of(results.empty() ? stability_results : results);
     GalleryContents found;
     found.entries.push_back({"cornell-box",
-                             "The scene within the program, which the viewer begins with.",
+                             "The built-in scene, with which the viewer starts.",
                              "",
                              false,
                              {},
@@ -119,7 +119,7 @@ GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()
     try {
         files = find_scenes();
     } catch (const std::exception& error) {
-        found.problem = std::string("the scenes on which methods fail are not there: ") + error.what();
+        found.problem = std::string("the scenes of the stability suite are not available: ") + error.what();
     }
     std::set<std::string> names;
     for (const std::filesystem::path& file : files)
@@ -127,7 +127,7 @@ GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()
     for (const std::filesystem::path& file : files) {
         const std::string name = file.stem().string();
         GalleryEntry entry{name, known_failure(file), "", false, file, picture_of(name)};
-        entry.help += "\nError at equal time over that of PT, as measured last:";
+        entry.help += "\nError at equal time, relative to PT (stability suite):";
         add_verdicts(entry, findings, names);
         found.entries.push_back(std::move(entry));
     }

@@ -20,21 +20,21 @@ namespace tessera {
 
 namespace {
 
-/// An image and what to call it in messages.
+/// An image with its name for messages.
 struct NamedImage {
     std::string name;
     RgbImage image;
 };
 
-/// The images in the order of the command line; the directly visible emission may be missing.
+/// The images in the order of the command line. The directly visible emission may be missing.
 using Buffers = std::vector<NamedImage>;
 
 ExrFile read_layers(const std::filesystem::path& path) {
     if (extension_of(path) != ".exr")
-        throw BadInput(fmt::format("{}: a single input must be an EXR file with layers, as `tessera render "
-                                   "--buffers` writes it; or give three or four files: primal, dx, dy and the "
-                                   "directly visible emission",
-                                   path.string()));
+        throw BadInput(
+            fmt::format("{}: a single input must be an EXR file with layers, as `tessera render --buffers` writes "
+                        "it; or give three or four files: primal, dx, dy and the directly visible emission",
+                        path.string()));
     return read_exr(path);
 }
 
@@ -46,7 +46,7 @@ std::map<std::string, std::string> own_attributes(const ExrFile& file) {
     return attributes;
 }
 
-/// The number that an attribute says, from 1 to `most`; 1 without it.
+/// Returns the number in an attribute, from 1 to `most`; 1 if the attribute is missing.
 template <class Number>
 Number number_of(const std::map<std::string, std::string>& attributes, const char* name, Number most,
                  const std::filesystem::path& path) {
@@ -66,7 +66,7 @@ NamedImage named_layer(const ExrFile& file, const std::string& name, const std::
     return {fmt::format("{}, layer {}", path.string(), name), require_layer(file, name, path)};
 }
 
-/// Whether the file's gradients are those of a coefficient.
+/// Returns whether the file's gradients are of the coefficient of demodulated radiance.
 bool is_demodulated(const ExrFile& file) {
     return find_layer(file, coefficient_layer("primal"));
 }
@@ -110,8 +110,8 @@ std::string text_of_size(const RgbImage& image) {
     return fmt::format("{}x{}", image.width(), image.height());
 }
 
-/// Brings `buffer` to the primal's size, where it may lack `columns` and `rows` at the end: these are made 0
-/// whether they are there or not, as they mean nothing.
+/// Extends `buffer` to the primal's size. It may lack `columns` and `rows` at the end; these become 0 in any
+/// case, as they have no meaning.
 void fit(NamedImage& buffer, const NamedImage& primal, int columns, int rows) {
     RgbImage& image = buffer.image;
     const int width = primal.image.width(), height = primal.image.height();
@@ -125,11 +125,11 @@ void fit(NamedImage& buffer, const NamedImage& primal, int columns, int rows) {
     image = std::move(fitted);
 }
 
-/// Returns how many pixels were not finite.
+/// Sets pixels that are not finite to 0 and returns their number. Throws BadInput instead unless `repair`.
 std::size_t make_finite(NamedImage& buffer, bool repair) {
     if (const std::string bad = text_of_bad_pixel(buffer.image); !bad.empty() && !repair)
         throw BadInput(
-            fmt::format("{}: {}, which is not finite; --repair takes such pixels as 0", buffer.name, bad));
+            fmt::format("{}: {}, which is not finite; --repair sets such pixels to 0", buffer.name, bad));
     std::size_t count = 0;
     for (Rgb& pixel : buffer.image)
         if (!is_finite(pixel)) {
@@ -139,10 +139,10 @@ std::size_t make_finite(NamedImage& buffer, bool repair) {
     return count;
 }
 
-/// A layer of variances, of which the last `columns` and `rows` mean nothing. A bad one is repaired with
-/// `careful`.
+/// Reads a layer of variances. The last `columns` and `rows` have no meaning. Replaces invalid values by
+/// `fallback`, or throws BadInput without one.
 Image<float> read_variance(const ExrFile& file, const std::string& name, const std::filesystem::path& path,
-                           const RgbImage& primal, int columns, int rows, std::optional<float> careful,
+                           const RgbImage& primal, int columns, int rows, std::optional<float> fallback,
                            std::size_t& repaired) {
     const NamedImage layer = named_layer(file, name, path);
     if (layer.image.width() != primal.width() || layer.image.height() != primal.height())
@@ -153,18 +153,18 @@ Image<float> read_variance(const ExrFile& file, const std::string& name, const s
         for (int x = 0; x < primal.width() - columns; ++x) {
             const float value = layer.image(x, y).r;
             const bool is_good = std::isfinite(value) && value >= 0;
-            if (!is_good && !careful)
+            if (!is_good && !fallback)
                 throw BadInput(
-                    fmt::format("{}: pixel ({}, {}) is {}, which is not a variance; with --repair gradients "
-                                "are trusted least there",
+                    fmt::format("{}: pixel ({}, {}) is {}, which is not a variance; --repair gives gradients "
+                                "there the least weight",
                                 layer.name, x, y, value));
-            variance(x, y) = is_good ? value : *careful;
+            variance(x, y) = is_good ? value : *fallback;
             repaired += !is_good;
         }
     return variance;
 }
 
-/// Reads what is of the primal's size, repairing bad values where that is wanted.
+/// Reads layers of the primal's size, and repairs invalid values if `repair` is set.
 struct LayerReader {
     const ExrFile& file;
     const std::filesystem::path& path;
@@ -172,7 +172,7 @@ struct LayerReader {
     bool repair;
     std::size_t& repaired;
 
-    /// The last `columns` and `rows` mean nothing.
+    /// Reads an image. The last `columns` and `rows` have no meaning.
     RgbImage image(const std::string& name, int columns = 0, int rows = 0) const {
         NamedImage layer = named_layer(file, name, path);
         fit(layer, primal, columns, rows);
@@ -186,10 +186,10 @@ struct LayerReader {
         std::transform(layer.begin(), layer.end(), result.begin(), [](Rgb value) { return value.r; });
         return result;
     }
-    /// Variances. A bad one is repaired with `careful`.
-    Image<float> variances(const std::string& name, float careful, int columns = 0, int rows = 0) const {
+    /// Reads variances. `fallback` replaces invalid ones.
+    Image<float> variances(const std::string& name, float fallback, int columns = 0, int rows = 0) const {
         return read_variance(file, name, path, primal.image, columns, rows,
-                             repair ? std::optional(careful) : std::nullopt, repaired);
+                             repair ? std::optional(fallback) : std::nullopt, repaired);
     }
 };
 
@@ -226,7 +226,7 @@ void read_features(const LayerReader& reader, GradientImages& images) {
                          reader.image("half_dy", 0, 1)};
     if (find_layer(reader.file, nearness_layer))
         images.features = {reader.image(albedo_layer), reader.image(normal_layer), reader.numbers(nearness_layer),
-                         reader.numbers(roughness_layer)};
+                           reader.numbers(roughness_layer)};
 }
 
 /// Reads the components of the coefficient that the file has. Their projections may be negative.

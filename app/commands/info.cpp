@@ -86,7 +86,7 @@ double mesh_bytes(const Scene& scene) {
     return bytes;
 }
 
-/// "2 area (of 14 triangles), 1 spot, environment map, sun"
+/// Describes the lights: "2 area (of 14 triangles), 1 spot, environment map of 512x256, sun".
 std::string lights_of(const Scene& scene) {
     const SceneDescription& d = scene.description();
     std::size_t triangles = 0;
@@ -135,7 +135,7 @@ void print_scene(const Scene& scene, const TextureSummary& textures) {
     fmt::print("max depth  {}\n", scene.max_depth());
 }
 
-/// A line a trait: what the renderer must reckon with, and what costs nothing here.
+/// Prints a line for each feature of the scene that affects rendering.
 void print_traits(const SceneTraits& traits) {
     const auto print = [](const char* name, int count, const char* of_what) {
         if (count > 0)
@@ -143,7 +143,7 @@ void print_traits(const SceneTraits& traits) {
         else
             fmt::print("  {:<16} none\n", name);
     };
-    fmt::print("traits (none: costs nothing)\n");
+    fmt::print("traits (none: not in this scene)\n");
     print("delta lobes", traits.delta_lobes, "material");
     print("glossy below 0.1", traits.glossy_lobes, "material");
     print("transmission", traits.transmission, "material");
@@ -163,8 +163,7 @@ void print_cost(const OpenedScene& opened, const TextureSummary& textures) {
     fmt::print("seconds    {:.3f} XML, {:.3f} meshes and textures, {:.3f} BVH\n", opened.parse_seconds,
                opened.file_seconds, opened.bvh_seconds);
     fmt::print(
-        "memory     {:.1f} MB meshes, {:.1f} MB textures, {:.1f} MB BVH and its triangles; at most {:.1f} MB in "
-        "all\n",
+        "memory     {:.1f} MB meshes, {:.1f} MB textures, {:.1f} MB BVH and its triangles; peak {:.1f} MB\n",
         mesh_bytes(scene) / 1e6, textures.bytes / 1e6, static_cast<double>(scene.intersector().bytes()) / 1e6,
         peak_memory_bytes() / 1e6);
 }

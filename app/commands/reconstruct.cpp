@@ -24,7 +24,8 @@ void add_inputs(CLI::App& command, ReconstructWords& words) {
                         "an EXR file as `tessera render --buffers` writes it; or primal, dx, dy and, if there is "
                         "any, directly visible emission: EXR or PFM files, in this order")
             ->take_all();
-    CLI::Option* primal = command.add_option("--primal", words.primal, "the inputs by name instead");
+    CLI::Option* primal = command.add_option("--primal", words.primal,
+                                             "primal, with --dx and --dy instead of the positional inputs");
     CLI::Option* dx = command.add_option("--dx", words.dx, "differences to the right");
     CLI::Option* dy = command.add_option("--dy", words.dy, "differences downward");
     CLI::Option* direct =
@@ -38,15 +39,16 @@ void add_inputs(CLI::App& command, ReconstructWords& words) {
 } // namespace
 
 void add_reconstruct(CLI::App& app, ReconstructWords& words) {
-    CLI::App& command = *app.add_subcommand("reconstruct", "a picture from saved buffers, of any program");
+    CLI::App& command =
+        *app.add_subcommand("reconstruct", "reconstruct a picture from saved buffers of any program");
     command.footer(
-        "The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted "
-        "downward; other programs may mean others. dx may be a column narrower than the primal, and dy "
-        "a row lower: the last column of dx and the last row of dy count as 0 in any case.\n"
-        "One EXR file needs the layers primal_without_direct (radiance without directly visible "
-        "emission), dx and dy, or coefficient, coefficient_dx and coefficient_dy, and the layer direct if "
-        "there is such emission; without a layer direct, primal may stand for primal_without_direct. Its "
-        "plain RGB is a reconstruction and is not used.");
+        "The gradients are dx(x,y) = I(x+1,y) - I(x,y) and dy(x,y) = I(x,y+1) - I(x,y), with y counted downward; "
+        "other programs may define them differently. dx may be a column narrower than the primal, and dy a row "
+        "lower: the last column of dx and the last row of dy count as 0 in any case.\n"
+        "One EXR file needs the layers primal_without_direct (radiance without directly visible emission), dx and "
+        "dy, or coefficient, coefficient_dx and coefficient_dy, and the layer direct if there is such emission; "
+        "without a layer direct, primal may replace primal_without_direct. Its plain RGB is a reconstruction and "
+        "is not used.");
     ReconstructOptions& options = words.options;
     add_inputs(command, words);
     add_norms(command, words.norms, "or several: one layer each")->capture_default_str();
@@ -74,7 +76,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Everything that decides the picture, beside what the input's own header says.
+/// Returns all options that determine the picture, in addition to the input's header.
 json reconstruction_json(const ReconstructOptions& options, const GradientInput& input) {
     json files = json::array(), norms = json::array();
     for (const std::filesystem::path& file : options.inputs)
@@ -102,7 +104,7 @@ void check_finite(const ExrFile& file, const std::filesystem::path& input) {
 int run_reconstruct(const ReconstructOptions& options) {
     check_available(options.layers.norms);
     check_picture_name(options.output, options.layers);
-    check_outputs({{"-o", options.output}, {"--stats", options.stats}}, {}); // an input may be replaced
+    check_outputs({{"-o", options.output}, {"--stats", options.stats}}, {}); // the output may replace an input
     check_writable(options.output);
     if (!options.stats.empty())
         check_writable(options.stats);
@@ -113,7 +115,7 @@ int run_reconstruct(const ReconstructOptions& options) {
     const double load_cpu = process_cpu_seconds() - start_cpu;
     const double load_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (input.repaired > 0)
-        fmt::print(stderr, "warning: values that were not finite, or no variances, repaired: {}\n",
+        fmt::print(stderr, "warning: invalid values (not finite, or negative variances), repaired: {}\n",
                    input.repaired);
 
     const json settings = reconstruction_json(options, input);

@@ -16,43 +16,40 @@
 namespace tessera {
 
 void add_reference(CLI::App& app, ReferenceWords& words) {
-    CLI::App& command = *app.add_subcommand("reference", "a reference for others to be compared with");
+    CLI::App& command = *app.add_subcommand("reference", "render a reference, with an estimate of its own error");
     command.footer(
-        "A reference consists of two independent renders of the scene with two seeds, the layers half1 and half2, "
-        "and of their mean, the plain RGB. The difference of the halves gives the reference's own error, which is "
-        "printed and written to the header, and each pixel's variance, the layer variance. That error does not "
-        "contain the bias of a biased reconstruction (all but none, l2 and uniform), which is the same in both "
-        "halves. The "
-        "layer doubt is each pixel's relative standard error, or 1 where a single sample makes more than a "
-        "quarter "
-        "of the pixel or no sample found radiance.\n"
+        "A reference consists of two independent renders of the scene with two seeds, the layers half1 and "
+        "half2, and of their mean, the plain RGB. The difference of the halves gives the reference's own "
+        "error, which is printed and written to the header, and each pixel's variance, the layer variance. "
+        "That error does not contain the bias of a biased reconstruction (all but none, l2 and uniform), "
+        "which is the same in both halves. The layer doubt is each pixel's relative standard error, or 1 "
+        "where a single sample makes more than a quarter of the pixel or no sample found radiance.\n"
         "The method (-m, by default G-PR) and the reconstruction (--recon, by default l2, which is linear and "
-        "unbiased; none for methods without gradients) are printed and in the header. They do not depend on what "
-        "is "
-        "rendered. A bias of the judged method cannot show against a reference by the same method: use -m pt to "
-        "judge whether G-PR is unbiased.\n"
+        "unbiased; none for methods without gradients) are printed and in the header. They do not depend on "
+        "what is rendered. A bias of the judged method does not show against a reference by the same method: "
+        "use -m pt to judge whether G-PR is unbiased.\n"
         "The header also has checksums of the scene; other commands refuse the reference for another scene.\n"
-        "OUTPUT.checkpoint exists while the reference renders: after an interrupt or a kill the same command "
+        "OUTPUT.checkpoint exists while the reference renders. After an interruption, the same command "
         "continues from there, to the same bits.");
     ReferenceRecipe& recipe = words.options.recipe;
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
-    command.add_option("--camera", words.camera, "JSON file with the camera to take, as saved in the viewer");
+    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
     command.add_flag("--strict", words.strict,
-                     "a texture or mesh whose file is not there ends the load, instead of being left out");
+                     "fail if the file of a texture or mesh is missing, instead of leaving it out");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
     add_alpha(command, recipe.reconstruction);
-    command.get_option("--seed")->description("of the first half; the second has the next");
+    command.get_option("--seed")->description("seed of the first half; the second half has the next seed");
     add_method(command, recipe.settings.method);
     add_setting(command, spp_setting(recipe.spp, 2))
-        ->description("samples a pixel, of both halves together; one more if odd");
+        ->description("samples per pixel of both halves together; one more if odd");
     add_norm(command, recipe.reconstruction);
     limit(command.add_option("--checkpoint", recipe.checkpoint_seconds, "seconds between checkpoints"), 0,
           most_seconds)
         ->capture_default_str();
     command.add_option("--share", words.share,
-                       "K/N: the K-th of N parts of its samples, on whichever machine; `tessera merge` adds the "
-                       "parts up. OUTPUT is then no EXR file, and ends in .share");
+                       "K/N: render shard K of N, on any machine; `tessera merge` merges the shards. OUTPUT is "
+                       "not an EXR file then, and must end in .share");
     command.add_option("-o,--output", words.options.output, "EXR file to write")->required();
 }
 
@@ -126,20 +123,19 @@ int run_reference(const ReferenceOptions& options) {
     }
     if (is_complete)
         return exit_ok;
-    fmt::print(stderr, "{}: not complete; the same command goes on from its checkpoint\n",
+    fmt::print(stderr, "{}: not complete; run the same command again to continue from its checkpoint\n",
                options.output.string());
     return exit_failure;
 }
 
 void add_merge(CLI::App& app, MergeOptions& options) {
-    CLI::App& command = *app.add_subcommand("merge", "a reference from its shares");
+    CLI::App& command = *app.add_subcommand("merge", "merge the shards of a reference");
     command.footer(
-        "Shares are files of `tessera reference --share K/N`, all N of them, in any order. They must be of the "
-        "same scene, camera, settings and version of the program: what is missing, there twice or of "
-        "something else is named. For one N the picture has the same bits, wherever and whenever its "
-        "shares were rendered; whatever N is, it has no more bias than one in one piece. Takes memory "
-        "for two shares, not for all.");
-    command.add_option("shares", options.shares, "files of shares")->required();
+        "Shards are the files of `tessera reference --share K/N`, all N of them, in any order. They must have "
+        "the same scene, camera, settings and program version; an error names a shard that is missing, "
+        "duplicate or different. For a given N the result has the same bits, wherever and whenever its shards "
+        "were rendered. N does not affect the bias. Takes memory for two shards, not for all.");
+    command.add_option("shares", options.shares, "files of all shards")->required();
     command.add_option("-o,--output", options.output, "EXR file to write")->required();
 }
 

@@ -22,15 +22,15 @@ namespace tessera {
 
 namespace {
 
-/// What is asked for, with everything left open filled in from the scene.
+/// The options of a render, completed from the scene.
 struct ResolvedRender {
     RenderSettings settings;
     glm::ivec2 size;
-    int spp; ///< 0: by time
+    int spp; ///< 0: limited by time
     ReconstructionLayers layers;
 };
 
-/// Parts of coefficients have a solver of their own, and are not smoothed.
+/// Basis components have their own solver and no denoiser.
 Norm default_norm(const RenderSettings& s) {
     return is_expanded(s) ? Norm::weighted : has_gradients(s.method) ? Norm::guided : Norm::none;
 }
@@ -44,8 +44,8 @@ ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
     return wanted;
 }
 
-/// Share of the work done, by whichever limit is nearer.
-double share_done(const RenderOptions& options, const ResolvedRender& wanted, const Render& render) {
+/// Returns the finished fraction, by the limit that is nearer.
+double fraction_done(const RenderOptions& options, const ResolvedRender& wanted, const Render& render) {
     double done = wanted.spp > 0 ? static_cast<double>(render.spp()) / wanted.spp : 0;
     if (options.time)
         done = std::max(done, (options.clock == ClockChoice::cpu ? render.cpu_seconds() : render.seconds()) /
@@ -59,26 +59,26 @@ void render_passes(const RenderOptions& options, const ResolvedRender& wanted, R
     double done = 0;
     do {
         render.pass(pool);
-        done = share_done(options, wanted, render);
+        done = fraction_done(options, wanted, render);
         const std::string target = wanted.spp > 0 ? fmt::format(" of {}", wanted.spp) : "";
         progress.update(done, render.seconds(), fmt::format("{}{} spp", render.spp(), target));
     } while (done < 1 && !interrupted());
 }
 
-/// Says on stderr which layer has a pixel that is no number. Returns whether there is none.
+/// Reports the first layer on stderr with a pixel that is not finite. Returns true if there is none.
 bool warn_of_bad_pixels(const ExrFile& file) {
     for (const ExrLayer& layer : file.layers) {
         const std::string bad = text_of_bad_pixel(layer.image);
         if (bad.empty())
             continue;
-        fmt::print(stderr, "warning: the layer \"{}\" is not finite: {}; its light is too strong for floats\n",
+        fmt::print(stderr, "warning: layer \"{}\" is not finite: {}; its radiance exceeds the range of floats\n",
                    layer.name, bad);
         return false;
     }
     return true;
 }
 
-/// Before the first pass, as after the last one it would be late to learn that it was all in vain.
+/// Checks size and memory before the first pass, so that no render is lost for lack of them.
 void ask_for_picture(const ResolvedRender& wanted, int threads) {
     const RenderSettings& settings = wanted.settings;
     check_image_size(wanted.size.x, wanted.size.y);
@@ -87,7 +87,8 @@ void ask_for_picture(const ResolvedRender& wanted, int threads) {
                    fmt::format("{}x{} pixels of {}", wanted.size.x, wanted.size.y, short_name(settings.method)));
 }
 
-/// The layers wanted; what there is to keep where there is no memory left to reconstruct, and why, in `failure`.
+/// Returns the layers of the picture. If the reconstruction does not fit into memory, returns the layers to keep
+/// and sets `failure` to the reason.
 ExrFile layers_of(Render& render, const ResolvedRender& wanted, bool is_exr, ThreadPool& pool,
                   std::vector<ReconstructionStats>& stats, std::string& failure) {
     const ReuseMaps maps = wanted.layers.buffers ? render.reuse_maps() : ReuseMaps{};

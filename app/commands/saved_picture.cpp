@@ -35,8 +35,8 @@ nlohmann::json stats_of(const Snapshot& snapshot, const std::vector<Reconstructi
     return json;
 }
 
-/// The snapshot's own, if the same samples and settings would give it again, but for where its solver began; null:
-/// they would not.
+/// Returns the snapshot's reconstruction if it matches the snapshot's samples and the settings and does not
+/// continue an earlier one; else null.
 const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
     const Snapshot& s = *picture.snapshot;
     const bool is_current = s.reconstruction && s.reconstruction_spp == s.spp &&
@@ -46,14 +46,14 @@ const Reconstruction* finished_reconstruction(const SavedPicture& picture) {
 }
 
 /// Makes the layers of `tessera render --buffers`. Appends the cost of the reconstruction to `stats`; the CPU
-/// seconds of one that the viewer made are not known.
+/// seconds of a reconstruction by the viewer are NaN, as they are not known.
 ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<ReconstructionStats>& stats) {
     const Snapshot& snapshot = *picture.snapshot;
     const Reconstruction* finished = finished_reconstruction(picture);
     ReconstructionLayers wanted{{}, picture.reconstruction, true};
     if (!finished)
         wanted.norms = {norm};
-    ThreadPool pool(1); // no thread but this one
+    ThreadPool pool(1); // only the calling thread
     ExrFile exr = picture_layers(GradientImages(*snapshot.images), snapshot.reuse ? *snapshot.reuse : ReuseMaps{},
                                  wanted, pool, stats);
     if (finished) {
@@ -64,7 +64,7 @@ ExrFile render_layers(const SavedPicture& picture, Norm norm, std::vector<Recons
     return exr;
 }
 
-/// Adds first hits, "first_hit_...", and errors of the first layer, "error_...".
+/// Adds layers of first hits ("first_hit_...") and of errors of the first layer ("error_...").
 void add_companion_layers(ExrFile& exr, const SavedPicture& saved) {
     Snapshot snapshot = *saved.snapshot;
     const RgbImage& image = exr.layers.front().image;

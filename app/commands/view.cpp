@@ -33,14 +33,13 @@ std::string title(const std::string& scene) {
     return "Tessera - " + scene;
 }
 
-/// Does what is to be done after each frame: pictures of the window, its title, and the log of how long things
-/// took.
+/// Work after each frame: saves pictures of the window, sets its title, and logs times.
 class FrameDuties {
 public:
     FrameDuties(const ViewOptions& options, Surface& surface, Viewer& viewer, WallClock::time_point start)
         : options_(options), surface_(surface), viewer_(viewer), start_(start) {}
 
-    /// False: the work is done, and no frame is to follow.
+    /// Returns false if the work is done and no frame is to follow.
     bool after_frame() {
         log_times();
         set_title();
@@ -56,21 +55,21 @@ private:
         if (!options_.log_actions)
             return;
         const double seconds = std::chrono::duration<double>(WallClock::now() - start_).count();
-        if (!window_seen_)
+        if (!window_logged_)
             print_line("time window " + std::to_string(seconds));
-        window_seen_ = true;
+        window_logged_ = true;
         const auto& panes = viewer_.state().panes;
         const auto pictures = std::count_if(panes.begin(), panes.end(),
                                             [](const PaneState& pane) { return pane.snapshot != nullptr; });
-        for (; pictures_seen_ < pictures; ++pictures_seen_)
+        for (; pictures_logged_ < pictures; ++pictures_logged_)
             print_line("time picture " + std::to_string(seconds));
     }
 
     void set_title() {
-        if (viewer_.state().scene_info.name == titled_)
+        if (viewer_.state().scene_info.name == title_scene_)
             return;
-        titled_ = viewer_.state().scene_info.name;
-        surface_.set_title(title(titled_));
+        title_scene_ = viewer_.state().scene_info.name;
+        surface_.set_title(title(title_scene_));
     }
 
     bool take_screenshot() {
@@ -100,21 +99,21 @@ private:
     Surface& surface_;
     Viewer& viewer_;
     WallClock::time_point start_;
-    bool window_seen_ = false;
-    std::ptrdiff_t pictures_seen_ = 0;
-    std::string titled_; // the scene that the window is named after
+    bool window_logged_ = false;
+    std::ptrdiff_t pictures_logged_ = 0;
+    std::string title_scene_; // the scene in the window's title
     PictureSaver saver_;
     int exit_code_ = 0;
 };
 
-/// Scripts and screenshots are to be the same whoever plays them: they remember nothing.
+/// Returns false for scripts and screenshots, which must not depend on saved preferences.
 bool is_interactive(const ViewOptions& options) {
     return options.screenshot.empty() && options.script.empty();
 }
 
-/// The place of the last window, of the size asked for.
+/// Returns the position of the last window, with the requested size.
 WindowPlace window_place(const ViewOptions& options) {
-    std::string ignored; // the viewer tells
+    std::string ignored; // the viewer reports it
     WindowPlace place =
         is_interactive(options) ? read_preferences(preferences_file(), ignored).window : WindowPlace{};
     if (options.window_size)
@@ -160,7 +159,7 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     return result;
 }
 
-/// Runs the viewer with a script: 0, or exit_bad_input with a message on stderr.
+/// Runs the viewer with a script. Returns 0, or exit_bad_input after a message on stderr.
 int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& surface, Viewer& viewer,
          FrameDuties& duties) {
     const auto screenshot = [&](const std::filesystem::path& file) {
@@ -185,7 +184,7 @@ int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& sur
     return duties.exit_code();
 }
 
-/// A picture or a script that a signal has ended is not done.
+/// Returns the exit code: view_cut_short if a signal ended a script or a screenshot.
 int exit_code(const ViewOptions& options, int code) {
     return interrupted() && !is_interactive(options) ? view_cut_short : code;
 }

@@ -15,7 +15,8 @@ namespace tessera {
 
 namespace {
 
-constexpr int piece_edge = 8; // pixels: larger than the tiles and dipoles that make neighbours err alike
+// Pixels. Larger than the default tile and a gradient's pixel pair, within which errors correlate.
+constexpr int piece_edge = 8;
 
 double mean_luminance(const RgbImage& image) {
     double sum = 0;
@@ -24,7 +25,7 @@ double mean_luminance(const RgbImage& image) {
     return sum / static_cast<double>(image.size());
 }
 
-/// The factor that brings radiances to the units of Artefacts.
+/// Returns the factor that converts radiances to the units of Artefacts.
 double unit_of(const RgbImage& reference1, const RgbImage& reference2) {
     const double mean = (mean_luminance(reference1) + mean_luminance(reference2)) / 2;
     return mean > 0 ? 1 / mean : 1;
@@ -48,7 +49,7 @@ Image<double> luminances(const RgbImage& image) {
     return result;
 }
 
-/// Means of luminances over the square pieces of an image, over those of the reference.
+/// Returns the mean luminances of the square pieces of an image, relative to the reference.
 std::vector<double> pieces_of(const RgbImage& image, const RgbImage& r1, const RgbImage& r2) {
     const std::vector<Piece> pieces = pieces_of(luminances(image), piece_edge);
     const std::vector<Piece> expected1 = pieces_of(luminances(r1), piece_edge);
@@ -66,7 +67,7 @@ double tone_mapped(float x) {
     return x > 0 ? static_cast<double>(x) / (1 + static_cast<double>(x)) : 0;
 }
 
-/// Mean over pixels and channels. Two references, as for relMSE, take their own noise out of it.
+/// Returns the mean over pixels and channels. As in relMSE, two references cancel their own noise.
 double tone_mapped_error(const RgbImage& image, const RgbImage& r1, const RgbImage& r2) {
     double sum = 0;
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -78,7 +79,7 @@ double tone_mapped_error(const RgbImage& image, const RgbImage& r1, const RgbIma
 }
 
 double tenfold_share(const RgbImage& image, const RgbImage& r1, const RgbImage& r2) {
-    static constexpr double least = 0.01, fold = 10; // least: of the mean
+    static constexpr double least = 0.01, fold = 10; // least: smallest luminance, in units of the mean
     std::size_t count = 0;
     for (std::size_t i = 0; i < image.size(); ++i) {
         const auto luminance_of = [i](const RgbImage& of) {
@@ -99,7 +100,7 @@ std::size_t worst_count(std::size_t pixels) {
 Artefacts measure_artefacts(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2) {
     const double unit = unit_of(reference1, reference2);
     const RgbImage value = in_units(image, unit), r1 = in_units(reference1, unit), r2 = in_units(reference2, unit);
-    Image<double> errors = floor_free_errors(value, r1, r2); // checks the sizes, too
+    Image<double> errors = floor_free_errors(value, r1, r2); // also checks the sizes
     Artefacts artefacts;
     artefacts.error = mean_of_pieces(errors);
     artefacts.mean = mean_luminance(value);
@@ -126,7 +127,7 @@ ReferenceNoise measure_reference_noise(const RgbImage& reference1, const RgbImag
     noise.pieces[1] = pieces_of(r2, r1, r2);
     noise.is_black = std::all_of(r1.begin(), r1.end(), is_black) && std::all_of(r2.begin(), r2.end(), is_black);
     const auto count = static_cast<double>(r1.size());
-    double mean_variance = 0, fourth_power = 0; // the latter a mean
+    double mean_variance = 0, fourth_power = 0; // fourth_power: mean of s^4
     const Image<double> errors = reference_errors(r1, r2);
     for (std::size_t i = 0; i < r1.size(); ++i) {
         // (n1 - n2)^2 / 4 estimates the variance of (n1 + n2) / 2, and (n1 - n2)^2 / 2 that of n1 and n2.
@@ -135,7 +136,7 @@ ReferenceNoise measure_reference_noise(const RgbImage& reference1, const RgbImag
         fourth_power += std::pow(2 * errors.data()[i], 2) / 3 / count;
     }
     noise.mean_error = std::sqrt(mean_variance);
-    // Var(n1 n2) = s^4; and as r^2 is noisy, too, E[n1 n2 / (1 + (n1 + n2) / 2)^2] = 3/2 s^4 and higher powers.
+    // Var(n1 n2) = s^4. As r^2 is noisy too, E[n1 n2 / (1 + (n1 + n2) / 2)^2] = 3/2 s^4 + higher powers.
     noise.squared_error_error = std::hypot(std::sqrt(fourth_power / count), 1.5 * fourth_power);
     return noise;
 }
@@ -144,7 +145,7 @@ namespace {
 
 using Signal = std::vector<double>;
 
-/// |sum of s(n) exp(-2 pi i n j / length)|^2 of the signal without its mean.
+/// Returns |sum of s(n) exp(-2 pi i n j / length)|^2 of the signal minus its mean.
 double power(const Signal& signal, std::size_t j) {
     const auto length = static_cast<double>(signal.size());
     double mean = 0;
@@ -159,7 +160,7 @@ double power(const Signal& signal, std::size_t j) {
     return std::norm(sum);
 }
 
-/// Power at the multiples of 1 / tile, and at the frequencies about them.
+/// Power at the multiples of the frequency 1 / tile (`at`), and at the frequencies around them (`about`).
 struct Comb {
     double at = 0, about = 0;
     int at_count = 0, about_count = 0;
@@ -173,11 +174,12 @@ struct Comb {
     double ratio() const { return about > 0 ? at / at_count / (about / about_count) : 1; }
 };
 
-/// The signal must be a whole number of tiles long, so that each multiple is one of its frequencies.
+/// Sums the power of a signal. Its length must be a multiple of `tile`, so that each multiple of 1 / tile is a
+/// discrete frequency.
 Comb comb_of(const Signal& signal, int tile) {
     const std::size_t tiles = signal.size() / static_cast<std::size_t>(tile);
-    const std::size_t reach = (tiles - 1) / 2;                    // to half-way between two multiples
-    const std::size_t step = std::max<std::size_t>(1, reach / 6); // some of these tell enough
+    const std::size_t reach = (tiles - 1) / 2;                    // half the distance to the next multiple
+    const std::size_t step = std::max<std::size_t>(1, reach / 6); // about six frequencies on each side are enough
     Comb comb;
     for (std::size_t k = 1; 2 * k <= static_cast<std::size_t>(tile); ++k) {
         comb.at += power(signal, k * tiles);
@@ -214,8 +216,8 @@ Signal row_of(const Image<double>& image, int y) {
     return {image.row(y), image.row(y) + image.width()};
 }
 
-/// For each column x, the mean squared step from x - 1 to x. There is none to the first: it counts as that to the
-/// same place of the second tile.
+/// Returns, for each column x, the mean squared difference between columns x - 1 and x. Column 0 has no left
+/// neighbour and gets the value of the same position in the second tile.
 Signal mean_steps(const Image<double>& errors, int tile) {
     Signal steps(static_cast<std::size_t>(errors.width()));
     for (int x = 1; x < errors.width(); ++x)
@@ -225,7 +227,7 @@ Signal mean_steps(const Image<double>& errors, int tile) {
     return steps;
 }
 
-/// Mean step by place in the tile: the largest over the mean of the others.
+/// Returns the largest mean squared difference by position within the tile, over the mean at the other positions.
 double largest_ratio(const Signal& steps, int tile) {
     Signal by_place(static_cast<std::size_t>(tile));
     for (std::size_t x = 0; x < steps.size(); ++x)
@@ -243,7 +245,8 @@ TileSpectrum measure_tile_spectrum(const RgbImage& image, const RgbImage& refere
     if (image.width() != reference.width() || image.height() != reference.height())
         throw std::invalid_argument("images to compare differ in size");
     if (tile < 2 || std::min(image.width(), image.height()) < 4 * tile)
-        throw std::invalid_argument("a spectrum of tiles takes tiles of 2 pixels and more, and 4 of them");
+        throw std::invalid_argument(
+            "a tile spectrum needs tiles of at least 2 pixels, and 4 tiles along each edge");
     const Image<double> errors = relative_errors(image, reference, tile);
     TileSpectrum spectrum;
     Comb error;

@@ -33,19 +33,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* claim_suffix = ".claim";
-constexpr int beats_a_silence = 6; // some may be late or lost before silence is taken for death
+constexpr int beats_a_silence = 6; // tolerates late or lost heartbeats
 
 fs::path claim_path(const fs::path& file, int generation) {
     return file.string() + claim_suffix + (generation > 1 ? std::to_string(generation) : "");
 }
 
-/// Always of the same length: it is written over while others read it.
+/// Returns a claim's first line. Its length is constant, since it is overwritten while others read it.
 std::string head_text(std::uint32_t beat, double silence) {
     return fmt::format("{{\"worker\":\"{}\",\"silence\":{:g},\"beat\":\"{:010}\"}}\n", worker_name(), silence,
                        beat);
 }
 
-/// The first line of a claim; empty: there is no such file, or nothing in it yet.
+/// Returns the first line of a claim; empty: the file does not exist or is empty.
 std::string head_of(const fs::path& claim) {
     std::string line;
     std::getline(std::ifstream(claim, std::ios::binary), line);
@@ -56,7 +56,7 @@ std::string head_of(const fs::path& claim) {
     throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(error)));
 }
 
-/// A file that was not there before. -1: it is there. O_EXCL holds on NFS since version 3.
+/// Creates a file; -1: it exists. O_EXCL is atomic on NFS since version 3.
 int create(const fs::path& path) {
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST)
@@ -64,7 +64,7 @@ int create(const fs::path& path) {
     return descriptor;
 }
 
-/// The newest claim on the file: its generation; 0: there is none.
+/// Returns the generation of the newest claim on the file; 0: there is none.
 int newest_generation(const fs::path& file) {
     int generation = 0;
     while (fs::exists(claim_path(file, generation + 1)))
@@ -102,8 +102,8 @@ fs::path Claim::own_path() const {
     return claim_path(file_, generation_);
 }
 
-/// No two heads of a process are alike, so that a file that is claimed again is not taken for one that is silent.
-/// Where it fails, a full disk or a server that is away, the next beat may do better.
+/// Writes the next heartbeat. The counter is shared by all claims of a process, so that a new claim on the same
+/// file differs from a silent one. Ignores errors (disk full, server away): the next heartbeat may succeed.
 void Claim::write_head() const {
     static std::atomic<std::uint32_t> beat = 0;
     const std::string head = head_text(++beat, silence_);
@@ -117,7 +117,7 @@ void Claim::beat(const std::stop_token& stop) const {
     const std::chrono::duration<double> pause(silence_ / beats_a_silence);
     while (!never.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested()) {
         write_head();
-        ::fdatasync(descriptor_); // a network file system might keep it to itself for half a minute
+        ::fdatasync(descriptor_); // a network file system may delay the write by half a minute
     }
 }
 
@@ -136,12 +136,12 @@ void Claim::write_text(const std::string& text) const {
 
 void Claim::finish(const std::string& text) {
     heart_ = {};
-    write_head(); // there may have been no room before
+    write_head(); // an earlier one may have failed on a full disk
     write_text(text);
     const fs::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
     std::error_code error;
     fs::rename(own_path(), file_, error);
-    if (error && !fs::exists(file_)) // else another took over, and was sooner
+    if (error && !fs::exists(file_)) // if it exists, a process that took over has finished first
         fail(file_, error.value());
     is_finished_ = true;
     write_through_folder(folder);
@@ -149,10 +149,9 @@ void Claim::finish(const std::string& text) {
         fs::remove(claim_path(file_, older), error);
 }
 
-/// Those before it go first: as long as the newest is there, nobody can have claimed one of them anew.
+/// Removes all generations of the claim, the newest last: while it exists, nobody can claim an older one.
 void Claim::give_back() {
-    struct stat mine {
-    }, there{};
+    struct stat mine{}, there{};
     if (::fstat(descriptor_, &mine) != 0 || ::stat(own_path().c_str(), &there) != 0 ||
         mine.st_ino != there.st_ino || fs::exists(claim_path(file_, generation_ + 1)))
         return;
@@ -174,7 +173,7 @@ std::unique_ptr<Claim> Claims::take(const fs::path& file) {
     }
     std::unique_ptr<Claim> claim(new Claim(file, generation, descriptor, silence_));
     sightings_.erase(claim_path(file, generation - 1));
-    if (fs::exists(file)) // its claim is gone since it is there
+    if (fs::exists(file)) // finished since, by a process that then removed its claim
         return {};
     return claim;
 }

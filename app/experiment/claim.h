@@ -1,5 +1,5 @@
-// How processes that share a folder, on one machine or on many, divide work among them: by files that only one of
-// them can make. No clock of one host is compared with that of another, and no process is asked for by its number.
+// Claims divide work among processes that share a folder, on one machine or on several. A claim is a file that
+// only one process can create. The protocol compares no clocks of different hosts and uses no process ids.
 #pragma once
 
 #include <chrono>
@@ -14,22 +14,22 @@
 
 namespace tessera {
 
-/// This process among all that share a folder: its host's name and eight digits by chance.
+/// Returns the name of this process among all that share a folder: the host's name and eight random hex digits.
 const std::string& worker_name();
 
-/// A file that this process alone is to make, for as long as this lives. Beside it, under the name
-/// FILE.claim, stands who makes it, and a count that rises while it is alive.
+/// The exclusive right of this process to make a file, for the lifetime of the object. The file FILE.claim beside
+/// it holds the owner's name and a counter, the heartbeat, which rises while the process lives.
 class Claim {
 public:
-    /// Gives the file back, if it was not made: another may claim it.
+    /// Removes the claim if the file was not made, so that another process can claim it.
     ~Claim();
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;
 
     const std::filesystem::path& file() const { return file_; }
 
-    /// Makes the file: the claim, with the text as its further lines, takes the file's name once it is on the
-    /// disk. Throws std::runtime_error that names the file where it cannot be written.
+    /// Makes the file: appends the text to the claim file, syncs it to disk, and renames it to the file's name.
+    /// Throws std::runtime_error that names the file if it cannot be written.
     void finish(const std::string& text);
 
 private:
@@ -43,35 +43,35 @@ private:
     void give_back();
 
     std::filesystem::path file_;
-    int generation_; ///< 1; each that takes over from one that is silent has the next, so that only one of them
-                     ///< can
-    int descriptor_; ///< of the claim; it stays that of this very file, whoever takes its name
+    /// 1 for the first claim on a file. A process that takes over a silent claim creates the next generation, so
+    /// that only one process can take over.
+    int generation_;
+    int descriptor_; ///< of the claim file; stays valid if another process replaces the file of that name
     double silence_;
     bool is_finished_ = false;
     std::jthread heart_;
 };
 
-/// What a process knows of the claims of all.
+/// The claims that this process makes, and its observations of the claims of other processes.
 class Claims {
 public:
-    /// @param silence  seconds without a sign of life after which others may take over what this process has
-    ///                 claimed, and it what others have that do not say how long
+    /// @param silence  seconds without a heartbeat after which another process may take over a claim of this
+    ///                 process; also the limit for claims that do not state their own
     explicit Claims(double silence) : silence_(silence) {}
 
-    /// Claims a file. Empty: it is there, or another process makes it, which is believed to live until its claim
-    /// has been the same for so long on this process's own clock. Throws std::runtime_error that names the file
-    /// where no claim can be made.
-    /// Claims spare work; that nothing is lost or counted twice does not rest on them: two that believe to have
-    /// the same claim make the same file.
+    /// Claims a file. Returns null if the file exists or another process holds a live claim on it. A claim counts
+    /// as live until its heartbeat has not changed for its `silence`, by this process's own clock. Throws
+    /// std::runtime_error that names the file if no claim can be created. Claims only save work; correctness does
+    /// not depend on them. If two processes hold the same claim, both make the same file.
     std::unique_ptr<Claim> take(const std::filesystem::path& file);
 
-    /// Who has claimed the file, as worker_name() has it; empty: nobody, or it cannot be told yet.
+    /// Returns the worker_name() of the file's owner; empty: no claim, or its first line is not written yet.
     static std::string owner_of(const std::filesystem::path& file);
 
 private:
     using Clock = std::chrono::steady_clock;
     struct Sighting {
-        std::string head; ///< of the claim
+        std::string head; ///< first line of the claim file, with the heartbeat
         Clock::time_point since;
     };
 
@@ -81,14 +81,14 @@ private:
     std::map<std::filesystem::path, Sighting> sightings_;
 };
 
-/// FILE of "FILE.claim" and "FILE.claim2": what is claimed by it; empty: it is no claim's name.
+/// Returns FILE for a claim's name "FILE.claim" or "FILE.claim2"; empty for any other name.
 std::string claimed_by(const std::string& name);
 
-/// What a folder of files that are claimed holds.
+/// Contents of a folder with claims.
 struct Listing {
-    std::unordered_set<std::string> files;   ///< the names of all, claims too
-    std::unordered_set<std::string> claimed; ///< of claims, the names of what is claimed
-    std::error_code error;                   ///< why the names may not be all; a folder that is not there has none
+    std::unordered_set<std::string> files;   ///< names of all files, including claim files
+    std::unordered_set<std::string> claimed; ///< names of the files on which there are claims
+    std::error_code error; ///< set if the list may be incomplete; not set if the folder does not exist
 };
 Listing list(const std::filesystem::path& folder);
 

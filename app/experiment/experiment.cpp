@@ -25,7 +25,7 @@ namespace {
 
 using Setups = std::vector<std::size_t>;
 
-/// These setups in groups of which all members have the same `part`, in the order in which they come.
+/// Groups setups with equal `part`, in order of their first members.
 template <class Part>
 std::vector<Setups> grouped(const Setups& setups, Part part) {
     std::vector<Setups> groups;
@@ -42,7 +42,7 @@ std::vector<Setups> grouped(const Setups& setups, Part part) {
 
 } // namespace
 
-/// A render, and the setups that it serves in the order of its reconstructions.
+/// A render and the setups that it serves, in order of its reconstructions.
 struct Experiment::SharedRun {
     std::vector<std::size_t> setups;
     std::unique_ptr<MeasuredRun> run;
@@ -64,7 +64,8 @@ Experiment::Experiment(const ExperimentOptions& options)
     make_folder(options.output / "jobs");
     if (options.keeps_images)
         make_folder(options.output / "images");
-    check_writable(plan_file(options.output)); // a name that all have: what is left of one that is killed goes
+    // All processes use the same name here, so this also removes what a killed process left.
+    check_writable(plan_file(options.output));
     list_jobs();
     recall();
 }
@@ -96,7 +97,7 @@ std::string Experiment::text_of(const Job& job) const {
 
 const std::shared_ptr<const Scene>& Experiment::open(std::size_t scene) {
     if (!geometry_ || open_scene_ != scene) {
-        geometry_.reset(); // two may be too much for the memory
+        geometry_.reset(); // frees the old scene first: two may exceed the memory
         const OpenedScene opened = open_scene(scenes_[scene].source(), pool(options_.settings.threads));
         print_notes(opened.notes);
         geometry_ = opened.scene;
@@ -115,11 +116,11 @@ void Experiment::check_norms() const {
 }
 
 bool Experiment::render_reference(std::size_t scene, FolderReference& reference) {
-    check_norms(); // before the hours that it may take: whoever renders it goes on to the jobs
+    check_norms(); // fails before a reference that may take hours
     return reference.render(scenes_[scene].source(), open(scene), pool(options_.settings.threads));
 }
 
-bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& tell) {
+bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(double)>& report_progress) {
     check_norms();
     const Job& job = jobs_[index];
     std::string found;
@@ -138,16 +139,16 @@ bool Experiment::run(std::size_t index, Claim& claim, const std::function<void(d
         double left = 0;
         for (const SharedRun& shared : runs)
             left += std::max(1 - shared.run->done(), 0.0);
-        tell(1 - left / count);
+        report_progress(1 - left / count);
     }
-    for (std::size_t setup : job.setups) // what was known before is in no other file that all must find
+    for (std::size_t setup : job.setups) // the new file must be complete, also with results of other files
         if (const nlohmann::json known = recalled(job, setup); !known.is_null())
             found += Journal::line(key_of(job.scene, setups_[setup], job.seed), known);
     claim.finish(found);
     return true;
 }
 
-/// Those that differ in reconstruction alone share a render.
+/// Groups setups that differ only in reconstruction; they share a render.
 std::vector<Experiment::Setups> Experiment::renders_of(const Setups& setups) const {
     return grouped(setups, [&](std::size_t i) {
         PictureSettings settings = setups_[i].settings;
@@ -156,7 +157,7 @@ std::vector<Experiment::Setups> Experiment::renders_of(const Setups& setups) con
     });
 }
 
-/// Those of the job that are not known already.
+/// Creates the runs of the job's setups whose results are not known.
 std::vector<Experiment::SharedRun> Experiment::runs_of(const Job& job,
                                                        const std::shared_ptr<const Scene>& geometry) {
     Setups unknown;
@@ -179,7 +180,8 @@ std::vector<Experiment::SharedRun> Experiment::runs_of(const Job& job,
     return runs;
 }
 
-/// Lines of the job's file: what a run has found. Pictures are written first, so that what is known is complete.
+/// Returns the lines of a run for the job's file. Writes pictures first, so that no finished job lacks its
+/// picture.
 std::string Experiment::finish(const Job& job, const SharedRun& shared) {
     const MeasuredScene& scene = scenes_[job.scene];
     warn_of_refused(scene.source(), shared.run->render());

@@ -62,24 +62,24 @@ bool ExperimentJobs::run(std::size_t item, Claim& claim) {
         start_ = std::chrono::steady_clock::now();
     }
     if (i.reference) {
-        progress_.reset(); // a reference has its own
+        progress_.reset(); // a reference shows its own progress
         is_done_[item] = i.experiment->render_reference(i.scene, *i.reference);
         return is_done_[item] != 0;
     }
     if (!progress_)
         progress_.emplace("measuring");
-    is_done_[item] = i.experiment->run(i.job, claim, [&](double share) { tell(i, share); });
+    is_done_[item] = i.experiment->run(i.job, claim, [&](double fraction) { show_progress(i, fraction); });
     if (is_done_[item] && done + 1 == items_.size())
         progress_.reset();
     return is_done_[item] != 0;
 }
 
-void ExperimentJobs::tell(const Item& item, double share) {
+void ExperimentJobs::show_progress(const Item& item, double fraction) {
     const auto done = static_cast<double>(std::count(is_done_.begin(), is_done_.end(), 1));
     const auto first = static_cast<double>(*done_at_first_), all = static_cast<double>(items_.size());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
     const Experiment::Job& job = item.experiment->jobs()[item.job];
-    progress_->update((done - first + share) / (all - first), seconds.count(),
+    progress_->update((done - first + fraction) / (all - first), seconds.count(),
                       fmt::format("{}, {:g} of {:g} jobs done", item.experiment->text_of(job), done, all));
 }
 
@@ -131,7 +131,7 @@ std::string ExperimentJobs::list() {
 JobPlan ExperimentJobs::plan(const fs::path& folder) {
     JobPlan plan;
     std::map<const Experiment*, std::size_t> works;
-    const auto near = [from = fs::absolute(folder).lexically_normal()](const fs::path& file) {
+    const auto relative = [from = fs::absolute(folder).lexically_normal()](const fs::path& file) {
         return file.empty() ? fs::path() : fs::absolute(file).lexically_normal().lexically_proximate(from);
     };
     for (std::size_t item = 0; item < items_.size(); ++item) {
@@ -147,10 +147,10 @@ JobPlan ExperimentJobs::plan(const fs::path& folder) {
         job.work = work->second;
         job.what = i.reference ? "reference " + file.filename().string()
                                : i.experiment->text_of(i.experiment->jobs()[i.job]);
-        job.file = near(file);
+        job.file = relative(file);
         job.is_reference = i.reference != nullptr;
         if (!i.reference)
-            std::ranges::transform(i.experiment->known_in(i.job), std::back_inserter(job.known_in), near);
+            std::ranges::transform(i.experiment->known_in(i.job), std::back_inserter(job.known_in), relative);
     }
     return plan;
 }
@@ -176,22 +176,22 @@ std::string ExperimentJobs::mark() {
 
 namespace {
 
-/// The report, which is written by one process at a time. That it was written when all was done is a file, as that
-/// of a job.
+/// The report of a command. One process writes it at a time, under a claim. A file named by
+/// ExperimentJobs::mark() records that the final report is written.
 class Report {
 public:
     Report(ExperimentJobs& jobs, const ExperimentOptions& options, const std::function<void()>& write)
         : jobs_(jobs), options_(options), folder_(options.output / "jobs"), silence_(options.sharing.silence),
           claims_(silence_), write_(write) {}
 
-    /// Not all is done: the last one is still to be written, whatever was written before.
+    /// Removes the record of a final report, as jobs are unfinished.
     void forget() {
         if (const std::string mark = jobs_.mark(); !mark.empty())
             fs::remove(folder_ / mark);
     }
 
-    /// Says what is to be done; again when more is known, as files are named by what references there are. Where
-    /// that cannot be written, those who look at the folder see less, and the work goes on.
+    /// Writes the plan, until it has the names of all files: these depend on the references. A plan that cannot
+    /// be written only causes a warning, since only viewers of the folder need it.
     void write_plan() {
         if (is_plan_whole_)
             return;
@@ -206,36 +206,36 @@ public:
         }
     }
 
-    /// Writes one of what there is, unless another process is writing.
+    /// Writes a report of the finished jobs, unless another process is writing one.
     void write_if_free() {
         if (const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report"))
             write_();
     }
 
-    /// The same, if the last one was long enough ago.
+    /// Writes a report if enough time has passed since the last one.
     void write_now_and_then() {
         using Clock = std::chrono::steady_clock;
         const Clock::time_point begin = Clock::now();
         if (begin < next_)
             return;
-        write_plan(); // a reference may be there since
+        write_plan(); // references may have been finished since
         write_if_free();
         constexpr int pauses = 20;
         const Clock::time_point end = Clock::now();
         next_ = end + pauses * (end - begin);
     }
 
-    /// Writes the last one, unless another process has since all is done. `anew`: in any case.
-    void write_last(bool anew) {
+    /// Writes the final report, unless another process has written it and `always` is not set.
+    void write_last(bool always) {
         const fs::path written = folder_ / jobs_.mark();
-        for (Patience patience(silence_); anew || !fs::exists(written);) {
+        for (Patience patience(silence_); always || !fs::exists(written);) {
             const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
             if (!claim) {
                 if (!patience.wait())
                     return;
                 continue;
             }
-            if (anew || !fs::exists(written)) {
+            if (always || !fs::exists(written)) {
                 write_();
                 write_text(written, worker_name() + "\n");
             }
@@ -249,13 +249,13 @@ private:
     fs::path folder_;
     double silence_;
     Claims claims_;
-    bool is_plan_whole_ = false; ///< it was written with the names of all files
-    bool has_warned_ = false;    ///< that it cannot be written
+    bool is_plan_whole_ = false; ///< the written plan has the names of all files
+    bool has_warned_ = false;    ///< that the plan cannot be written
     const std::function<void()>& write_;
     std::chrono::steady_clock::time_point next_{};
 };
 
-/// Does what is asked for of the jobs. False: Ctrl-C ended it.
+/// Performs the task on the jobs. Returns false if Ctrl-C interrupted it.
 bool work(ExperimentJobs& jobs, const Sharing& sharing, Report& report) {
     if (sharing.task == Sharing::Task::report)
         return true;
@@ -282,9 +282,9 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
     const bool was_done = jobs.left() == 0;
     if (!was_done)
         report.forget();
-    jobs.keep_marks_in(options.output / "jobs"); // from now on it says the truth
+    jobs.keep_marks_in(options.output / "jobs"); // from here on the mark is valid
     const bool has_ended = work(jobs, options.sharing, report);
-    report.write_plan(); // a reference may be there since
+    report.write_plan(); // references may have been finished since
     const std::size_t left = jobs.left();
     const bool is_of_one = options.sharing.task == Sharing::Task::one_job;
     if (left == 0)
@@ -293,7 +293,7 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
         report.write_if_free();
     if (has_ended && (left == 0 || is_of_one))
         return exit_ok;
-    fmt::print(stderr, "{}: not complete, {} of {} jobs are left; the same command goes on with them\n",
+    fmt::print(stderr, "{}: not complete, {} of {} jobs are left; run the same command again to continue\n",
                options.output.string(), left, jobs.job_count());
     return exit_failure;
 }

@@ -17,11 +17,11 @@
 
 namespace tessera {
 
-/// All that a command is to do, scene by scene: the references that are missing, then the experiments' jobs. These
-/// are numbered from 1 on, which depends on nothing but the command.
+/// All work of a command, scene by scene: first the missing references, then the jobs of the experiments. The
+/// jobs' numbers start at 1 and depend only on the command.
 class ExperimentJobs final : public JobList {
 public:
-    /// The experiments must live as long.
+    /// The experiments must outlive this.
     explicit ExperimentJobs(const std::vector<Experiment*>& experiments);
 
     std::size_t size() const override { return items_.size(); }
@@ -31,47 +31,47 @@ public:
     bool are_all_done() override;
     bool run(std::size_t item, Claim& claim) override;
 
-    /// The items that the job of that number takes: references, and itself. Throws BadInput where there is no such
-    /// job.
+    /// Returns the items that a job needs: its references and the job itself. Throws BadInput if there is no job
+    /// of that number.
     std::vector<std::size_t> items_for(int number) const;
-    /// Jobs that are not done, references not counted.
+    /// Returns the number of unfinished jobs, not counting references.
     std::size_t left();
-    /// Where it stands, under the name of mark(), that the last report is written; it must stand nowhere while a
-    /// job is left. By itself nowhere.
+    /// Sets the folder in which a file of the name mark() states that the final report is written. The file must
+    /// not exist while a job is unfinished. Default: no folder, so are_all_done() is false.
     void keep_marks_in(std::filesystem::path folder) { marks_ = std::move(folder); }
     std::size_t job_count() const { return job_count_; }
-    /// A line for each job: its number, what it renders, and whether it is done, being done on a host, or about
-    /// how long it takes.
+    /// Returns a line for each job: its number, its state (done, open, claimed by a worker), an estimate of its
+    /// time, and its contents.
     std::string list();
-    /// All of them, as far as it is known, for those who look at `folder`: the one that the output is in.
+    /// Returns the plan of all items whose files are known, with paths relative to `folder`, the output folder.
     JobPlan plan(const std::filesystem::path& folder);
-    /// A name for a file that depends on all that the jobs' files are named by; empty: a reference is missing.
+    /// Returns a name that depends on the names of all jobs' files; empty: a reference is missing.
     std::string mark();
 
 private:
     struct Item {
         Experiment* experiment;
         std::size_t scene;
-        FolderReference* reference; ///< null: it is a job
+        FolderReference* reference; ///< null: the item is a job
         std::size_t job;
     };
 
-    void tell(const Item& item, double share);
+    void show_progress(const Item& item, double fraction);
 
     std::vector<Item> items_;
     std::filesystem::path marks_;
-    std::string mark_;                  ///< mark(), once it is known
-    std::vector<std::uint8_t> is_done_; ///< 1: it was when it was last asked for
-    std::size_t job_count_ = 0;
+    std::string mark_;                         ///< mark(), once it is known
+    std::vector<std::uint8_t> is_done_;        ///< cached mark(); empty: not known yet
+    std::size_t job_count_ = 0;                ///< 1: was done when last checked
     std::optional<std::size_t> done_at_first_; ///< when this process began its first job
-    std::optional<Progress> progress_;
+    std::optional<Progress> progress_;         ///< items done when this process began its first one
     std::chrono::steady_clock::time_point start_;
 };
 
-/// Does what the experiments' options ask for of their jobs: works on them, all or one, lists them, or only
-/// reports. `report` writes the reports of what is there: it is called now and then, so that it takes no more than
-/// a twentieth of the time, and when all is done by the one who finds that first; at any time by one process
-/// alone. Returns an ExitCode: failure where not all is done that was asked for. Throws as Experiment does.
+/// Performs the task of the options: works on all jobs or on one, lists them, or only writes the report.
+/// `report` writes the reports of the finished jobs. Only one process calls it at a time: from time to time, for
+/// at most about 5 % of the run time, and once more when all jobs are done. Returns an ExitCode: failure if
+/// requested jobs are not finished. Throws as Experiment does.
 int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOptions& options,
              const std::function<void()>& report);
 

@@ -11,9 +11,10 @@ namespace {
 
 void add_effort(CLI::App& command, ExperimentWords& words) {
     CLI::Option* spp = add_setting(command, spp_setting(words.spp))->default_str("");
-    limit_to_seconds(command.add_option("--time", words.time,
-                                        fmt::format("seconds of rendering each, instead of --spp (default {})",
-                                                    to_string(words.options.effort))))
+    limit_to_seconds(
+        command.add_option("--time", words.time,
+                           fmt::format("render time in seconds of each setup, instead of --spp (default {})",
+                                       to_string(words.options.effort))))
         ->excludes(spp);
     add_clock(command, words.clock);
 }
@@ -32,11 +33,11 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
 void add_quick(CLI::App& command, ExperimentWords& words) {
     command.add_flag(
         "--quick", words.is_quick,
-        "a first look, in minutes: for what is not given 5 CPU seconds, two seeds, 320x180 pixels, the "
-        "weighted norm alone, and references of 512 samples");
+        "a preview in minutes; unless given: 5 CPU seconds, 4 halvings, 2 seeds, 320x180 pixels, the weighted "
+        "norm only, and references of 512 samples");
 }
 
-/// What a quick one takes for what was not given.
+/// Applies the values of --quick to options that are not on the command line.
 void take_quick(const CLI::App& command, ExperimentOptions& options) {
     const auto is_given = [&](const char* option) { return command.count(option) > 0; };
     if (!is_given("--time") && !is_given("--spp"))
@@ -55,20 +56,20 @@ void take_quick(const CLI::App& command, ExperimentOptions& options) {
 
 void add_sharing(CLI::App& command, ExperimentWords& words) {
     Sharing& sharing = words.options.sharing;
-    CLI::Option* list = command.add_flag("--list", words.lists,
-                                         "print the jobs: number, state, CPU seconds (about), what it is of");
-    CLI::Option* job = command.add_option("--job", sharing.job, "do this one of the list, and no other");
+    CLI::Option* list =
+        command.add_flag("--list", words.lists, "print the jobs: number, state, estimated CPU seconds, contents");
+    CLI::Option* job = command.add_option("--job", sharing.job, "run only the job of this number in the list");
     limit(job, 1, 1e9)->excludes(list);
-    command.add_flag("--report", words.only_reports, "write the reports of what is done, and render nothing")
+    command.add_flag("--report", words.only_reports, "write the reports of the finished jobs; render nothing")
         ->excludes(list)
         ->excludes(job);
     command.add_option("--machine", sharing.machine,
-                       "a name for machines of this kind; times of several kinds stand in rows of their own "
+                       "name of this kind of machine; results of different kinds are in separate rows "
                        "(default: processor and hardware threads)");
-    command.add_flag("--any-machine", sharing.takes_any_machine, "put times of all kinds of machines together");
-    limit_to_seconds(command.add_option("--silence", sharing.silence,
-                                        "seconds without a sign of life of another process after which its job is "
-                                        "given to the next"))
+    command.add_flag("--any-machine", sharing.takes_any_machine, "merge the results of all kinds of machines");
+    limit_to_seconds(
+        command.add_option("--silence", sharing.silence,
+                           "seconds without a heartbeat after which another process takes over a job"))
         ->capture_default_str();
 }
 
@@ -80,7 +81,7 @@ void add_experiment(CLI::App& command, ExperimentWords& words) {
     add_alpha(command, options.settings.reconstruction);
     command.get_option("--size")->default_str(size_setting(options.settings.size).text());
     command.get_option("--max-depth")->default_str(std::to_string(options.settings.render.max_depth));
-    command.get_option("--seed")->description("of the first render of each setup");
+    command.get_option("--seed")->description("seed of the first render of each setup");
     command
         .add_option("--vary", words.variations,
                     "SETTING=VALUE,VALUE,...: a setting and its values, such as tile=2,4,8, rr-delta=0.01,0.1,1, "
@@ -90,27 +91,24 @@ void add_experiment(CLI::App& command, ExperimentWords& words) {
         ->allow_extra_args(false);
     add_methods(command, words.methods, "or several: gpr,pr")->capture_default_str();
     add_effort(command, words);
-    limit(command.add_option("--seeds", options.seeds, "renders of each setup, each with another seed"), 1, 1000)
+    limit(command.add_option("--seeds", options.seeds, "renders of each setup, each with its own seed"), 1, 1000)
         ->capture_default_str();
     add_norms(command, words.norms, "or several, where there are gradients")->capture_default_str();
     add_references(command, options);
-    command.add_flag("--any-build", options.takes_any_build,
-                     "take what other builds of the program have rendered, too");
+    command.add_flag("--any-build", options.takes_any_build, "also accept results of other builds of the program");
     command.add_option("-o,--output", options.output, "folder to write to")->required();
     add_sharing(command, words);
 }
 
 constexpr const char* common_footer =
-    "A job is a scene and a seed, and with --spp one point of what is varied; in a job, methods take turns, pass "
-    "by "
-    "pass. The same command, started several times on one machine or on many that share the folder, divides the "
-    "jobs "
-    "(CLUSTER.md). What is done is in OUTPUT/jobs: after an interrupt or a kill the same command goes on from "
-    "there. "
-    "Another build (but see --any-build), scene file, reference or setting begins anew.\n"
-    "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them. Missing ones are rendered "
-    "first, references of another scene are refused. The reports say by which method and reconstruction each "
-    "reference was made.";
+    "A job is a scene and a seed, and with --spp one point of the variations. Within a job, methods take "
+    "turns pass by pass. Several processes with the same command, on one machine or on machines that share "
+    "the folder, divide the jobs (CLUSTER.md). Finished jobs are in OUTPUT/jobs; after an interruption, the "
+    "same command continues from there. Another build (without --any-build), scene file, reference or "
+    "setting starts new jobs.\n"
+    "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them. Missing ones are "
+    "rendered first; references of another scene are refused. The reports name the method and "
+    "reconstruction of each reference.";
 
 } // namespace
 
@@ -118,9 +116,9 @@ void add_sweep(CLI::App& app, ExperimentWords& words) {
     words.methods = "gpr";
     words.norms = "weighted";
     CLI::App& command = *app.add_subcommand(
-        "sweep", "error, time and efficiency by the values of settings, on scenes with references");
-    command.footer(std::string("Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder, "
-                               "anew now and then.\n") +
+        "sweep", "measure error, time and efficiency for values of settings, on scenes with references");
+    command.footer(std::string("Writes sweep.csv, sweep.json, sweep.md and sweep-SCENE.svg to the output folder "
+                               "and updates them as jobs finish.\n") +
                    common_footer);
     add_experiment(command, words);
 }
@@ -132,15 +130,16 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
     words.options.halvings = 6;
     words.options.seeds = 5;
     words.options.keeps_images = true;
-    CLI::App& command = *app.add_subcommand("bench", "error against time of methods, as one page with charts");
+    CLI::App& command =
+        *app.add_subcommand("bench", "measure the error of methods over time, as one page with charts");
     command.footer(std::string("Writes bench.html, which needs no other file, bench.csv, bench.json and "
-                               "bench-SCENE.svg to the output folder, anew now and then, and the "
+                               "bench-SCENE.svg to the output folder, and updates them as jobs finish. Writes the "
                                "pictures of the first seed to OUTPUT/images.\n") +
                    common_footer);
     add_experiment(command, words);
     add_quick(command, words);
     limit(command.add_option("--halvings", words.options.halvings,
-                             "errors are also taken after a half, a quarter, ... of the time, this often"),
+                             "number of additional measurements, after 1/2, 1/4, ... of the time"),
           0, 20)
         ->capture_default_str();
 }
@@ -154,14 +153,12 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
     options.seeds = 20;
     options.output = "report";
     options.recipe.spp = 8192;
-    CLI::App& command = *app.add_subcommand(
-        "stability", "small scenes, each made so that some method is known to fail, and verdicts on all methods");
+    CLI::App& command =
+        *app.add_subcommand("stability", "judge all methods on small scenes, each known to make some method fail");
     command.footer(
         std::string("Writes stability.html, which needs no other file, stability.md, stability.csv and SCENE.png "
-                    "to the output "
-                    "folder, anew now and then. "
-                    "References are by PT, which reuses no paths: a bias that a method shares with its reference "
-                    "cannot show.\n") +
+                    "to the output folder, and updates them as jobs finish. References are by PT, which reuses no "
+                    "paths: a bias that a method shares with its reference would not show.\n") +
         common_footer);
     add_experiment(command, words);
     command.get_option("scenes")->required(false)->description(

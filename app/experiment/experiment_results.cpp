@@ -1,4 +1,4 @@
-// What an experiment has found: the files of its jobs, and the results in them.
+// The results of an experiment: the files of its jobs, and the measurements in them.
 #include "app/cli/terminal.h"
 #include "app/experiment/experiment.h"
 #include "render/io/files.h"
@@ -48,7 +48,7 @@ nlohmann::json key_of_run(const ExperimentOptions& options, const std::string& s
             {"halvings", options.halvings}};
 }
 
-/// All that the measurements depend on, but for the program and the machine.
+/// Returns the key of a run: all inputs that its measurements depend on, except for the program and the machine.
 nlohmann::json Experiment::key_of(std::size_t scene, const Setup& setup, std::uint64_t seed) const {
     nlohmann::json key = key_of_run(options_, scenes_[scene].name(), setup, seed);
     key["scene_file"] = scene_files_[scene];
@@ -56,7 +56,7 @@ nlohmann::json Experiment::key_of(std::size_t scene, const Setup& setup, std::ui
     return key;
 }
 
-/// The checksum is of all that decides what its file holds, but for the seed.
+/// Returns the name of the job's file. Its checksum covers all inputs of the job except for the seed.
 std::string Experiment::file_name_of(const Job& job) {
     Setups place = job.setups;
     place.push_back(job.scene);
@@ -89,8 +89,8 @@ bool Experiment::is_done(std::size_t job) {
     return is_recalled_[job] != 0 || (!file_of(job).empty() && fs::exists(file_of(job)));
 }
 
-/// Reads the files that are of other lists of jobs: of fewer seeds or methods, or other values. What is known
-/// without its picture is to be rendered again.
+/// Reads the files of other job lists in the folder, which have fewer seeds or methods, or other values. Removes
+/// job files whose picture is missing, so that these jobs are rendered again.
 void Experiment::recall() {
     for (const MeasuredScene& scene : scenes_)
         scene_files_.push_back(
@@ -118,7 +118,7 @@ bool Experiment::has_images(const Job& job) const {
     });
 }
 
-/// What the journal has of it; null: nothing that would do.
+/// Returns what the journal has of a run; null if it is missing, of another build or without required artefacts.
 nlohmann::json Experiment::find(const Journal& journal, const Job& job, std::size_t setup) const {
     const nlohmann::json known = journal.find(key_of(job.scene, setups_[setup], job.seed));
     if (known.is_null() || (known.at("program") != program_identity() && !options_.takes_any_build))
@@ -160,7 +160,7 @@ void Experiment::collect(std::size_t index) {
         const nlohmann::json known = find(is_recalled_[index] ? journal_ : own, job, setup);
         if (known.is_null())
             throw std::runtime_error(
-                fmt::format("{}: is damaged; without that file the job is done anew", file_of(index).string()));
+                fmt::format("{}: is damaged; delete it to run the job again", file_of(index).string()));
         for (const nlohmann::json& m : known.at("measurements"))
             records_.push_back({job.scene, setup, known.at("triangles"), measurement_from_json(m)});
     }
@@ -188,7 +188,7 @@ double Experiment::estimate(std::size_t index) {
                 sum += value(record.measurement);
                 ++count;
             }
-        return sum / count; // of none not a number
+        return sum / count; // NaN if there is none
     };
     const auto rendering = [](const Measurement& m) { return m.cpu_seconds - m.reconstruction_cpu_seconds; };
     double seconds = 0;

@@ -16,18 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// So many jobs in a row that others have, and it is time to look at the whole folder instead; but not before so
-/// many times as long has passed as the last look took: till then there are pauses.
-constexpr int most_misses = 16, pauses_a_look = 20;
-/// Of many workers, so many look at the same time.
-constexpr int looks_at_once = 2;
-/// So many in a row, and the next ones are tried elsewhere.
-constexpr int misses_in_place = 4;
-/// Of the jobs that others do, so many are looked at before the next pause: a thousand that wait for the last ones
-/// would otherwise keep a file server busy.
-constexpr int watched_at_once = 8;
+/// After this many claimed jobs in a row, the worker scans the folder again, but not before this multiple of the
+/// last scan's duration has passed. None of the constants here is tuned.
+constexpr int max_misses = 16, scan_pause_factor = 20;
+/// Mean number of workers that scan a folder at the same time.
+constexpr int concurrent_scans = 2;
+/// After this many claimed jobs in a row, the search continues at a random position.
+constexpr int misses_before_jump = 4;
+/// Number of claims of other workers that are checked between two pauses. More would keep a file server busy when
+/// a thousand workers wait for the last jobs.
+constexpr int watched_claims = 8;
 
-/// Claims of files that are there are of workers that were killed before they took them away.
+/// Removes the claims on files that exist: their workers were killed after they made the file.
 void remove_leftovers(const fs::path& folder, const Listing& listing) {
     std::error_code ignored;
     for (const std::string& claim : listing.files)
@@ -56,10 +56,10 @@ void JobWorker::set(std::size_t job, State state) {
     count(state, 1);
 }
 
-/// Finds out which jobs are done or taken from what the folders hold. Where others are at work this one goes on
-/// from anywhere, so that they spread over the list, and each stays with a scene that it has loaded; else from the
-/// first.
-void JobWorker::look() {
+/// Updates the states of all jobs from the contents of the folders. The search continues at a random position if
+/// other workers are active, so that workers spread over the list and each keeps the scene that it has loaded;
+/// else at the first job.
+void JobWorker::scan_folders() {
     const auto begin = std::chrono::steady_clock::now();
     std::map<fs::path, Listing> folders;
     bool is_alone = true;
@@ -69,7 +69,7 @@ void JobWorker::look() {
             continue;
         auto [folder, is_new] = folders.try_emplace(file.parent_path());
         if (is_new) {
-            folder->second = list(file.parent_path()); // what cannot be listed is found out job by job
+            folder->second = list(file.parent_path()); // if that fails, attempt() checks job by job
             remove_leftovers(file.parent_path(), folder->second);
         }
         const std::string name = file.filename().string();
@@ -81,27 +81,27 @@ void JobWorker::look() {
             jobs_.found(job);
     }
     if (!states_.empty())
-        place_ = is_alone ? 0 : anywhere();
+        position_ = is_alone ? 0 : random_position();
     std::size_t workers = 0;
     for (const auto& [folder, listing] : folders)
         workers += listing.claimed.size();
     const auto end = std::chrono::steady_clock::now();
-    next_look_ = end + std::max(pauses_a_look, static_cast<int>(workers) / looks_at_once) * (end - begin);
+    next_scan_ = end + std::max(scan_pause_factor, static_cast<int>(workers) / concurrent_scans) * (end - begin);
 }
 
-std::size_t JobWorker::anywhere() {
-    return std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(chance_);
+std::size_t JobWorker::random_position() {
+    return std::uniform_int_distribution<std::size_t>(0, states_.size() - 1)(random_);
 }
 
-/// The next one of that state, from place_ on and round; there must be one.
-std::size_t JobWorker::next(State state) {
-    while (states_[place_ % states_.size()] != state)
-        ++place_;
-    return place_ % states_.size();
+/// Returns the next job of that state from position_ on, cyclically. There must be one.
+std::size_t JobWorker::next_in(State state) {
+    while (states_[position_ % states_.size()] != state)
+        ++position_;
+    return position_ % states_.size();
 }
 
 std::unique_ptr<Claim> JobWorker::attempt(std::size_t job) {
-    place_ = job + 1;
+    position_ = job + 1;
     std::unique_ptr<Claim> claim;
     if (const fs::path file = jobs_.file_of(job); !file.empty() && !jobs_.is_done(job))
         claim = claims_.take(file);
@@ -111,36 +111,36 @@ std::unique_ptr<Claim> JobWorker::attempt(std::size_t job) {
 
 std::unique_ptr<Claim> JobWorker::find_open() {
     for (int misses = 1; open_ > 0 && !interrupted(); ++misses) {
-        if (auto claim = attempt(next(State::open)))
+        if (auto claim = attempt(next_in(State::open)))
             return claim;
-        if (misses >= most_misses) {
-            if (std::chrono::steady_clock::now() < next_look_)
-                return {}; // nearly all is done or taken: a pause, so that a file server has one
-            look();
+        if (misses >= max_misses) {
+            if (std::chrono::steady_clock::now() < next_scan_)
+                return {}; // nearly all jobs are done or claimed: the caller pauses
+            scan_folders();
             misses = 0;
-        } else if (misses >= misses_in_place) {
-            place_ = anywhere(); // others have gone through here: open jobs lie scattered
+        } else if (misses >= misses_before_jump) {
+            position_ = random_position(); // others have searched here: open jobs are scattered
         }
     }
     return {};
 }
 
 std::unique_ptr<Claim> JobWorker::find_silent() {
-    if (open_ == 0 && states_.size() - done_ > watched_at_once && std::chrono::steady_clock::now() > next_look_) {
-        look(); // most may be done by now, which to find out one by one would take long
+    if (open_ == 0 && states_.size() - done_ > watched_claims && std::chrono::steady_clock::now() > next_scan_) {
+        scan_folders(); // most may be done: faster than job by job
         if (open_ > 0)
             return find_open();
     }
     const auto are_taken = [&] { return done_ + open_ < states_.size(); };
-    for (int i = 0; i < watched_at_once && are_taken(); ++i)
-        if (auto claim = attempt(next(State::taken)))
+    for (int i = 0; i < watched_claims && are_taken(); ++i)
+        if (auto claim = attempt(next_in(State::taken)))
             return claim;
     return {};
 }
 
 bool JobWorker::run(const std::function<void()>& after) {
     Patience patience(silence_);
-    for (look(); is_left();) {
+    for (scan_folders(); is_left();) {
         if (interrupted())
             return false;
         std::unique_ptr<Claim> claim = find_open();
@@ -152,7 +152,7 @@ bool JobWorker::run(const std::function<void()>& after) {
             patience.wait();
             continue;
         }
-        const std::size_t job = (place_ + states_.size() - 1) % states_.size();
+        const std::size_t job = (position_ + states_.size() - 1) % states_.size();
         if (!jobs_.run(job, *claim))
             return false;
         claim.reset();

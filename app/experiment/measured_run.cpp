@@ -38,8 +38,8 @@ void MeasuredScene::check_seeds(std::uint64_t first, int count) const {
     for (const auto& [key, reference] : references_)
         for (std::uint64_t seed : reference.seeds())
             if (seed - first < static_cast<std::uint64_t>(count))
-                throw BadInput(fmt::format("seed {} is that of {}: errors to it would be too small", seed,
-                                           reference.path().string()));
+                throw BadInput(fmt::format("seed {} is also a seed of {}: errors against it would be too small",
+                                           seed, reference.path().string()));
 }
 
 const ReferenceImage& MeasuredScene::reference(const PictureSettings& settings) const {
@@ -70,7 +70,7 @@ void check_names(const std::vector<MeasuredScene>& scenes) {
 
 namespace {
 
-/// The tiles' spectrum in the error; empty where no tiles can show.
+/// Returns the tile spectrum of the error; empty if the method has no tiles or the image is too small.
 std::optional<TileSpectrum> tiles_of(const RgbImage& image, const RgbImage& reference, const RenderSettings& s) {
     const bool is_large = std::min(image.width(), image.height()) >= 4 * s.tile;
     if (!reuses_paths(s.method) || s.tile < 2 || !is_large)
@@ -101,7 +101,7 @@ double MeasuredRun::done() const {
 
 void MeasuredRun::pass() {
     render_.pass(pool_);
-    int reached = next_halvings_ + 1; // that is: none
+    int reached = next_halvings_ + 1; // none reached
     while (reached > 0 && done() >= std::ldexp(1, 1 - reached))
         --reached;
     if (reached > next_halvings_)

@@ -20,7 +20,7 @@
 
 namespace tessera {
 
-/// How much a render is given.
+/// Time or number of samples of a render.
 struct Effort {
     enum class Unit { spp, cpu_seconds, wall_seconds };
 
@@ -30,57 +30,57 @@ struct Effort {
     bool operator==(const Effort&) const = default;
 };
 
-/// The effort with its unit: "64 spp", "60 CPU s", "60 s".
+/// Formats the effort: "64 spp", "60 CPU s", "60 s".
 std::string to_string(const Effort& effort);
 
-/// One picture and its errors. Times are of rendering and of this picture's reconstruction.
+/// Errors of one picture. Times include rendering and this picture's reconstruction.
 struct Measurement {
-    int halvings = 0; ///< taken after 1 / 2^halvings of the time or samples that a render is given
+    int halvings = 0; ///< measured at 1 / 2^halvings of the render's effort
     std::uint64_t seed = 0;
     int spp = 0;
     double cpu_seconds = 0, wall_seconds = 0;
-    double reconstruction_cpu_seconds = 0; ///< part of cpu_seconds
-    double relative_mse = 0;               ///< to the mean of the reference's halves
+    double reconstruction_cpu_seconds = 0; ///< contained in cpu_seconds
+    double relative_mse = 0;               ///< relMSE against the mean of the reference's halves
     FloorFreeError floor_free;
-    std::optional<TileSpectrum> tiles; ///< of methods that share light within tiles of two pixels and more
+    std::optional<TileSpectrum> tiles; ///< of methods that reuse paths within tiles; empty: too few tiles
     Counters counters;
-    std::optional<Artefacts> artefacts; ///< where they are measured
-    std::string machine = {};           ///< the kind of machine that it was rendered on
-    // As seen on a screen (recon/metrics/seen_error.h); not numbers in journals from before.
-    double psnr = std::numeric_limits<double>::quiet_NaN(); ///< decibels, to the reference's halves
-    double flip = std::numeric_limits<double>::quiet_NaN(); ///< in the mean, to the mean of the halves
+    std::optional<Artefacts> artefacts; ///< empty: not measured
+    std::string machine = {};           ///< kind of the machine that rendered it
+    // Errors of the displayed picture (recon/metrics/seen_error.h); NaN in journals that lack them.
+    double psnr = std::numeric_limits<double>::quiet_NaN(); ///< dB, against the reference's halves
+    double flip = std::numeric_limits<double>::quiet_NaN(); ///< mean over pixels, against the mean of the halves
 };
 
-/// The measurement as JSON; numbers that are not finite become null.
+/// Converts a measurement to JSON; numbers that are not finite become null.
 nlohmann::ordered_json to_json(const Measurement& measurement);
-/// What to_json wrote. Throws nlohmann::json::exception where something is missing.
+/// Parses the output of to_json. Throws nlohmann::json::exception if a required key is missing.
 Measurement measurement_from_json(const nlohmann::json& json);
 
-/// A scene to measure on, and the references it needs.
+/// A scene of an experiment with its references.
 class MeasuredScene {
 public:
-    /// One reference for each size and depth of the setups, in `folder`; those that are missing are made by the
-    /// recipe, but for its size and depth. Throws BadInput for a file that is not there, and as FolderReference
+    /// Creates one reference for each size and depth of the setups, in `folder`. Missing references use the
+    /// recipe with that size and depth. Throws BadInput if the scene file does not exist, and as FolderReference
     /// does.
     MeasuredScene(SceneSource source, const std::vector<Setup>& setups, const std::filesystem::path& folder,
                   const ReferenceRecipe& recipe);
 
-    /// The scene_name of its source.
+    /// Returns the scene_name of the source.
     const std::string& name() const { return name_; }
     const SceneSource& source() const { return source_; }
 
-    /// Throws std::runtime_error where a missing reference cannot be written.
+    /// Throws std::runtime_error if a missing reference cannot be written.
     void check_writable() const;
-    /// Throws BadInput where one of the `count` seeds from `first` on is a reference's.
+    /// Throws BadInput if one of the `count` seeds from `first` on is also a seed of a reference.
     void check_seeds(std::uint64_t first, int count) const;
-    /// The reference for pictures of these settings.
+    /// Returns the reference for pictures of these settings.
     FolderReference& reference_for(const PictureSettings& settings) { return references_.at(key_of(settings)); }
     const FolderReference& reference_for(const PictureSettings& settings) const {
         return references_.at(key_of(settings));
     }
-    /// Its image, once it is complete.
+    /// Returns the image of that reference, which must be complete.
     const ReferenceImage& reference(const PictureSettings& settings) const;
-    /// The references in the order of size and depth.
+    /// Returns the references in order of size and depth.
     std::vector<const FolderReference*> references() const;
     std::vector<FolderReference*> references();
 
@@ -93,27 +93,28 @@ private:
     std::map<Key, FolderReference> references_;
 };
 
-/// Throws BadInput where two scenes have one name.
+/// Throws BadInput if two scenes have the same name.
 void check_names(const std::vector<MeasuredScene>& scenes);
 
-/// A render that is measured on its way, with one or several reconstructions: measuring costs it no time.
+/// A render whose errors are measured while it progresses, with one or several reconstructions. The time of the
+/// measurements does not count as render time.
 class MeasuredRun {
 public:
-    /// Is measured after effort / 2^i for i from `halvings` down to 0: at the first pass that is not before. Where
-    /// one pass is past several of these, only the last counts. Artefacts are measured on demand. Keeps
-    /// references to the reference and the pool.
+    /// Errors are measured at the first pass at or after effort / 2^i, for i from `halvings` down to 0. If one
+    /// pass crosses several of these points, only the last is recorded. Keeps references to `reference` and
+    /// `pool`.
     MeasuredRun(Render render, const Effort& effort, int halvings,
                 std::vector<ReconstructionSettings> reconstructions, bool measures_artefacts,
                 const ReferenceImage& reference, ThreadPool& pool);
 
-    double done() const; ///< share of the effort; 1 and more: it is at its end
+    double done() const; ///< completed fraction of the effort; may exceed 1
     bool is_done() const { return done() >= 1; }
-    /// Makes one more pass, and measures when it is time to.
+    /// Renders one pass, and measures errors if it reaches the next point.
     void pass();
 
-    /// The measurements of each reconstruction, in the order of time.
+    /// Returns the measurements of each reconstruction, in order of time.
     const std::vector<std::vector<Measurement>>& measurements() const { return measurements_; }
-    /// The last picture measured, of each reconstruction.
+    /// Returns the last measured picture of each reconstruction.
     const std::vector<RgbImage>& images() const { return images_; }
     const Render& render() const { return render_; }
 
@@ -122,7 +123,7 @@ private:
 
     Render render_;
     Effort effort_;
-    int next_halvings_; ///< of the measurement to come
+    int next_halvings_; ///< halvings of the next measurement
     std::vector<ReconstructionSettings> reconstructions_;
     bool measures_artefacts_;
     const ReferenceImage& reference_;

@@ -15,7 +15,7 @@ std::string to_string(const Effort& effort) {
 
 namespace {
 
-/// dump() writes what is not finite as null.
+/// Parses a number; dump() writes numbers that are not finite as null.
 double number(const nlohmann::json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -55,7 +55,7 @@ nlohmann::ordered_json to_json(const std::optional<Artefacts>& a) {
             {"halo_peak", a->halo_peak}};
 }
 
-/// The artefacts in the JSON; null where none were measured, or the journal is from before there were any.
+/// Parses artefacts; empty if none were measured. Journals of older versions have none.
 std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     if (json.is_null())
         return {};
@@ -66,7 +66,7 @@ std::optional<Artefacts> artefacts_from_json(const nlohmann::json& json) {
     a.worst_pixel = {json.at("worst_pixel").at(0), json.at("worst_pixel").at(1)};
     json.at("bad_pixels").get_to(a.bad_pixels);
     a.pieces = numbers(json.at("pieces"));
-    // Journals of before have none of these.
+    // Journals of older versions lack these.
     a.tone_mapped = number(json.value("tone_mapped", nlohmann::json()));
     a.tenfold = number(json.value("tenfold", nlohmann::json()));
     a.halo_energy = number(json.value("halo_energy", nlohmann::json()));

@@ -62,7 +62,7 @@ ExperimentOptions options_from(const ordered_json& from) {
     options.settings.render.seed = from.at("seed");
     const int unit = from.at("unit");
     if (unit < 0 || unit >= static_cast<int>(enumerator_count<Effort::Unit>))
-        throw std::runtime_error(fmt::format("an unknown unit, {}", unit));
+        throw std::runtime_error(fmt::format("unknown unit {}", unit));
     options.effort = {from.at("effort"), static_cast<Effort::Unit>(unit)};
     options.halvings = from.at("halvings");
     options.seeds = from.at("seeds");
@@ -70,7 +70,7 @@ ExperimentOptions options_from(const ordered_json& from) {
     return options;
 }
 
-/// All but the first line and the end.
+/// Returns the JSON text of the plan without its first line and its end.
 std::string contents(const JobPlan& plan) {
     std::string text = "\"works\":[";
     for (const JobPlan::Work& work : plan.works)
@@ -101,7 +101,7 @@ JobPlan plan_from(const ordered_json& from) {
         for (const std::string& file : from_job.value("known", std::vector<std::string>()))
             job.known_in.emplace_back(file);
         if (job.work >= plan.works.size())
-            throw std::runtime_error("a job of no work");
+            throw std::runtime_error("a job of an unknown experiment");
     }
     return plan;
 }
@@ -115,7 +115,7 @@ fs::path plan_file(const fs::path& folder) {
 void write_plan(const fs::path& file, const JobPlan& plan) {
     const std::string text = contents(plan);
     const std::string mark = fmt::format("{}\"{:08x}\",", mark_key, checksum(std::as_bytes(std::span(text))));
-    if (plan_mark(file) != mark) // a thousand workers of one command need not write one file
+    if (plan_mark(file) != mark) // avoids a thousand workers rewriting the same file
         write_text(file, mark + "\n" + text + "}\n");
 }
 
@@ -132,7 +132,7 @@ JobPlan read_plan(const fs::path& file) {
         return plan_from(from);
     } catch (const std::exception& error) {
         throw std::runtime_error(
-            fmt::format("{}: is no list of jobs that this version knows ({})", name, error.what()));
+            fmt::format("{}: is not a list of jobs of this version ({})", name, error.what()));
     }
 }
 

@@ -15,7 +15,7 @@ namespace tessera {
 
 namespace {
 
-/// Renders until it is complete, telling on the terminal how far it is. False: Ctrl-C ended it.
+/// Renders a reference to its end and shows the progress. Returns false if Ctrl-C interrupted it.
 bool complete(ReferenceRender& render, const std::filesystem::path& output, const SceneSource& source) {
     const int resumed = render.spp_resumed(), wanted = render.spp_wanted();
     if (resumed > 0)
@@ -107,8 +107,8 @@ void FolderReference::check_scene(const SceneSource& source, const Scene& scene)
         tessera::difference(*image_->scene, checksums_of(scene.description(), scene.camera()));
     if (!difference.empty())
         throw BadInput(
-            fmt::format("{} shows something else than {} does now, in its {}. Without that file it is rendered "
-                        "anew; or name another folder with --reference",
+            fmt::format("{} does not match {}: different {}. Delete the file to render it again, or choose "
+                        "another folder with --reference",
                         path_.string(), to_string(source), difference));
 }
 

@@ -9,38 +9,38 @@
 
 namespace tessera {
 
-/// Renders a reference to `output` (see ReferenceRender), telling on the terminal how far it is. Empty: Ctrl-C
-/// ended it (see InterruptGuard), after a last checkpoint. Throws as ReferenceRender does.
+/// Renders a reference to `output` (ReferenceRender) and shows its progress on the terminal. Returns empty if
+/// Ctrl-C interrupted it (InterruptGuard), after a last checkpoint. Throws as ReferenceRender does.
 std::optional<ReferenceImage> render_reference(const std::filesystem::path& output, const SceneSource& source,
                                                const std::shared_ptr<const Scene>& scene,
                                                const ReferenceRecipe& recipe, ThreadPool& pool);
 
-/// Does the same with the recipe's share of one, of which it writes the file that merge_shares reads. False:
-/// Ctrl-C ended it.
+/// Renders the recipe's shard of a reference and writes the file that merge_shares reads. Returns false if Ctrl-C
+/// interrupted it.
 bool render_share(const std::filesystem::path& output, const SceneSource& source,
                   const std::shared_ptr<const Scene>& scene, const ReferenceRecipe& recipe, ThreadPool& pool);
 
-/// A reference in a folder of many: of one scene, in one size and to one depth.
+/// A reference in a folder of references, of one scene, size and depth.
 class FolderReference {
 public:
-    /// Reads the file reference_file() if it is there. Throws BadInput for a picture of another size,
-    /// std::runtime_error for a file that is no reference.
+    /// Reads the file reference_file() if it exists. Throws BadInput for a picture of another size, and
+    /// std::runtime_error for a file that is not a reference.
     FolderReference(const std::filesystem::path& folder, const std::string& scene_name, ReferenceRecipe recipe);
 
     bool is_complete() const { return image_.has_value(); }
-    /// Whether it is complete by now: another process may have made it. Throws as the constructor does.
+    /// Reads the file if another process has made it since, and returns is_complete(). Throws as the constructor.
     bool look();
-    /// Makes the folder. Throws std::runtime_error where the reference cannot be written.
+    /// Creates the folder. Throws std::runtime_error if the reference cannot be written.
     void check_writable() const;
-    /// Renders it, and takes up what another has left of it. False: Ctrl-C ended it.
+    /// Renders the reference, from a checkpoint if there is one. Returns false if Ctrl-C interrupted it.
     bool render(const SceneSource& source, const std::shared_ptr<const Scene>& scene, ThreadPool& pool);
-    /// Throws BadInput where it is complete and shows another scene; one that does not say what it shows is taken,
-    /// with a note.
+    /// Throws BadInput if the reference is complete and of another scene. Prints a note for a reference without
+    /// scene checksums, and accepts it.
     void check_scene(const SceneSource& source, const Scene& scene) const;
 
-    const ReferenceImage& image() const { return *image_; } ///< once it is complete
-    std::uint32_t checksum() const { return checksum_; }    ///< of its pixels, once it is complete
-    std::array<std::uint64_t, 2> seeds() const;             ///< those it has, or will have
+    const ReferenceImage& image() const { return *image_; } ///< must be complete
+    std::uint32_t checksum() const { return checksum_; }    ///< of the pixels; must be complete
+    std::array<std::uint64_t, 2> seeds() const;             ///< of the halves, also if not rendered yet
     const std::filesystem::path& path() const { return path_; }
 
 private:

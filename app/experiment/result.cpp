@@ -68,7 +68,7 @@ std::vector<Result> results_of(const std::vector<Record>& records, const std::ve
     }
     std::vector<Result> results;
     for (auto& [place, result] : by_place) {
-        std::ranges::sort(result.runs, {}, &Measurement::seed); // in whatever order the jobs were done
+        std::ranges::sort(result.runs, {}, &Measurement::seed); // jobs finish in any order
         results.push_back(std::move(result));
     }
     return results;
@@ -101,7 +101,7 @@ Counters total(const Result& result) {
     return sum;
 }
 
-double share(std::uint64_t part, std::uint64_t all) {
+double fraction(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : none;
 }
 
@@ -128,9 +128,10 @@ const ResultColumn columns[] = {
     {"shift_success_share",
      [](const Result& r) {
          const Counters sum = total(r);
-         return share(sum.shifts[static_cast<std::size_t>(ShiftOutcome::ok)], sum.shift_attempts());
+         return fraction(sum.shifts[static_cast<std::size_t>(ShiftOutcome::ok)], sum.shift_attempts());
      }},
-    {"mean_path_vertices", [](const Result& r) { return share(total(r).path_vertices, total(r).camera_paths); }},
+    {"mean_path_vertices",
+     [](const Result& r) { return fraction(total(r).path_vertices, total(r).camera_paths); }},
     {"tile_error_spectrum",
      [](const Result& r) {
          return mean(r, [](const Measurement& m) { return m.tiles ? m.tiles->error : none; });
@@ -168,7 +169,7 @@ double error_deviation(const Result& r) {
 double error_uncertainty(const Result& r) {
     const double of_pieces = mean(r, [](const Measurement& run) { return run.floor_free.standard_error; });
     const double of_seeds = error_deviation(r) / std::sqrt(count(r));
-    return of_seeds > of_pieces ? of_seeds : of_pieces; // of_seeds may be no number
+    return of_seeds > of_pieces ? of_seeds : of_pieces; // false if of_seeds is NaN
 }
 bool is_certain(const Result& r) {
     return error_of(r) > error_uncertainty(r);
@@ -196,13 +197,13 @@ double efficiency_of(const Result& r) {
 }
 
 double reused_share(const Result& r) {
-    return share(total(r).reused_paths, total(r).set_paths());
+    return fraction(total(r).reused_paths, total(r).set_paths());
 }
 double skipped_share(const Result& r) {
-    return share(total(r).skipped_paths, total(r).set_paths());
+    return fraction(total(r).skipped_paths, total(r).set_paths());
 }
 double dark_share(const Result& r) {
-    return share(total(r).dark_paths, total(r).set_paths());
+    return fraction(total(r).dark_paths, total(r).set_paths());
 }
 
 } // namespace tessera

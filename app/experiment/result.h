@@ -1,5 +1,4 @@
-// What an experiment knows: what is finished, and the results of its setups with what is worked out
-// from them.
+// Data of an experiment: the journal of finished runs, and results with the statistics derived from them.
 #pragma once
 
 #include "app/experiment/measured_run.h"
@@ -18,67 +17,66 @@
 
 namespace tessera {
 
-/// What is finished of an experiment, by keys that say all that it depends on, in files of one line for each
-/// piece. Lines that are torn, or not the journal's, do not count.
+/// Finished runs by key, read from files with one JSON object per line. A key holds all inputs of a run.
+/// Incomplete lines and lines of another form are ignored.
 class Journal {
 public:
-    /// A line of such a file.
+    /// Returns a line of such a file.
     static std::string line(const nlohmann::json& key, const nlohmann::json& value);
 
-    /// Adds what the file holds; what it has of a key comes in place of what was known. Throws std::runtime_error
-    /// that names the file where it cannot be read.
+    /// Adds the lines of a file; they replace earlier values of the same keys. Throws std::runtime_error that
+    /// names the file if it cannot be read.
     void read(const std::filesystem::path& file);
-    /// What was last read under this key; null: nothing was.
+    /// Returns the last value read for this key; null: none.
     nlohmann::json find(const nlohmann::json& key) const;
-    /// The file that this is from; empty: nothing was read under this key.
+    /// Returns the file of that value; empty: none.
     std::filesystem::path file_of(const nlohmann::json& key) const;
-    /// Calls it with each key and what was last read under it.
+    /// Calls `take` for each key with its last value.
     void for_each(const std::function<void(const nlohmann::json& key, const nlohmann::json& value)>& take) const;
 
 private:
     struct Entry {
-        std::string value; // as text
-        std::size_t file;  // of files_
+        std::string value; // JSON text
+        std::size_t file;  // index into files_
     };
-    std::vector<std::filesystem::path> files_;       // that were read
-    std::unordered_map<std::string, Entry> entries_; // by their keys, as text
+    std::vector<std::filesystem::path> files_;       // all files read
+    std::unordered_map<std::string, Entry> entries_; // by the key's JSON text
 };
 
-/// What is known of one setup on one scene after one share of its time or samples.
+/// Measurements of one setup on one scene at one effort.
 struct Result {
-    std::string scene; ///< its name
+    std::string scene; ///< name of the scene
     std::filesystem::path file;
     Setup setup;
     int halvings = 0;
-    std::size_t triangles = 0; ///< of the scene
-    /// The kind of machine that all runs are of; empty: the results are not told apart by it.
+    std::size_t triangles = 0; ///< in the scene
+    /// Kind of machine of all runs; empty: results are not separated by machine.
     std::string machine = {};
-    std::vector<Measurement> runs = {}; ///< one a seed, in their order
+    std::vector<Measurement> runs = {}; ///< one for each seed, in order of seeds
 
-    /// What its scene is called in tables and charts: its name, and the machine where results are told apart by
-    /// it.
+    /// Returns the label of tables and charts: the scene's name, with the machine if results are separated by it.
     std::string title() const { return machine.empty() ? scene : scene + " (" + machine + ")"; }
 };
 
-/// What one run has found.
+/// Measurement of one run.
 struct Record {
-    std::size_t scene, setup; ///< by their places
+    std::size_t scene, setup; ///< indices
     std::size_t triangles;
     Measurement measurement;
 };
 
-/// A scene by its name, and where that is known its file.
+/// A scene's name and its file; an empty file: not known.
 struct NamedScene {
     std::string name;
     std::filesystem::path file;
 };
 
-/// The records put together, by scene, setup, time or samples, and kind of machine where there are several and
-/// they are to be told apart.
+/// Groups records into results, ordered by scene, kind of machine, setup and increasing effort. Results of
+/// several kinds of machines are separate unless `takes_any_machine`.
 std::vector<Result> results_of(const std::vector<Record>& records, const std::vector<NamedScene>& scenes,
                                const std::vector<Setup>& setups, bool takes_any_machine);
 
-/// A value of each run, in their order.
+/// Returns a value of each run, in order of the runs.
 template <class Value>
 std::vector<double> of_runs(const Result& result, Value value) {
     std::vector<double> values;
@@ -87,37 +85,38 @@ std::vector<double> of_runs(const Result& result, Value value) {
     return values;
 }
 
-/// A column of tables of results: a CSV file's, and a field of a JSON file.
+/// A column of the tables of results, in CSV files and in JSON.
 struct ResultColumn {
     std::string_view id;
-    double (*value)(const Result&); ///< of a result with at least one run; not a number where there is none
+    double (*value)(const Result&); ///< requires at least one run; NaN: no value
 };
 
-/// All columns, in their order.
+/// Returns all columns in order.
 std::span<const ResultColumn> result_columns();
-/// The value in the column of that id, which must be one of them.
+/// Returns a result's value in the column of that id, which must exist.
 double column_value(std::string_view id, const Result& result);
 
-// These are means over the runs, and their standard deviations, which take two runs.
-double error_of(const Result& result); ///< relMSE without the references' noise
+// Means over the runs, and standard deviations, which need two runs.
+double error_of(const Result& result); ///< relMSE without the noise of the references
 double error_deviation(const Result& result);
-/// The uncertainty of the error, which is the larger of two standard errors: one run's, from how the picture's
-/// pieces differ (the references' noise is the same for all seeds), and that of the mean over the seeds.
+/// Returns the larger of two standard errors of error_of: the mean standard error of a run, from the differences
+/// between pieces of its picture, and the standard error of the mean over seeds. The first includes the
+/// references' noise, which is the same for all seeds.
 double error_uncertainty(const Result& result);
-/// Whether the error is above its uncertainty, and so can be told from nothing.
+/// Returns whether the error is larger than its uncertainty.
 bool is_certain(const Result& result);
 double spp_of(const Result& result);
 double cpu_seconds_of(const Result& result);
 double cpu_seconds_deviation(const Result& result);
 double wall_seconds_of(const Result& result);
-/// The efficiency 1 / (error x CPU seconds) [Bauszat 2017]; not a number where the error is not certain.
+/// Returns 1 / (error x CPU seconds) [Bauszat 2017]; NaN if the error is not significant.
 double efficiency_of(const Result& result);
-/// The speed in millions of samples of pixels a wall second.
+/// Returns 10^6 pixel samples per wall second.
 double speed_of(const Result& result);
 
-// These are shares of the base paths of all sampling sets, in [0, 1].
+// Fractions of the base paths of all sampling sets, in [0, 1].
 double reused_share(const Result& result);
-double skipped_share(const Result& result); ///< by the reuse roulette
-double dark_share(const Result& result);    ///< they carry nothing to reuse
+double skipped_share(const Result& result); ///< skipped by Russian roulette on reuse
+double dark_share(const Result& result);    ///< with no light to reuse
 
 } // namespace tessera

@@ -46,14 +46,14 @@ Variable variable_named(std::string_view id) {
 
 namespace {
 
-/// The value as the setting itself spells it: "0.10" is "0.1".
+/// Returns the value in the setting's own format: "0.1" for "0.10".
 std::string spelled(const Variable& variable, std::string_view value) {
     PictureSettings settings;
     variable.set_text(settings, value);
     return variable.text(settings);
 }
 
-/// Every setting in turn, each time with all values of the variation.
+/// Returns all combinations of the given settings with the values of the variation.
 std::vector<PictureSettings> varied(const std::vector<PictureSettings>& all, const Variation& variation) {
     std::vector<PictureSettings> result;
     for (PictureSettings settings : all) {

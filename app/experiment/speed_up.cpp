@@ -15,8 +15,8 @@ namespace tessera {
 
 namespace {
 
-/// I_x(a, b) by its continued fraction, for x < (a + 1) / (a + b + 2) [Abramowitz and Stegun 1964, 26.5.8],
-/// evaluated from the front [Lentz 1976].
+/// Returns the continued fraction of I_x(a, b) for x < (a + 1) / (a + b + 2) [Abramowitz and Stegun 1964,
+/// 26.5.8], evaluated forwards [Lentz 1976].
 double beta_fraction(double x, double a, double b) {
     constexpr double tiny = 1e-300;
     double c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), fraction = d;
@@ -37,7 +37,7 @@ double beta_fraction(double x, double a, double b) {
     return fraction;
 }
 
-/// The regularised incomplete beta function.
+/// Returns the regularised incomplete beta function I_x(a, b).
 double incomplete_beta(double x, double a, double b) {
     if (x <= 0 || x >= 1)
         return x <= 0 ? 0 : 1;
@@ -47,7 +47,7 @@ double incomplete_beta(double x, double a, double b) {
                                      : 1 - front * beta_fraction(1 - x, b, a) / b;
 }
 
-/// Where a falling function passes the value, between 0 and `high`.
+/// Returns the argument in [0, high] at which a decreasing function has the value, by bisection.
 template <class Function>
 double inverse(Function function, double value, double high) {
     double low = 0;
@@ -101,13 +101,13 @@ double sigmas(double probability) {
     return inverse([](double z) { return std::erfc(z / std::sqrt(2.0)); }, probability, 37);
 }
 
-/// Drops the points that only some of the seeds have reached, whose first pass was over in time: their mean is of
-/// other seeds than that of the next.
+/// Removes the points that only some of the seeds have reached (the others' first pass took longer): their means
+/// are over other seeds than those of the later points.
 static void drop_partial(Curve& curve) {
-    std::size_t most = 0;
+    std::size_t max_runs = 0;
     for (const Result& result : curve)
-        most = std::max(most, result.runs.size());
-    std::erase_if(curve, [&](const Result& result) { return result.runs.size() < most; });
+        max_runs = std::max(max_runs, result.runs.size());
+    std::erase_if(curve, [&](const Result& result) { return result.runs.size() < max_runs; });
 }
 
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
@@ -151,66 +151,67 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-struct Place {
+struct LogPoint {
     double log_time, log_error;
 };
 
-/// The nearest curve that never rises: where one sample of a few seeds makes the error rise for a while, the
-/// places about it get their mean (pool adjacent violators [Ayer 1955]).
-void level(std::vector<Place>& places) {
+/// Replaces the curve by its least-squares non-increasing fit: points where the error rises, which happens for
+/// few seeds, get their mean (pool adjacent violators [Ayer 1955]).
+void make_monotone(std::vector<LogPoint>& points) {
     struct Pool {
         double sum;
         std::size_t count;
         double mean() const { return sum / static_cast<double>(count); }
     };
     std::vector<Pool> pools;
-    for (const Place& place : places) {
-        pools.push_back({place.log_error, 1});
+    for (const LogPoint& point : points) {
+        pools.push_back({point.log_error, 1});
         for (std::size_t n; (n = pools.size()) > 1 && pools[n - 1].mean() > pools[n - 2].mean();
              pools.pop_back()) {
             pools[n - 2].sum += pools[n - 1].sum;
             pools[n - 2].count += pools[n - 1].count;
         }
     }
-    auto place = places.begin();
+    auto point = points.begin();
     for (const Pool& pool : pools)
         for (std::size_t i = 0; i < pool.count; ++i)
-            (place++)->log_error = pool.mean();
+            (point++)->log_error = pool.mean();
 }
 
-/// The certain results in the order of time, as on a log-log chart.
-std::vector<Place> places_of(const Curve& curve) {
-    std::vector<Place> places;
+/// Returns the significant results in order of time, in log-log coordinates.
+std::vector<LogPoint> log_points_of(const Curve& curve) {
+    std::vector<LogPoint> points;
     for (const Result& result : curve)
         if (!result.runs.empty() && is_certain(result))
-            places.push_back({std::log(cpu_seconds_of(result)), std::log(error_of(result))});
-    level(places);
-    return places;
+            points.push_back({std::log(cpu_seconds_of(result)), std::log(error_of(result))});
+    make_monotone(points);
+    return points;
 }
 
-double least_error(const std::vector<Place>& places) {
-    return std::min_element(places.begin(), places.end(),
-                            [](const Place& a, const Place& b) { return a.log_error < b.log_error; })
+double least_error(const std::vector<LogPoint>& points) {
+    return std::min_element(points.begin(), points.end(),
+                            [](const LogPoint& a, const LogPoint& b) { return a.log_error < b.log_error; })
         ->log_error;
 }
 
-/// The time at which the error was last passed on its way down; empty: it was below from the first.
-std::optional<double> time_of(const std::vector<Place>& places, double log_error) {
-    for (std::size_t i = places.size(); i-- > 1;) {
-        const Place &before = places[i - 1], &after = places[i];
+/// Returns the log time at which the error last crosses the value while falling; empty: it is below from the
+/// start.
+std::optional<double> time_of(const std::vector<LogPoint>& points, double log_error) {
+    for (std::size_t i = points.size(); i-- > 1;) {
+        const LogPoint &before = points[i - 1], &after = points[i];
         if (before.log_error >= log_error && log_error >= after.log_error) {
             const double fall = before.log_error - after.log_error;
-            const double share = fall > 0 ? (before.log_error - log_error) / fall : 1;
-            return before.log_time + share * (after.log_time - before.log_time);
+            const double fraction = fall > 0 ? (before.log_error - log_error) / fall : 1;
+            return before.log_time + fraction * (after.log_time - before.log_time);
         }
     }
-    const bool is_first = places.front().log_error <= log_error && places.size() == 1;
-    return is_first ? std::optional(places.front().log_time) : std::nullopt;
+    const bool is_first = points.front().log_error <= log_error && points.size() == 1;
+    return is_first ? std::optional(points.front().log_time) : std::nullopt;
 }
 
-/// The speed-up without its confidence.
+/// Returns the speed-up without its confidence interval.
 SpeedUp estimate(const Curve& slower, const Curve& faster) {
-    const std::vector<Place> slow = places_of(slower), fast = places_of(faster);
+    const std::vector<LogPoint> slow = log_points_of(slower), fast = log_points_of(faster);
     if (slow.empty() || fast.empty())
         return {SpeedUp::Kind::none, none, none, none, none};
     const double log_error = std::max(least_error(slow), least_error(fast));
@@ -253,9 +254,9 @@ SpeedUp speed_up(const Curve& slower, const Curve& faster) {
             logs.push_back(std::log(one.factor));
     if (logs.size() < 2 || logs.size() < seeds.size())
         return result;
-    const double reach = student_t(0.05, n - 1) * jackknife_error(logs);
-    result.low = result.factor * std::exp(-reach);
-    result.high = result.factor * std::exp(reach);
+    const double half_width = student_t(0.05, n - 1) * jackknife_error(logs);
+    result.low = result.factor * std::exp(-half_width);
+    result.high = result.factor * std::exp(half_width);
     return result;
 }
 

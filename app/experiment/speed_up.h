@@ -1,5 +1,5 @@
-// The statistics of experiments: of a few values, of curves of error against cost, and how much faster one curve
-// is than another.
+// Statistics of experiments: of samples of one variable, of curves of error against cost, and of the speed-up of
+// one curve over another.
 #pragma once
 
 #include "app/experiment/result.h"
@@ -9,73 +9,72 @@
 
 namespace tessera {
 
-// Statistics of values of one variable. They are not a number where there are too few values: none, or, but for
-// the mean, one.
+// Statistics of samples of one variable. The results are NaN for too few samples: the mean needs one, the others
+// need two.
 double mean_of(const std::vector<double>& values);
 double deviation_of(const std::vector<double>& values);
 double standard_error_of(const std::vector<double>& values); ///< of the mean
 
-/// The standard error of what was found from n samples, by what is found when one after the other is left out
-/// (jackknife [Efron and Stein 1981]).
-/// @param found  n values, in each of which one sample is missing
+/// Returns the jackknife standard error of an estimate from n samples [Efron and Stein 1981].
+/// @param found  n leave-one-out estimates, each without one of the samples
 double jackknife_error(const std::vector<double>& found);
 
-/// The probability that Student's t with that many degrees of freedom (> 0) is beyond +-t.
+/// Returns the two-sided tail probability P(|T| > t) of Student's t with `freedom` > 0 degrees of freedom.
 double student_tail(double t, double freedom);
 
-/// The t beyond +-t of which it is with that probability, in (0, 1].
+/// Returns the t for which P(|T| > t) is `probability`, in (0, 1]: the inverse of student_tail.
 double student_t(double probability, double freedom);
 
-/// How many standard deviations a normal variable is beyond, on either side, with that probability: 0.0027 is 3.
-/// At most 37, where doubles end.
+/// Returns the z for which a standard normal variable has P(|Z| > z) = probability: 3 for 0.0027. At most 37,
+/// beyond which the probability underflows a double.
 double sigmas(double probability);
 
-/// Error against cost: the results of one setup on one scene, by rising time.
+/// Error against cost: the results of one setup on one scene, in order of increasing time.
 using Curve = std::vector<Result>;
 
-/// All curves of one scene, at least one; where results are told apart by the kind of machine, of one kind.
+/// All curves of one scene, at least one. If results are separated by the kind of machine, all are of one kind.
 struct SceneCurves {
-    std::string name;          ///< Result::title of all
-    std::vector<Curve> curves; ///< in the order of their setups
+    std::string name;          ///< Result::title of all results
+    std::vector<Curve> curves; ///< in order of their setups
 };
 
-/// The results, in the order of their scenes and setups, as curves, which have the points that all of their seeds
-/// have reached.
+/// Groups results, which must be ordered by scene and setup, into curves. A curve keeps only points that all of
+/// its seeds have reached.
 std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results);
 
-/// The exponent b of error ~ (CPU seconds)^b of the certain results (recon/metrics/metrics.h): -1 for methods
-/// without bias. Not a number for fewer than two.
+/// Returns the exponent b of error ~ (CPU seconds)^b over the significant results (recon/metrics/metrics.h):
+/// about -1 for unbiased methods. NaN for fewer than two points.
 double slope_of(const Curve& curve);
 
-/// The result after the most time.
+/// Returns the result after the longest time.
 inline const Result& last_of(const Curve& curve) {
     return curve.back();
 }
 
-/// The curve of that method with the least error at its end; null: there is none.
+/// Returns the method's curve with the smallest final error; null: the scene has no curve of this method.
 const Curve* best_curve(const SceneCurves& scene, Method method);
 
-/// How many times as long one method takes as another to come to the same error.
+/// Ratio of the times that two curves take to reach the same error.
 struct SpeedUp {
     enum class Kind {
-        none,     ///< a curve has no certain error
-        measured, ///< both curves pass the error
-        at_least, ///< the faster was below the error when it was first measured
-        at_most   ///< the slower was
+        none,     ///< a curve has no significant error
+        measured, ///< both curves cross the error
+        at_least, ///< the first point of the faster curve is already below the error
+        at_most   ///< the first point of the slower curve is already below the error
     };
 
     Kind kind = Kind::none;
-    double factor = 0;        ///< CPU seconds of the slower over those of the faster
-    double low = 0, high = 0; ///< of the factor, with 95 % confidence; not numbers for one seed, or a bound
-    double error = 0;         ///< the relMSE at which the two are compared
+    double factor = 0;        ///< CPU seconds of the slower curve over those of the faster
+    double low = 0, high = 0; ///< 95 % confidence interval of the factor; NaN for one seed, or for a bound
+    double error = 0;         ///< the relMSE at which the curves are compared
 };
 
-/// Compares two curves at the least error that both come to; the times for it are interpolated on the lines of the
-/// log-log chart, made monotone, and never extrapolated. The confidence is from how the factor changes when one
-/// seed after the other is left out (jackknife [Efron and Stein 1981] of its logarithm, Student's t).
+/// Compares two curves at the smallest error that both reach. Times are interpolated linearly in the log-log
+/// chart of the curves, after these are made monotone, and never extrapolated. The confidence interval is from
+/// the jackknife over seeds of the factor's logarithm [Efron and Stein 1981] and Student's t.
 SpeedUp speed_up(const Curve& slower, const Curve& faster);
 
-/// The factor in words: "12.3 (10.1 to 15.0)", "at least 40", "out of range".
+/// Formats the factor: "12.3 (10.1 to 15.0)", "at least 40" or "out of range".
 std::string to_string(const SpeedUp& speed_up);
 
 } // namespace tessera

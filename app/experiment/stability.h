@@ -1,4 +1,4 @@
-// The stability suite: its scenes, and how it judges a setup on one of them by path tracing.
+// The stability suite: its scenes, and the verdict on a setup in comparison with path tracing on the same scene.
 #pragma once
 
 #include "app/cli/opened_scene.h"
@@ -12,88 +12,87 @@
 
 namespace tessera {
 
-/// Something measured, and what it is held against.
+/// Difference between a measured and an expected value, with its significance.
 struct Deviation {
     double value = 0;  ///< measured minus expected
-    double error = 0;  ///< its standard error
-    double sigmas = 0; ///< how far from what is tolerated, as a normal variable would be; 0: within it
+    double error = 0;  ///< standard error of `value`
+    double sigmas = 0; ///< standard deviations of a normal variable beyond the tolerance; 0: within
 };
 
-/// What the runs of a setup say of it, with the same scene's PT for comparison.
+/// Statistics of all runs of one setup on one scene. Costs and factors are relative to PT on the same scene.
 struct Findings {
-    std::size_t bad_pixels = 0; ///< not finite, in all runs together
-    std::size_t refused = 0;    ///< samples that were not finite, and left out
-    Deviation energy;           ///< mean luminance over the reference's, minus 1 (of a black one: itself)
-    Deviation squared_bias;     ///< mean of (bias / reference)^2 over pieces of the image: what no number of seeds
-                                ///< averages out
-    double spike = 0;           ///< 99.99th percentile of the pixels' relative errors, all runs together
-    double worst = 0;           ///< the largest of them
+    std::size_t bad_pixels = 0; ///< pixels that are not finite, summed over the runs
+    std::size_t refused = 0;    ///< invalid samples, left out of the pictures; summed over the runs
+    Deviation energy;           ///< mean luminance / the reference's - 1; for a black reference: mean luminance
+    Deviation squared_bias;     ///< mean of (bias / reference)^2 over square pieces of the image
+    double spike = 0;           ///< 99.99th percentile of the pixels' relative errors over all runs
+    double worst = 0;           ///< largest relative error of a pixel in any run
     glm::ivec2 worst_pixel{0};
-    double worst_share = 0; ///< of the squared error, what the worst pixels (worst_count) have
+    double worst_share = 0; ///< fraction of the total squared error that is in the worst_count() worst pixels
     double tone_mapped = 0; ///< mean of Artefacts::tone_mapped
     double tenfold = 0;     ///< mean of Artefacts::tenfold
-    double halo_energy = 0; ///< means of Artefacts::halo_energy and halo_peak over the runs that have a spike;
-    double halo_peak = 0;   ///< not numbers: none has
-    double tile_edges = 0;  ///< mean of TileSpectrum::edges; not a number where there are none
+    double halo_energy = 0; ///< mean of Artefacts::halo_energy over the runs with a firefly; NaN: none has one
+    double halo_peak = 0;   ///< mean of Artefacts::halo_peak over the same runs; NaN: none
+    double tile_edges = 0;  ///< mean of TileSpectrum::edges; NaN for methods without tiles
     double tile_edges_error = 0;
-    double error = 0;       ///< relMSE, of pictures in units of the reference's mean
-    double error_error = 0; ///< its standard error, references' noise included
-    double cost = 0;        ///< of a sample: CPU seconds, over those of PT
-    Counters counters;      ///< of all runs together
-    /// Error times CPU seconds over that of PT: the ratio of errors at equal time. Its interval of 95 %; none of
-    /// them a number where either error is not certain.
+    double error = 0;       ///< mean relMSE, of pictures in units of the reference's mean luminance
+    double error_error = 0; ///< standard error of `error`, including the noise of the references
+    double cost = 0;        ///< CPU seconds of a sample over those of a PT sample
+    Counters counters;      ///< sums over the runs
+    /// Error times CPU seconds, over the same product of PT, which is the ratio of errors at equal time; and its
+    /// 95 % confidence interval. All three are NaN if either error is below twice the references' noise.
     double factor = 0, low = 0, high = 0;
 };
 
 struct Verdict {
     enum class Kind { ok, worse, fails, undecided };
     Kind kind = Kind::ok;
-    std::string cause; ///< empty for ok; of what is worse, what of it is cost, and where shifts fail
+    std::string cause; ///< empty for ok; for worse: error per sample, cost per sample and shift success
 };
 
-/// Finds it. Both results must have runs with artefacts.
+/// Computes the findings. All runs of both results must have artefacts.
 Findings find(const Result& result, const Result& path_tracing, const ReferenceNoise& reference);
 
-/// `path_tracing`: what was found of PT on the same scene. Where that looks biased to references that are made by
-/// PT, rare light is missing in one of them, and nobody's bias can be told. `level`: the probability of calling
-/// a mean wrong that is not.
+/// Judges a setup. The verdict is undecided if the setup is biased and PT also appears biased against its own
+/// path-traced reference, since one of them then lacks rare light paths.
+/// @param path_tracing  findings of PT on the same scene
+/// @param level  probability of calling an unbiased mean biased
 Verdict judge(const Findings& findings, const Findings& path_tracing, double level);
 
-/// "ok", "worse than PT", "fails", "undecided".
+/// Returns "ok", "worse than PT", "fails" or "undecided".
 std::string to_string(Verdict::Kind kind);
 
-/// What a scene needs to fail, if not what the suite gives to all.
+/// Settings that a scene needs for its failure to show, in place of the suite's own.
 struct StabilityNeeds {
     std::optional<int> spp;
     std::optional<int> seeds;
     std::optional<glm::ivec2> size; ///< pixels
 };
 
-/// A scene of the suite.
+/// A scene of the suite, with one value of its variable if it has one.
 struct StabilityScene {
     SceneSource source;
-    int depth = 0;     ///< that it asks for
-    std::string fails; ///< which method is known to fail there, and why; empty: the file does not say
+    int depth = 0;     ///< path length in edges, from the scene file
+    std::string fails; ///< the method that is known to fail there, and why; empty: the file does not say
     StabilityNeeds needs;
 };
 
-/// The scenes of these files: one of each file, or one for each value where it has <!-- vary: NAME = VALUE, VALUE
-/// -->, with any number of values. What is known to fail is in <!-- fails: REASON -->, what it needs for that in
-/// <!-- needs: NEEDS -->: "100000 spp, 3 seeds, 16x16 pixels", any of these. Throws BadInput that names a file
-/// that is not there, where a variable has no values, or where a need is none of these; and as load_mitsuba_xml
-/// does: all are read once.
+/// Loads the scenes of these files. A file gives one scene, or one for each value of the comment
+/// <!-- vary: NAME = VALUE, VALUE -->. <!-- fails: REASON --> states the known failure. <!-- needs: NEEDS -->
+/// states any of the needs, such as "100000 spp, 3 seeds, 16x16 pixels". Throws BadInput that names the file if
+/// it does not exist, if a variable has no values, or if a need is malformed; and as load_mitsuba_xml does.
 std::vector<StabilityScene> stability_scenes(const std::vector<std::filesystem::path>& files);
 
-/// What a scene's file says of who fails there; empty: nothing, or it cannot be read.
+/// Returns the known failure that a scene file states; empty: it states none, or cannot be read.
 std::string known_failure(const std::filesystem::path& file);
 
-/// The scenes that come with the program, in the order of their names: those of assets/stability of the folder at
-/// hand, of the program's, or of one that either lies in. Where there are none, those within the program, which
-/// are written to $XDG_CACHE_HOME/tessera/stability (else ~/.cache). Throws std::exception where that cannot be
-/// done.
+/// Returns the scene files of the suite in order of their names, from the first folder assets/stability found in
+/// the current folder, the program's folder, or a parent of either. If there is none, unpacks the embedded scenes
+/// to $XDG_CACHE_HOME/tessera/stability (default ~/.cache/tessera/stability). Throws std::exception if that
+/// fails.
 std::vector<std::filesystem::path> built_in_stability_scenes();
 
-/// Writes the scenes within the program, and what they are made of, to a folder.
+/// Writes the embedded scenes, and the files that they refer to, to a folder.
 void unpack_stability_scenes(const std::filesystem::path& folder);
 
 } // namespace tessera

@@ -29,7 +29,7 @@ std::string trimmed(const std::string& text) {
     return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// The text as one line.
+/// Returns the words of the text on one line.
 std::string folded(const std::string& text) {
     std::istringstream words(text);
     std::string line;
@@ -38,7 +38,7 @@ std::string folded(const std::string& text) {
     return line;
 }
 
-/// What follows "<!-- KEY:"; empty: there is no such comment.
+/// Returns the text of a comment "<!-- KEY: TEXT -->"; empty: there is none.
 std::string comment_of(const std::string& xml, const std::string& key) {
     const std::string begin = "<!-- " + key + ":";
     const std::size_t found = xml.find(begin);
@@ -48,7 +48,7 @@ std::string comment_of(const std::string& xml, const std::string& key) {
     return folded(xml.substr(from, xml.find("-->", from) - from));
 }
 
-/// "NAME = VALUE, VALUE": each as variables of the scene. Empty text: no variables, once.
+/// Parses "NAME = VALUE, VALUE" into one set of variables for each value. An empty text gives one empty set.
 std::vector<SceneVariables> variants_of(const std::string& text, const fs::path& file) {
     if (text.empty())
         return {{}};
@@ -63,7 +63,7 @@ std::vector<SceneVariables> variants_of(const std::string& text, const fs::path&
     return variants;
 }
 
-/// What a text such as "100000 spp, 3 seeds, 16x16 pixels" says.
+/// Parses a text such as "100000 spp, 3 seeds, 16x16 pixels".
 StabilityNeeds needs_of(const std::string& text, const fs::path& file) {
     StabilityNeeds needs;
     std::istringstream list(text);
@@ -89,8 +89,7 @@ StabilityNeeds needs_of(const std::string& text, const fs::path& file) {
     return needs;
 }
 
-/// The stability scenes' folder in this one, or in the nearest one that it lies in and that has some; empty: there
-/// is none.
+/// Returns the folder assets/stability in this folder or its nearest parent that has one; empty: none has.
 std::optional<fs::path> stability_folder(const fs::path& from) {
     for (fs::path folder = from;; folder = folder.parent_path()) {
         if (fs::is_directory(folder / "assets/stability"))
@@ -100,7 +99,7 @@ std::optional<fs::path> stability_folder(const fs::path& from) {
     }
 }
 
-/// Where programs keep what they can make anew, as the XDG specification says.
+/// Returns the program's cache folder, by the XDG base directory specification.
 fs::path cache_folder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
@@ -126,7 +125,7 @@ std::vector<StabilityScene> stability_scenes(const std::vector<fs::path>& files)
         std::ifstream in(file, std::ios::binary);
         const std::string xml{std::istreambuf_iterator<char>(in), {}};
         const StabilityNeeds needs =
-            needs_of(comment_of(xml, "needs"), file); // g++ 12 frees twice what throws in braces
+            needs_of(comment_of(xml, "needs"), file); // g++ 12 frees twice if a function throws within braces
         for (const SceneVariables& variables : variants_of(comment_of(xml, "vary"), file)) {
             const int depth = std::min(load_mitsuba_xml(file, variables).description.max_depth, most_edges);
             scenes.push_back({{file, variables, {}}, depth, comment_of(xml, "fails"), needs});

@@ -20,19 +20,19 @@ double count_of(const Numbers& values) {
     return static_cast<double>(values.size());
 }
 
-/// What `excess` is over its standard error, with so many degrees of freedom, in standard deviations of a normal
-/// variable. What should not vary at all, and does not, deviates by any excess; where it is not known how far it
-/// varies (one piece), none is significant.
+/// Returns the significance of `excess` in standard deviations of a normal variable, by Student's t with
+/// `freedom` degrees of freedom. With a standard error of 0, any positive excess is significant. With an unknown
+/// one (only one piece), none is.
 double significance(double excess, double error, double freedom) {
     if (!(excess > 0) || std::isnan(error))
         return 0;
     return error > 0 ? sigmas(student_tail(excess / error, freedom)) : sigmas(0);
 }
 
-constexpr double factor_level = 0.05; // the probability of an interval that is wrong
+constexpr double factor_level = 0.05; // probability that the interval misses the true factor
 
-/// How far the mean may be from the truth, relative: rounding, and for what is not linear, what is called its
-/// smoothing.
+/// Accepted relative bias of the mean and of pieces. Unbiased reconstructions are allowed rounding errors; the
+/// others are allowed the bias of a denoiser. Not tuned.
 struct Tolerance {
     double energy, pieces;
 };
@@ -43,8 +43,9 @@ Tolerance tolerance_of(const Setup& setup) {
     return is_linear ? linear : smoothing;
 }
 
-/// The squared bias of the pieces. The mean over all pairs of different runs s, t of (I_s - r1)(I_t - r2) is the
-/// squared bias, without any noise: all four are independent. Pieces tell its standard error.
+/// Estimates the mean squared bias of the pieces: the mean over pairs of different runs s, t of
+/// (I_s - r1)(I_t - r2). All four images are independent, so noise drops out. The standard error is from the
+/// differences between pieces.
 Deviation squared_bias_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
     const auto runs = static_cast<double>(result.runs.size());
     Numbers products;
@@ -64,9 +65,9 @@ Deviation squared_bias_of(const Result& result, const ReferenceNoise& reference,
     return bias;
 }
 
-/// How far the energy is off, by how the seeds differ, and by how the pieces do: rare light that the runs happened
-/// to miss makes seeds alike but pieces differ, noise over many pieces the other way round. What is significant is
-/// so to both.
+/// Measures the change of energy. It is significant only if it is so against the differences between seeds and
+/// against the differences between pieces. Rare paths that all runs miss make seeds too similar; noise over many
+/// pieces makes pieces too similar.
 Deviation energy_of(const Result& result, const ReferenceNoise& reference, double tolerance) {
     const Numbers means = of_runs(result, [](const Measurement& m) { return m.artefacts->mean; });
     Numbers pieces;
@@ -83,9 +84,9 @@ Deviation energy_of(const Result& result, const ReferenceNoise& reference, doubl
     return energy;
 }
 
-void find_spikes(const Result& result, Findings& f) {
+void find_outliers(const Result& result, Findings& f) {
     Numbers worst;
-    double share = 0;
+    double squared_sum = 0;
     for (const Measurement& run : result.runs) {
         const Artefacts& a = *run.artefacts;
         worst.insert(worst.end(), a.worst.begin(), a.worst.end());
@@ -94,14 +95,14 @@ void find_spikes(const Result& result, Findings& f) {
             f.worst_pixel = a.worst_pixel;
         }
         for (double error : a.worst)
-            share += error;
+            squared_sum += error;
     }
     std::sort(worst.begin(), worst.end(), std::greater<>());
     const glm::ivec2 size = result.setup.settings.size;
     const double pixels = static_cast<double>(size.x) * size.y * static_cast<double>(result.runs.size());
     const auto rank = static_cast<std::size_t>(1e-4 * pixels);
     f.spike = std::sqrt(worst[std::min(rank, worst.size() - 1)]);
-    f.worst_share = f.error > 0 ? share / (f.error * pixels) : 0;
+    f.worst_share = f.error > 0 ? squared_sum / (f.error * pixels) : 0;
 }
 
 double cost_of_sample(const Result& result) {
@@ -117,8 +118,8 @@ Numbers without(Numbers values, std::size_t i) {
     return values;
 }
 
-/// The error is that of the ratio's logarithm: from how it changes when one seed after the other is left out of
-/// both, and from the references' noise, which all errors share.
+/// Computes the factor and its interval. The standard error is of the factor's logarithm. It combines the
+/// jackknife over seeds with the noise of the references, which all errors share.
 void find_factor(const Result& result, const Result& pt, double reference_error, Findings& f) {
     const auto error = [](const Measurement& m) { return m.artefacts->error.relative_mse; };
     const auto seconds = [](const Measurement& m) { return m.cpu_seconds; };
@@ -133,19 +134,19 @@ void find_factor(const Result& result, const Result& pt, double reference_error,
             std::log(cost_of(without(e, i), without(t, i)) / cost_of(without(e_pt, i), without(t_pt, i))));
     const double of_seeds = jackknife_error(logs);
     const double of_reference = reference_error * (1 / mean_of(e) - 1 / mean_of(e_pt));
-    const double reach = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
-    if (!std::isfinite(reach))
+    const double half_width = student_t(factor_level, count_of(logs) - 1) * std::hypot(of_seeds, of_reference);
+    if (!std::isfinite(half_width))
         return;
     f.factor = cost_of(e, t) / cost_of(e_pt, t_pt);
-    f.low = f.factor * std::exp(-reach);
-    f.high = f.factor * std::exp(reach);
+    f.low = f.factor * std::exp(-half_width);
+    f.high = f.factor * std::exp(half_width);
 }
 
 bool is_biased(const Findings& f, double level) {
     return std::max(f.energy.sigmas, f.squared_bias.sigmas) > sigmas(level);
 }
 
-/// What of the bias is certain, in words.
+/// Describes the part of the bias that is statistically significant.
 std::string bias_text(const Findings& f, double level) {
     if (f.energy.sigmas > sigmas(level))
         return fmt::format("energy {} by {:.2g} % ({:.1f} sigma)", f.energy.value < 0 ? "lost" : "gained",
@@ -154,27 +155,29 @@ std::string bias_text(const Findings& f, double level) {
                        f.squared_bias.sigmas);
 }
 
-/// "only 31 % of the shifts bring light (mostly kind_mismatch)"; empty where most do, or none was tried.
+/// Returns "only 31 % of the shifts succeed (main failure: kind_mismatch)"; empty if at least half succeed, or if
+/// there are no shifts.
 std::string shift_text(const Counters& counters) {
     const auto& shifts = counters.shifts;
     const auto all = static_cast<double>(counters.shift_attempts());
     const double arrived = static_cast<double>(shifts[static_cast<int>(ShiftOutcome::ok)]) / all;
     if (!(arrived < 0.5))
         return "";
-    const auto most = std::max_element(shifts.begin() + static_cast<int>(ShiftOutcome::ok) + 1, shifts.end());
-    return fmt::format("; only {:.0f} % of the shifts bring light (mostly {})", 100 * arrived,
-                       to_string(static_cast<ShiftOutcome>(most - shifts.begin())));
+    const auto main_failure =
+        std::max_element(shifts.begin() + static_cast<int>(ShiftOutcome::ok) + 1, shifts.end());
+    return fmt::format("; only {:.0f} % of the shifts succeed (main failure: {})", 100 * arrived,
+                       to_string(static_cast<ShiftOutcome>(main_failure - shifts.begin())));
 }
 
-/// The error at equal time is that at equal samples times what a sample costs.
+/// Splits the error at equal time into the error at equal samples and the cost of a sample.
 std::string cause_of_worse(const Findings& f) {
     std::string text =
-        fmt::format("{:.3g} times the error: a sample has {:.2g} times that of PT's, and costs {:.2g} "
-                    "times as much",
+        fmt::format("{:.3g} times PT's error at equal time: {:.2g} times at equal samples, and a sample costs "
+                    "{:.2g} times as much",
                     f.factor, f.factor / f.cost, f.cost);
     text += shift_text(f.counters);
     if (f.worst_share > 0.5)
-        text += fmt::format("; {:.0f} % of it is in the worst pixels", 100 * f.worst_share);
+        text += fmt::format("; {:.0f} % of the squared error is in the worst pixels", 100 * f.worst_share);
     return text;
 }
 
@@ -203,7 +206,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     f.error_error = std::hypot(standard_error_of(errors), reference.squared_error_error);
     f.energy = energy_of(result, reference, tolerance.energy);
     f.squared_bias = squared_bias_of(result, reference, tolerance.pieces);
-    find_spikes(result, f);
+    find_outliers(result, f);
     f.tone_mapped = mean_of(tone_mapped);
     f.tenfold = mean_of(tenfold);
     f.halo_energy = halo_energies.empty() ? none : mean_of(halo_energies);
@@ -218,11 +221,12 @@ Verdict judge(const Findings& findings, const Findings& path_tracing, double lev
     using Kind = Verdict::Kind;
     if (findings.bad_pixels > 0)
         return {Kind::fails, fmt::format("not finite: {} pixels", findings.bad_pixels)};
-    const bool is_biased_by_itself = is_biased(findings, level);
-    if (is_biased_by_itself && is_biased(path_tracing, level))
-        return {Kind::undecided, fmt::format("{}, but so is PT to its own reference: more samples for that",
-                                             bias_text(findings, level))};
-    if (is_biased_by_itself)
+    const bool is_setup_biased = is_biased(findings, level);
+    if (is_setup_biased && is_biased(path_tracing, level))
+        return {Kind::undecided,
+                fmt::format("{}, but PT is biased too, against its own reference: needs more samples",
+                            bias_text(findings, level))};
+    if (is_setup_biased)
         return {Kind::fails, bias_text(findings, level)};
     if (findings.low > 1)
         return {Kind::worse, cause_of_worse(findings)};

@@ -17,7 +17,7 @@ std::string number(double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
 }
 
-/// An error below its uncertainty is none that could be told.
+/// An error below its uncertainty is shown as an upper bound.
 std::string error_text(const Result& r) {
     return is_certain(r) ? fmt::format("{:.3g} ± {:.1g}", error_of(r), error_uncertainty(r))
                          : fmt::format("&lt; {:.2g}", error_uncertainty(r));
@@ -41,16 +41,16 @@ std::string speed_up_section(const std::vector<SceneCurves>& scenes) {
         html += "</tr>\n";
     }
     return html +
-           "</table>\n<p class=\"note\">CPU seconds of the one method over those of G-PR to come to the same "
-           "relMSE, the least that both come to, each with the reconstruction that has the least error at the "
-           "end; interpolated on the log-log curves, never extrapolated. In brackets: 95 % confidence from "
-           "the seeds. “At least”: G-PR was below that error when it was first measured.</p>\n";
+           "</table>\n<p class=\"note\">CPU seconds of a method over those of G-PR at equal relMSE, the smallest "
+           "that both reach. Each method has the reconstruction with the smallest final error. Times are "
+           "interpolated on the log-log curves, never extrapolated. In brackets: 95 % confidence interval from "
+           "the seeds. “At least”: the first measurement of G-PR is already below that error.</p>\n";
 }
 
 std::string figures_table(const ExperimentOptions& options, const SceneCurves& scene) {
     std::string html =
         "<table><tr><th>method</th><th>spp</th><th>CPU s</th><th>wall s</th><th>relMSE</th>"
-        "<th>deviation of seeds</th><th>FLIP</th><th>slope</th><th>efficiency</th><th>tiles</th></tr>\n";
+        "<th>deviation over seeds</th><th>FLIP</th><th>slope</th><th>efficiency</th><th>tiles</th></tr>\n";
     for (const Curve& curve : scene.curves) {
         const Result& r = last_of(curve);
         html += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
@@ -63,7 +63,7 @@ std::string figures_table(const ExperimentOptions& options, const SceneCurves& s
     return html + "</table>\n";
 }
 
-/// The scene's file and its references.
+/// Returns the scene's file and a description of its references.
 std::string reference_text(const Experiment& experiment, const SceneCurves& scene) {
     std::vector<Result> results;
     for (const Curve& curve : scene.curves)
@@ -89,7 +89,7 @@ std::string settings_section(const Experiment& experiment) {
     PictureSettings s = options.settings;
     std::string html = "<h2>Settings and machine</h2>\n<table>\n";
     html += row("program", fmt::format("tessera {}{}", program_identity(),
-                                       options.takes_any_build ? ", some runs maybe by another build" : ""));
+                                       options.takes_any_build ? ", some runs possibly by another build" : ""));
     html += row("machine", machine_text());
     html += row("written on", today());
     html += row("threads", s.threads > 0 ? std::to_string(s.threads)
@@ -114,13 +114,12 @@ std::string settings_section(const Experiment& experiment) {
 
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes) {
     std::string html = not_complete();
-    html +=
-        "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the pixels, where r₁ and r₂ "
-        "are the two independent halves of a reference and r is their mean: their noise does not enter the "
-        "expectation. The number after ± is its standard error; an error below that is given as &lt; and is in no "
-        "chart. FLIP is the mean difference that an observer sees who flips between picture and reference, from 0 "
-        "to 1. Times are of rendering and one reconstruction. “Tiles” is how much the grid of tiles shows in the "
-        "error, as a ratio of spectral power; 1: it does not show.</p>\n";
+    html += "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the pixels, where r₁ "
+            "and r₂ are the two independent halves of a reference and r is their mean: their noise does not enter "
+            "the expectation. The number after ± is its standard error; a smaller error is given as &lt; and "
+            "omitted from charts. FLIP is the mean difference that an observer perceives when flipping between "
+            "picture and reference, from 0 to 1. Times include rendering and one reconstruction. “Tiles” measures "
+            "how visible the tile grid is in the error, as a ratio of spectral power; 1: not visible.</p>\n";
     html += speed_up_section(scenes);
     if (scenes.size() > 1)
         html += to_svg(triangle_chart(experiment.options(), scenes));

@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// Dashes tell the norm; markers tell the values of variations from the first-th on.
+/// Returns the look of a line: dashes show the norm, markers the values of the variations from index `first` on.
 LineLook look_of(const ExperimentOptions& options, const Result& result, std::size_t first) {
     const PictureSettings& s = result.setup.settings;
     std::ptrdiff_t marker = 0;
@@ -26,9 +26,8 @@ LineLook look_of(const ExperimentOptions& options, const Result& result, std::si
     return {s.render.method, s.reconstruction.norm, static_cast<int>(marker)};
 }
 
-/// A line for each curve. What is no number is in no plot.
-/// @param axes      without lines
-/// @param point_of  of a result
+/// Returns the plot `axes` with a line for each curve. Omits points with a y that is not finite.
+/// @param point_of  maps a result to a point
 template <typename PointOf>
 ChartPlot with_curves(ChartPlot axes, const ExperimentOptions& options, const SceneCurves& scene,
                       PointOf point_of) {
@@ -44,7 +43,7 @@ ChartPlot with_curves(ChartPlot axes, const ExperimentOptions& options, const Sc
 
 ChartPlot error_plot(const ExperimentOptions& options, const SceneCurves& scene, const char* x_label,
                      double (*x)(const Result&)) {
-    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    const char* const bars = options.seeds > 1 ? "standard deviation over seeds" : "uncertainty";
     const ChartPlot axes{x_label,
                          fmt::format("relMSE, floor-free (bars: {})", bars),
                          ChartAxis::Scale::log,
@@ -61,13 +60,12 @@ ChartPlot error_plot(const ExperimentOptions& options, const SceneCurves& scene,
     return plot;
 }
 
-/// Against CPU seconds: a column of results that errors are told by.
+/// Returns a plot of a column of the results against CPU seconds.
 ChartPlot seen_plot(const ExperimentOptions& options, const SceneCurves& scene, const char* column,
                     const char* label, ChartAxis::Scale scale) {
-    return with_curves({"CPU seconds", label, ChartAxis::Scale::log, scale, {}, {}}, options, scene,
-                       [column](const Result& r) {
-                           return ChartPoint{cpu_seconds_of(r), column_value(column, r), 0};
-                       });
+    return with_curves(
+        {"CPU seconds", label, ChartAxis::Scale::log, scale, {}, {}}, options, scene,
+        [column](const Result& r) { return ChartPoint{cpu_seconds_of(r), column_value(column, r), 0}; });
 }
 
 } // namespace
@@ -94,7 +92,7 @@ std::string bench_title(const ExperimentOptions& options, const SceneCurves& sce
 Chart bench_chart(const ExperimentOptions& options, const SceneCurves& scene) {
     return {bench_title(options, scene),
             {error_plot(options, scene, "CPU seconds", cpu_seconds_of),
-             error_plot(options, scene, "samples a pixel", spp_of)}};
+             error_plot(options, scene, "samples per pixel", spp_of)}};
 }
 
 Chart seen_chart(const ExperimentOptions& options, const SceneCurves& scene) {
@@ -105,7 +103,7 @@ Chart seen_chart(const ExperimentOptions& options, const SceneCurves& scene) {
 
 Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCurves>& scenes) {
     ChartPlot plot{
-        "triangles", "millions of samples a CPU second", ChartAxis::Scale::log, ChartAxis::Scale::log, {}, {}};
+        "triangles", "millions of samples per CPU second", ChartAxis::Scale::log, ChartAxis::Scale::log, {}, {}};
     for (Method method : all_methods) {
         ChartSeries series{std::string(short_name(method)), {}, false, false, {method, Norm::weighted, 0}};
         for (const SceneCurves& scene : scenes)
@@ -118,7 +116,7 @@ Chart triangle_chart(const ExperimentOptions& options, const std::vector<SceneCu
         if (!series.points.empty())
             plot.series.push_back(series);
     }
-    return {fmt::format("Speed by size of the scene, {}", to_string(options.effort)), {plot}};
+    return {fmt::format("Speed by scene size, {}", to_string(options.effort)), {plot}};
 }
 
 namespace {
@@ -132,7 +130,7 @@ std::string title(const ExperimentOptions& options, const std::string& scene) {
                        options.seeds > 1 ? fmt::format(", {} seeds", options.seeds) : "");
 }
 
-/// The numbers of a variation; empty if it is one of words.
+/// Returns the values of a variation as numbers; empty if they are words.
 std::vector<double> numbers_of(const Variation& variation) {
     std::vector<double> numbers;
     PictureSettings settings;
@@ -144,11 +142,11 @@ std::vector<double> numbers_of(const Variation& variation) {
     return numbers;
 }
 
-/// What the plots have along x.
+/// The x axis of the plots.
 struct Abscissa {
     std::string label;
     std::vector<std::string> values;
-    std::vector<double> numbers; ///< places of the values
+    std::vector<double> numbers; ///< positions of the values
     ChartAxis::Scale scale = ChartAxis::Scale::linear;
     bool has_names = true;
 
@@ -171,10 +169,11 @@ Abscissa abscissa_of(const ExperimentOptions& options) {
         x.numbers = numbers_of(first);
     }
     if (!x.numbers.empty()) {
-        const auto [least, most] = std::minmax_element(x.numbers.begin(), x.numbers.end());
-        const bool is_wide = *most >= 8 * *least; // such as 0, 0.01, 0.1, 1: then zero has no place on any scale
-        x.scale = is_wide && *least > 0 ? ChartAxis::Scale::log : ChartAxis::Scale::linear;
-        x.has_names = is_wide && *least <= 0;
+        const auto [smallest, largest] = std::minmax_element(x.numbers.begin(), x.numbers.end());
+        // Wide ranges, such as 0, 0.01, 0.1, 1, need a log axis, which has no place for 0.
+        const bool is_wide = *largest >= 8 * *smallest;
+        x.scale = is_wide && *smallest > 0 ? ChartAxis::Scale::log : ChartAxis::Scale::linear;
+        x.has_names = is_wide && *smallest <= 0;
     }
     if (x.has_names) {
         x.numbers.clear();
@@ -192,7 +191,7 @@ ChartSeries& series_named(std::vector<ChartSeries>& all, const std::string& labe
     return all.emplace_back(ChartSeries{label, {}, false});
 }
 
-/// `point_of(x, result)` is the point of a result.
+/// Returns a plot of the results. `point_of(x, result)` returns a point.
 template <typename PointOf>
 ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& results, const std::string& y_label,
                   PointOf point_of) {
@@ -215,7 +214,7 @@ ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& r
 } // namespace
 
 Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results) {
-    const char* const bars = options.seeds > 1 ? "deviation of seeds" : "uncertainty";
+    const char* const bars = options.seeds > 1 ? "standard deviation over seeds" : "uncertainty";
     const auto error = [&](double x, const Result& r) {
         const double certain = is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN();
         return ChartPoint{x, certain, options.seeds > 1 ? error_deviation(r) : error_uncertainty(r)};
@@ -225,7 +224,7 @@ Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& r
     return {title(options, results.front().title()),
             {plot_of(options, results, fmt::format("relMSE, floor-free (bars: {})", bars), error),
              plot_of(options, results, "efficiency, 1 / (relMSE × CPU seconds)", efficiency),
-             plot_of(options, results, "millions of samples a wall second", speed)}};
+             plot_of(options, results, "millions of samples per wall second", speed)}};
 }
 
 std::vector<Chart> sweep_charts(const ExperimentOptions& options, const std::vector<Result>& results) {

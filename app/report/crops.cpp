@@ -19,14 +19,14 @@ namespace {
 
 constexpr int label_height = 18;
 
-/// Draws text at the top left corner of `image`, in pixels; what does not fit is cut off.
+/// Draws text with its top left corner at (left, top), in pixels. Text outside the image is cut off.
 void draw_text(RgbImage& image, int left, int top, const std::string& text) {
     struct Corner {
         float x, y, z;
         unsigned char color[4];
     };
     std::vector<Corner> corners(text.size() * 64);
-    std::string copy = text; // the font's interface takes no const
+    std::string copy = text; // stb_easy_font takes no const
     const int quads = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
                                           static_cast<int>(corners.size() * sizeof(Corner)));
     for (int q = 0; q < quads; ++q) {
@@ -61,7 +61,7 @@ float relative_error(Rgb value, Rgb truth) {
     return std::min(1.0f, error * error / (luminance(truth) * luminance(truth) + float(relative_mse_epsilon)));
 }
 
-/// sums(x, y) is that of all pixels left of x and above y.
+/// Returns the summed-area table of the errors: sums(x, y) is the sum over all pixels left of x and above y.
 Image<double> summed_errors(const RgbImage& reference, const std::vector<const RgbImage*>& pictures) {
     Image<double> sums(reference.width() + 1, reference.height() + 1);
     for (int y = 0; y < reference.height(); ++y) {
@@ -86,19 +86,19 @@ std::vector<PixelRect> choose_crops(const RgbImage& reference, const std::vector
                                     int edge, int count) {
     const Image<double> sums = summed_errors(reference, pictures);
     edge = std::min({edge, reference.width(), reference.height()});
-    constexpr int step = 4; // pixels between squares that are tried
+    constexpr int step = 4; // pixels between the squares that are tried; not tuned
     std::vector<PixelRect> chosen;
     for (int i = 0; i < count; ++i) {
         PixelRect best{0, 0, 0, 0};
-        double most = -1;
+        double largest_sum = -1;
         for (int y = 0; y + edge <= reference.height(); y += step)
             for (int x = 0; x + edge <= reference.width(); x += step) {
                 const PixelRect rect{x, y, x + edge, y + edge};
                 const double sum = sums(rect.x1, rect.y1) - sums(rect.x0, rect.y1) - sums(rect.x1, rect.y0) +
                                    sums(rect.x0, rect.y0);
                 const auto is_in = [&](PixelRect other) { return overlap(rect, other); };
-                if (sum > most && std::none_of(chosen.begin(), chosen.end(), is_in)) {
-                    most = sum;
+                if (sum > largest_sum && std::none_of(chosen.begin(), chosen.end(), is_in)) {
+                    largest_sum = sum;
                     best = rect;
                 }
             }
@@ -128,7 +128,7 @@ float usual_exposure(const RgbImage& image) {
 
 namespace {
 
-/// "seed 1: relMSE 0.012, FLIP 0.08<br>96 spp, 60.1 CPU s": of the run that made the picture.
+/// Returns "seed 1: relMSE 0.012, FLIP 0.08<br>96 spp, 60.1 CPU s" of the run that made the picture.
 std::string figures_of(const Result& result, std::uint64_t seed) {
     for (const Measurement& m : result.runs)
         if (m.seed == seed)
@@ -138,14 +138,15 @@ std::string figures_of(const Result& result, std::uint64_t seed) {
     return "";
 }
 
-/// The picture of a file; empty, with a warning: it cannot be read. One damaged file is no reason to be without
-/// the report of a long run.
+/// Reads the picture of a file. Returns an empty image and prints a warning if the file cannot be read, so that a
+/// damaged file does not prevent the report.
 RgbImage read_picture(const std::filesystem::path& file) {
     try {
         const ExrFile exr = read_exr(file, {}, {""});
         return require_layer(exr, "", file);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "warning: not on the page: {}; removed, it is rendered again\n", error.what());
+        fmt::print(stderr, "warning: a picture is missing from the page: {}; delete the file to render it again\n",
+                   error.what());
         return {};
     }
 }
@@ -176,7 +177,7 @@ const ReferenceImage* reference_of(const Experiment& experiment, const SceneCurv
     return nullptr;
 }
 
-/// The whole reference with frames around the crops.
+/// Returns HTML of the whole reference with frames around the crops.
 std::string overview(const RgbImage& reference, float exposure, const std::vector<PixelRect>& rects) {
     std::string html =
         fmt::format(R"(<div style="position:relative; width:{}px; max-width:100%">)", reference.width());
@@ -192,7 +193,7 @@ std::string overview(const RgbImage& reference, float exposure, const std::vecto
     return html + "</svg></div>\n";
 }
 
-/// `name` and `figures` as of a PagePicture.
+/// Returns HTML of an image with the name and figures of a PagePicture.
 std::string captioned(const RgbImage& image, float exposure, const std::string& name, const std::string& figures) {
     constexpr int shown = 200; // pixels of the page
     return fmt::format("<figure style=\"width:{0}px\">{1}<figcaption><b>{2}</b><br>{3}</figcaption></figure>\n",
@@ -220,17 +221,16 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     const int edge = std::clamp(std::min(truth.width(), truth.height()) / 3, 16, 160);
     const std::vector<PixelRect> rects = choose_crops(truth, images, edge, 2);
     const float exposure = usual_exposure(truth);
-    std::string html = fmt::format(
-        "<h3>At equal time</h3>\n<p class=\"note\">The two squares where the pictures below err most, all of them "
-        "together, each at an exposure that shows it. Exposure of the whole {:+.1f} stops, sRGB. These are "
-        "pictures "
-        "of seed {}, and so are the figures below them; the table has means over all seeds.</p>\n",
-        exposure, experiment.options().settings.render.seed);
+    std::string html =
+        fmt::format("<h3>At equal time</h3>\n<p class=\"note\">The two squares with the largest total error of "
+                    "the pictures below, each at its own exposure. Exposure of whole pictures: {:+.1f} stops, "
+                    "sRGB. Pictures and their figures are of seed {}; the table has means over all seeds.</p>\n",
+                    exposure, experiment.options().settings.render.seed);
     html += comparison(truth, pictures, exposure);
     html += overview(truth, exposure, rects);
     for (PixelRect rect : rects) {
         const RgbImage true_crop = crop(truth, rect);
-        const float shown = std::min(exposure, usual_exposure(true_crop)); // bright corners are not to burn out
+        const float shown = std::min(exposure, usual_exposure(true_crop)); // avoids overexposed crops
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
         html += captioned(true_crop, shown, "reference", fmt::format("exposure {:+.1f}", shown));
         for (const PagePicture& picture : pictures)

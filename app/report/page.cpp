@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// The bytes in base 64 [RFC 4648, 4].
+/// Encodes bytes in base 64 [RFC 4648, 4].
 std::string base64(const std::vector<char>& bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -60,7 +60,9 @@ std::string html_page(std::string_view title, const std::string& body) {
 }
 
 std::string not_complete() {
-    return interrupted() ? "<p><b>Not complete: it was interrupted.</b> The same command goes on.</p>\n" : "";
+    return interrupted() ? "<p><b>Not complete: the experiment was interrupted.</b> Run the same command again to "
+                           "continue.</p>\n"
+                         : "";
 }
 
 std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes) {
@@ -70,7 +72,7 @@ std::string inline_image(const RgbImage& image, float exposure, std::string_view
 
 namespace {
 
-/// A small picture of the strip below the canvas; all that the canvas shows is in these.
+/// Returns a thumbnail of the strip below the canvas. The canvas takes its pixels from these images.
 std::string small_picture(const RgbImage& image, float exposure, const std::string& name,
                           const std::string& figures) {
     return fmt::format("<figure>{}<figcaption><b>{}</b><br>{}</figcaption></figure>\n",
@@ -93,16 +95,16 @@ std::string comparison(const RgbImage& reference, const std::vector<PagePicture>
         first += list_option(i + 1, name, i + 1 == pictures.size());
         second += list_option(i + 1, name, false);
     }
-    return fmt::format("<div class=\"compare\" data-exposure=\"{}\">\n"
-                       "<p><select>{}</select> against <select>{}</select> <button value=\"first\">first</button>"
-                       "<button value=\"second\">second</button><button value=\"wipe\" class=\"on\">wipe</button>"
-                       "<button value=\"flicker\">flicker</button><button value=\"difference\">difference</button>"
-                       " <label>times 2^<input type=\"range\" min=\"0\" max=\"8\" value=\"2\"></label></p>\n"
-                       "<canvas></canvas><output>Wheel: enlarge; values are radiances, to the eight bits of the "
-                       "page. The mouse on a "
-                       "small picture shows it, a click compares it.</output>\n"
-                       "<div class=\"pictures\">{}</div></div>\n",
-                       exposure, first, second, small);
+    return fmt::format(
+        "<div class=\"compare\" data-exposure=\"{}\">\n"
+        "<p><select>{}</select> against <select>{}</select> <button value=\"first\">first</button>"
+        "<button value=\"second\">second</button><button value=\"wipe\" class=\"on\">wipe</button>"
+        "<button value=\"flicker\">flicker</button><button value=\"difference\">difference</button>"
+        " <label>times 2^<input type=\"range\" min=\"0\" max=\"8\" value=\"2\"></label></p>\n"
+        "<canvas></canvas><output>Wheel: zoom. Values are radiances, with the 8-bit precision of the "
+        "page. Point at a small picture to show it; click to compare it.</output>\n"
+        "<div class=\"pictures\">{}</div></div>\n",
+        exposure, first, second, small);
 }
 
 std::string to_markdown(const ReportTable& table) {
@@ -135,7 +137,7 @@ std::string html_cell(const ReportTable::Column& column, const ReportTable::Cell
         words = fmt::format("<b>{}</b>{}", escaped(cell.strong), words);
     if (!cell.link.empty())
         words = fmt::format("<a href=\"#{}\">{}</a>", escaped(cell.link), words);
-    const bool is_long = cell.text.size() > 30; // is broken into lines
+    const bool is_long = cell.text.size() > 30; // wraps lines
     return fmt::format("<td class=\"{}{}{}\">{}</td>", column.is_number ? "" : "words ", is_long ? "long " : "",
                        cell.look, words);
 }

@@ -1,5 +1,4 @@
-// What pages of reports are made of: HTML that needs no other file, with pictures that are held against each
-// other, and tables that are written as Markdown, too.
+// Parts of report pages: self-contained HTML, comparisons of pictures, and tables for HTML and Markdown.
 #pragma once
 
 #include "recon/image.h"
@@ -10,41 +9,41 @@
 
 namespace tessera {
 
-/// The whole page: heading, `body` (HTML), and what its comparisons need.
+/// Returns a page with a heading, `body` (HTML), and the style and script that comparisons need.
 std::string html_page(std::string_view title, const std::string& body);
 
-/// HTML: says that the experiment was interrupted; empty where it was not.
+/// Returns HTML that states that the experiment was interrupted; empty if it was not.
 std::string not_complete();
 
-/// <img> of the image as PNG, times 2^exposure, in the page itself. `attributes` are as HTML has them.
+/// Returns an <img> with the image times 2^exposure as embedded PNG. `attributes` are HTML attributes.
 std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes);
 
-/// A picture of a page, with what it is called and what is known of it.
+/// A picture of a page, with its label and figures.
 struct PagePicture {
     std::string name;    ///< plain text
     std::string figures; ///< HTML
     RgbImage image;
 };
 
-/// HTML: the reference and the pictures as a whole, one against another (assets/compare.js), times 2^exposure, and
-/// all of them small. They must be of one size; there must be one.
+/// Returns HTML that compares the reference and the pictures with each other (assets/compare.js), times
+/// 2^exposure, with thumbnails. All must have one size, and there must be at least one picture.
 std::string comparison(const RgbImage& reference, const std::vector<PagePicture>& pictures, float exposure);
 
-/// A table of a report. All text is plain.
+/// A table of a report, in plain text.
 struct ReportTable {
     struct Column {
         std::string name;
-        bool is_number = false;   ///< stands on the right
-        std::string meaning = {}; ///< empty: the name says it
+        bool is_number = false;   ///< aligned right
+        std::string meaning = {}; ///< explanation; empty: the name suffices
     };
     struct Cell {
         std::string text;
-        std::string strong = {}; ///< before the text
-        std::string look = {}; ///< a class of the page's style: "ok", "worse", "fails", "undecided"; empty: as any
-        std::string link = {}; ///< an anchor's name: leads there
+        std::string strong = {}; ///< bold text before `text`
+        std::string look = {};   ///< class of the page's style: "ok", "worse", "fails", "undecided"; empty: none
+        std::string link = {};   ///< name of the anchor to link to
     };
     std::vector<Column> columns;
-    std::vector<std::vector<Cell>> rows; ///< a cell for each column; an empty one where there is nothing to say
+    std::vector<std::vector<Cell>> rows; ///< a cell for each column; may be empty
 };
 
 std::string to_markdown(const ReportTable& table);

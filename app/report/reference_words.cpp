@@ -17,36 +17,36 @@ Method method_of(const Result& result) {
     return result.setup.settings.render.method;
 }
 
-/// Whether the result is by the method and the reconstruction of a reference.
-bool is_made_alike(const Result& result, const ReferenceOrigin& origin) {
+/// Returns whether the result has the method and the reconstruction of the reference.
+bool has_origin(const Result& result, const ReferenceOrigin& origin) {
     return method_of(result) == origin.method &&
            (!has_gradients(*origin.method) ||
             to_string(result.setup.settings.reconstruction.norm) == origin.reconstruction);
 }
 
-/// Returns the error of path tracing over that of the reference's method and reconstruction, after the same time
-/// on the same kind of machine. Each is the least of its setups. Not a number where one of them was not measured,
-/// or where the renders have equal samples, not equal time.
+/// Returns the error of path tracing over that of the reference's method and reconstruction, at equal time on the
+/// same kind of machine. Each error is the smallest over its setups. NaN if either was not measured, or if the
+/// renders have equal samples instead of equal time.
 double error_ratio(const ExperimentOptions& options, const std::vector<Result>& results,
                    const ReferenceOrigin& origin) {
-    const Result *pt = nullptr, *alike = nullptr;
-    const auto take_better = [](const Result*& best, const Result& result) {
+    const Result *pt = nullptr, *same_as_reference = nullptr;
+    const auto keep_better = [](const Result*& best, const Result& result) {
         if (is_certain(result) && (!best || error_of(result) < error_of(*best)))
             best = &result;
     };
     for (const Result& result : results)
         if (result.halvings == 0 && method_of(result) == Method::pt)
-            take_better(pt, result);
+            keep_better(pt, result);
     for (const Result& result : results)
-        if (pt && result.halvings == 0 && result.machine == pt->machine && is_made_alike(result, origin))
-            take_better(alike, result);
-    if (!pt || !alike || options.effort.unit == Effort::Unit::spp)
+        if (pt && result.halvings == 0 && result.machine == pt->machine && has_origin(result, origin))
+            keep_better(same_as_reference, result);
+    if (!pt || !same_as_reference || options.effort.unit == Effort::Unit::spp)
         return std::numeric_limits<double>::quiet_NaN();
-    return error_of(*pt) / error_of(*alike);
+    return error_of(*pt) / error_of(*same_as_reference);
 }
 
-/// Explains why a reference by one of the judged methods can judge them; empty where it is by none of them, or by
-/// path tracing, the baseline.
+/// Explains the consequences if a reference is by one of the judged methods. Empty if it is by none of them, or
+/// by path tracing.
 std::string words_on_judged_method(const ExperimentOptions& options, const std::vector<Result>& results,
                                    const ReferenceOrigin& origin) {
     if (!origin.method || origin.method == Method::pt)
@@ -60,16 +60,12 @@ std::string words_on_judged_method(const ExperimentOptions& options, const std::
     const double ratio = error_ratio(options, results, origin);
     std::string reason;
     if (ratio > 1)
-        reason =
-            fmt::format("; its reference is used because at equal time its error is {:.2g} times lower than path "
-                        "tracing's",
-                        ratio);
+        reason = fmt::format("; at equal time its error is {:.2g} times lower than path tracing's", ratio);
     else if (std::isfinite(ratio))
         reason = fmt::format("; at equal time its error is {:.2g} times path tracing's", 1 / ratio);
     return fmt::format(
-        " {0} is also judged here{1}. No picture has a seed of the reference. A bias of {0} would be in "
-        "the reference, too, and does not show here; tessera stability compares all methods with path "
-        "tracing.",
+        " {0} is also judged here{1}. No picture has a seed of the reference. A bias of {0} would also be in the "
+        "reference and not be visible here; tessera stability compares all methods with path tracing.",
         name, reason);
 }
 

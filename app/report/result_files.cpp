@@ -28,12 +28,12 @@ std::string csv_cell(const std::string& text) {
 
 namespace {
 
-/// JSON knows no infinities, and no "not a number": null.
+/// Returns the value; null for infinities and NaN, which JSON lacks.
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-/// The kinds of machines that its runs are of.
+/// Returns the kinds of machines of the result's runs.
 std::string machines_of(const Result& result) {
     std::set<std::string> kinds;
     for (const Measurement& run : result.runs)
@@ -41,7 +41,7 @@ std::string machines_of(const Result& result) {
     return fmt::format("{}", fmt::join(kinds, "; "));
 }
 
-/// The value as a number where it is one; null where it makes no difference.
+/// Returns the value of a variation, as a number if it is one; null if it has no effect.
 ordered_json value_json(const Variation& variation, const std::string& value) {
     if (value.empty())
         return nullptr;

@@ -18,7 +18,7 @@ namespace tessera {
 
 namespace {
 
-/// The names in the cells, each once, in the order in which they come.
+/// Returns the distinct names in the cells, in order of their first occurrence.
 std::vector<std::string> names(const std::vector<OverviewCell>& cells, std::string OverviewCell::* member) {
     std::vector<std::string> names;
     for (const OverviewCell& cell : cells)
@@ -29,8 +29,8 @@ std::vector<std::string> names(const std::vector<OverviewCell>& cells, std::stri
 
 using Cell = ReportTable::Cell;
 
-/// The class of a verdict's colour.
-std::string look_of(Verdict::Kind kind) {
+/// Returns the style class of a verdict.
+std::string style_class_of(Verdict::Kind kind) {
     switch (kind) {
     case Verdict::Kind::ok:
         return "ok";
@@ -45,7 +45,7 @@ std::string look_of(Verdict::Kind kind) {
 }
 
 Cell overview_cell(const OverviewCell& of) {
-    const std::string look = look_of(of.verdict),
+    const std::string look = style_class_of(of.verdict),
                       ratio = std::isfinite(of.factor) ? fmt::format(" {:.3g}", of.factor) : "";
     if (of.verdict == Verdict::Kind::ok)
         return {"ok" + ratio, "", look};
@@ -80,8 +80,8 @@ std::string anchor(const std::string& scene) {
 
 namespace {
 
-/// The image brighter by that factor, and in pixels twice as large.
-RgbImage shown(const RgbImage& image, float factor) {
+/// Returns the image times `factor`, with its pixels doubled in size.
+RgbImage enlarged(const RgbImage& image, float factor) {
     RgbImage large(2 * image.width(), 2 * image.height());
     for (int y = 0; y < large.height(); ++y)
         for (int x = 0; x < large.width(); ++x)
@@ -97,14 +97,15 @@ std::string percent(const Deviation& d) {
     return fmt::format("{:+.2f} ± {:.2f}", 100 * d.value, 100 * d.error);
 }
 
-/// The cell of a squared deviation; what is below nothing is noise.
+/// Returns the bias as root of the squared bias, with the upper limit of its interval. A negative estimate is
+/// noise and counts as 0.
 std::string bias_cell(const Deviation& d) {
     return fmt::format("{:.2f} (< {:.2f})", 100 * std::sqrt(std::max(0.0, d.value)),
                        100 * std::sqrt(std::max(0.0, d.value + 2 * d.error)));
 }
 
 Cell verdict_cell(const StabilityRow& row) {
-    const std::string word = to_string(row.verdict.kind), look = look_of(row.verdict.kind);
+    const std::string word = to_string(row.verdict.kind), look = style_class_of(row.verdict.kind);
     return row.verdict.cause.empty() ? Cell{word, "", look} : Cell{": " + row.verdict.cause, word, look};
 }
 
@@ -122,21 +123,20 @@ std::vector<ReportTable::Column> columns() {
         {"error at equal time / PT's", true},
         {"relMSE", true},
         {"FLIP", true,
-         "how much an observer who flips between picture and reference sees them differ, from 0 to 1"},
+         "difference that an observer perceives when flipping between picture and reference, from 0 to 1"},
         {"spp", true},
         {"energy %", true},
-        {"bias %", true, "root of the squared bias, without noise, and its upper end (2 standard errors)"},
-        {"spike", true, "99.99th percentile of the pixels' relative errors, all seeds together"},
+        {"bias %", true, "RMS bias of pieces, without noise, and its upper limit (2 standard errors)"},
+        {"outliers", true, "99.99th percentile of the pixels' relative errors over all seeds"},
         {"worst pixel", true},
-        {"worst pixels' share", true, "of relMSE, what about 1 in 1000 pixels (16 at the least) have"},
-        {"off tenfold %", true, "pixels of more than ten times the reference's luminance, or less than a tenth"},
-        {"tone-mapped", true, "1000 times the mean squared error of x / (1 + x), which no spike rules"},
+        {"worst pixels' share", true, "fraction of relMSE in the worst pixels, about 1 in 1000 (at least 16)"},
+        {"off 10x %", true, "pixels with more than ten times the reference's luminance, or less than a tenth"},
+        {"tone-mapped", true, "1000 times the mean squared error of x / (1 + x), which fireflies do not dominate"},
         {"halo", true,
-         "what the brightest spike puts outside of its tile, over its own energy, and the largest change of a "
-         "pixel "
-         "there, over its brightness (a ring or a blob; spread light has much of the former and little of the "
-         "latter)"},
-        {"tile edges", true, "spectrum of squared steps at the tile frequency, 1 where no grid shows"}};
+         "energy that the brightest firefly adds outside of its tile, over its own energy, and the largest change "
+         "of a pixel there, over its brightness (a ring or a blob; for redistributed energy the first is about 1, "
+         "the second small)"},
+        {"tile edges", true, "spectrum of squared pixel differences at the tile frequency; 1: no visible grid"}};
 }
 
 ReportTable table_of(const std::vector<StabilityRow>& rows) {
@@ -197,7 +197,7 @@ std::string page_section(const StabilityCase& c, const std::vector<StabilityRow>
                        pictures.empty() ? "" : comparison(reference, pictures, usual_exposure(reference)), charts);
 }
 
-/// What the report says first: how all was rendered, and what its words mean, which are in front (empty: of none).
+/// Introduction of the report: the conditions, and notes as pairs of a term (may be empty) and its meaning.
 struct Introduction {
     std::string conditions;
     std::vector<std::pair<std::string, std::string>> notes;
@@ -209,27 +209,25 @@ Introduction introduction(const ExperimentOptions& suite, double level) {
         if (!column.meaning.empty())
             terms += fmt::format(" {}: {}.", column.name, column.meaning);
     const glm::ivec2 size = suite.settings.size;
-    return {fmt::format(
-                "{}x{} pixels, {} each, {} seeds, unless a scene says what it needs; {}. References are by path "
-                "tracing, which reuses no paths, with other seeds than the pictures.",
-                size.x, size.y, to_string(suite.effort), suite.seeds, cpu_model()),
-            {{"fails",
-              fmt::format(
-                  "not finite; or the mean over the seeds is not the reference's, by more than {:.1f} sigma: of "
-                  "the energy (mean luminance), or of the squared bias of pieces of 8x8 pixels. Where a method is "
-                  "linear in its samples (none, l2), nothing but rounding is tolerated; of other "
-                  "reconstructions, 2 % of the energy and 10 % RMS of the pieces.",
-                  sigmas(level))},
-             {"worse",
-              "relMSE times CPU seconds (reconstruction included) is more than PT's, and so is the low end of its "
-              "interval of 95 %, from how seeds differ."},
-             {"undecided", "PT itself differs from the reference, which then lacks rare light."},
-             {"", fmt::format(
-                      "Sigmas are corrected for all tests of the suite: one suite in a hundred calls a mean wrong "
-                      "that is not (level {:.1e} each). Intervals are not: of forty that hold 1, one is called "
-                      "worse.",
-                      level)},
-             {"", terms}}};
+    return {
+        fmt::format(
+            "{}x{} pixels, {} each, {} seeds, unless a scene states other needs; {}. References are by path "
+            "tracing, which reuses no paths, with other seeds than the pictures.",
+            size.x, size.y, to_string(suite.effort), suite.seeds, cpu_model()),
+        {{"fails", fmt::format("pixels are not finite, or the mean over the seeds differs from the reference by "
+                               "more than {:.1f} sigma, in energy (mean luminance) or in the squared bias of "
+                               "pieces of 8x8 pixels. Unbiased reconstructions (such as none, l2) are allowed "
+                               "rounding errors; the others, 2 % of the energy and 10 % RMS of the pieces.",
+                               sigmas(level))},
+         {"worse", "relMSE times CPU seconds (reconstruction included) is larger than PT's, with 95 % confidence "
+                   "from the seeds."},
+         {"undecided",
+          "the setup is biased, but so is PT against its own reference: one of them lacks rare light paths."},
+         {"", fmt::format("Sigmas are corrected for the number of tests: a suite calls any unbiased mean biased "
+                          "with a probability of at most 1 % (level {:.1e} each). Intervals are not corrected: a "
+                          "setup that equals PT is called worse with a probability of 1 in 40.",
+                          level)},
+         {"", terms}}};
 }
 
 std::string markdown(const Introduction& introduction) {
@@ -279,9 +277,9 @@ void write_sheet(const ExperimentOptions& suite, const StabilityCase& c) {
         named.push_back({name_of(result), &result});
     const RgbImage& reference = reference_of(c).mean;
     const float brighter = std::exp2(usual_exposure(reference));
-    std::vector<LabelledPicture> pictures = {{"reference", shown(reference, brighter)}};
+    std::vector<LabelledPicture> pictures = {{"reference", enlarged(reference, brighter)}};
     for (const PagePicture& picture : pictures_of(*c.experiment, named, reference))
-        pictures.push_back({picture.name, shown(picture.image, brighter)});
+        pictures.push_back({picture.name, enlarged(picture.image, brighter)});
     write_png(suite.output / (c.name() + ".png"), picture_sheet(pictures, 4));
 }
 

@@ -19,7 +19,7 @@ double level_of(const ExperimentOptions& suite, const std::vector<StabilityCase>
 
 namespace {
 
-/// The rows of a case, of setups that have two runs, as PT has on the same kind of machine.
+/// Returns the rows of a case.
 std::vector<StabilityRow> rows_of(const StabilityCase& c, double level) {
     std::vector<Result> results = c.experiment->results();
     std::erase_if(results, [](const Result& r) { return r.runs.size() < 2; });

@@ -1,4 +1,4 @@
-// What the stability suite has found, row by row, for its page, its text and its file of numbers.
+// Results of the stability suite as rows, for its page, its Markdown report and its CSV file.
 #pragma once
 
 #include "app/experiment/stability.h"
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// What was found of one setup on one scene.
+/// Results of one setup on one scene.
 struct StabilityRow {
     const StabilityCase* of;
     Result result;
@@ -17,16 +17,16 @@ struct StabilityRow {
     Verdict verdict;
 };
 
-/// The suite is to call a mean wrong that is not once in a hundred times, all its tests together [Bonferroni]:
-/// energy and bias of each setup.
+/// Returns the significance level of a single test, by Bonferroni correction: the probability that any test of
+/// the suite (energy and bias of each setup) calls an unbiased mean biased is at most 1 %.
 double level_of(const ExperimentOptions& suite, const std::vector<StabilityCase>& cases);
 
-/// The rows of all cases, of setups that have two runs, as PT has on the same kind of machine.
+/// Returns the rows of all cases: setups with at least two runs, if PT has two on the same kind of machine.
 std::vector<StabilityRow> rows_of(const std::vector<StabilityCase>& cases, double level);
 
 const ReferenceImage& reference_of(const StabilityCase& c);
 
-/// What the rows call a setup, and the kind of machine where results are told apart by it.
+/// Returns the name of the setup, with the kind of machine if results are separated by it.
 std::string name_of(const Result& result);
 
 std::string to_csv(const std::vector<StabilityRow>& rows);

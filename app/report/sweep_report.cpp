@@ -19,7 +19,7 @@ std::string cell(double value) {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
 }
 
-/// An error below its uncertainty is none that could be told.
+/// An error below its uncertainty is shown as an upper bound.
 std::string error_cell(const Result& r) {
     return is_certain(r) ? cell(error_of(r)) : fmt::format("< {}", cell(error_uncertainty(r)));
 }
@@ -35,7 +35,7 @@ std::string rule(std::size_t columns, std::size_t left) {
     return text + "\n";
 }
 
-/// A table of error, time and efficiency by value.
+/// Returns a table of error, time and efficiency.
 std::string error_table(const ExperimentOptions& options, const Results& results) {
     std::string text = "| scene | method |";
     for (const Variation& variation : options.variations)
@@ -61,14 +61,14 @@ std::string percent(double share) {
     return std::isfinite(share) ? fmt::format("{:.1f}", 100 * share) : "-";
 }
 
-/// [Bauszat 2017, table 1], transposed: a line for every scene, method and value of the second variation, a column
-/// for every value of the first.
+/// Returns [Bauszat 2017, table 1], transposed: a row for every scene, method and value of the second variation,
+/// a column for every value of the first.
 std::string reuse_table(const ExperimentOptions& options, const Results& results) {
     std::vector<std::string> columns;
     std::vector<std::pair<std::string, std::string>> lines;
     for (const Result& r : results) {
         if (!std::isfinite(reused_share(r)))
-            continue; // a method that shares nothing
+            continue; // no path reuse
         const std::pair line(r.title(), line_label(options, r));
         if (std::find(columns.begin(), columns.end(), first_value(r)) == columns.end())
             columns.push_back(first_value(r));
@@ -100,7 +100,7 @@ bool has_tiles(const Result& r) {
     return std::any_of(r.runs.begin(), r.runs.end(), [](const Measurement& m) { return m.tiles.has_value(); });
 }
 
-/// A table of how much the grid of tiles shows in the error.
+/// Returns a table of the visibility of the tile grid in the error.
 std::string tile_table(const ExperimentOptions& options, const Results& results) {
     std::string text = "| scene | method |";
     for (const Variation& variation : options.variations)
@@ -119,7 +119,7 @@ std::string tile_table(const ExperimentOptions& options, const Results& results)
     return text;
 }
 
-/// A line for each scene with its references.
+/// Returns a line for each scene with a description of its references.
 std::string reference_list(const Experiment& experiment, const Results& results) {
     std::string text;
     for (const MeasuredScene& scene : experiment.scenes()) {
@@ -135,27 +135,25 @@ std::string reference_list(const Experiment& experiment, const Results& results)
 std::string markdown(const Experiment& experiment, const Results& results) {
     const ExperimentOptions& options = experiment.options();
     const glm::ivec2 size = options.settings.size;
-    return fmt::format(
-        "# Sweep\n\n"
-        "{}x{} pixels, {}, {} seed{}.\n\n"
-        "## Error, time and efficiency\n\n"
-        "relMSE against two independent halves of a reference, whose noise does not enter the expectation; its "
-        "uncertainty (of one render, from how its pieces differ, or the standard error of the mean over the "
-        "seeds, "
-        "if that is larger); CPU seconds of rendering and reconstruction; means over the seeds and their standard "
-        "deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"
-        "## References\n\n{}\n"
-        "## Base paths skipped by the roulette / reused\n\n"
-        "In per cent of the base paths that a gradient could have from its tile; the rest carry "
-        "nothing that could be reused.\n\n{}\n"
-        "## Tiles in the error\n\n"
-        "Power at the multiples of the tile frequency over that about them: of the error, and of its squared "
-        "steps "
-        "from pixel to pixel (means over columns and rows); and squared steps where tiles meet over those "
-        "elsewhere. 1: the grid does not show.\n\n{}",
-        size.x, size.y, to_string(options.effort), options.seeds, options.seeds > 1 ? "s" : "",
-        error_table(options, results), reference_list(experiment, results), reuse_table(options, results),
-        tile_table(options, results));
+    return fmt::format("# Sweep\n\n"
+                       "{}x{} pixels, {}, {} seed{}.\n\n"
+                       "## Error, time and efficiency\n\n"
+                       "relMSE is measured against two independent halves of a reference, whose noise does not "
+                       "enter the expectation. Its uncertainty is the standard error of one render, from the "
+                       "differences between its pieces, or that of the mean over the seeds, if larger. CPU "
+                       "seconds include rendering and reconstruction. Values are means over the seeds, with their "
+                       "standard deviations. Efficiency is 1 / (relMSE × CPU seconds).\n\n{}\n"
+                       "## References\n\n{}\n"
+                       "## Base paths skipped by Russian roulette / reused\n\n"
+                       "In per cent of the base paths of all sampling sets; the rest carry no light.\n\n{}\n"
+                       "## Tiles in the error\n\n"
+                       "Error, edges: power at the multiples of the tile frequency over that at neighbouring "
+                       "frequencies, of the error and of its squared differences between neighbouring pixels "
+                       "(means over columns and rows). Edge ratio: largest squared difference by position in the "
+                       "tile over the others. 1: the grid is not visible.\n\n{}",
+                       size.x, size.y, to_string(options.effort), options.seeds, options.seeds > 1 ? "s" : "",
+                       error_table(options, results), reference_list(experiment, results),
+                       reuse_table(options, results), tile_table(options, results));
 }
 
 } // namespace

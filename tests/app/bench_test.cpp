@@ -197,10 +197,8 @@ TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
             fs::rename(folder() / "refs/pt.exr", folder() / "refs/box-32x18-d8.exr");
         const Outcome other = run(folder(), command);
         EXPECT_EQ(other.exit_code, 2) << other.output;
-        EXPECT_THAT(
-            other.output,
-            HasSubstr("refs/box-32x18-d8.exr shows something else than box.xml does now, in its materials. "
-                      "Without that file"))
+        EXPECT_THAT(other.output, HasSubstr("refs/box-32x18-d8.exr does not match box.xml: different materials. "
+                                            "Delete the file"))
             << command;
     }
     fs::remove(folder() / "refs/box-32x18-d8.exr");

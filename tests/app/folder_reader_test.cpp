@@ -114,12 +114,12 @@ TEST_F(FollowedFolderTest, GoesOnWithAnotherListOfJobs) {
 TEST_F(FollowedFolderTest, SaysWhatIsNoSuchFolder) {
     folder_.write("file", "");
     fs::create_directories(folder() / "foreign/jobs");
-    EXPECT_THAT(refusal(folder_reader(folder() / "file")), HasSubstr("file: is no folder"));
+    EXPECT_THAT(refusal(folder_reader(folder() / "file")), HasSubstr("file: is not a folder"));
     EXPECT_THAT(
         refusal(folder_reader(folder() / "foreign")),
-        HasSubstr("foreign: no tessera bench, sweep or stability of this version has begun in that folder"));
+        HasSubstr("foreign: no tessera bench, sweep or stability of this version has started in this folder"));
     std::ofstream(folder() / "foreign/jobs/plan.json") << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
-    EXPECT_THAT(refusal(folder_reader(folder() / "foreign")), HasSubstr("plan.json: is no list of jobs"));
+    EXPECT_THAT(refusal(folder_reader(folder() / "foreign")), HasSubstr("plan.json: is not a list of jobs"));
 }
 
 TEST_F(FollowedFolderTest, SaysWhichFileIsDamaged) {
@@ -146,8 +146,8 @@ TEST_F(FollowedFolderTest, GoesOnWhereWhatWasDamagedIsMended) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->trouble.size(), 1u);
     std::ofstream(plan_path) << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
-    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs"));
-    EXPECT_THAT(refusal(reader), HasSubstr("is no list of jobs")) << "and again";
+    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs"));
+    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs")) << "and again";
     std::ofstream(plan_path) << plan;
     std::ofstream(job) << found;
     seen = reader();

@@ -39,7 +39,7 @@ TEST_F(NamedFiles, ASmallPictureOfTiles) {
     write_exr(folder_.path() / "small.exr", {{{"", RgbImage(16, 16)}}, {}});
     const Outcome o = run(folder_.path(), "compare small.exr small.exr --tile 8");
     EXPECT_EQ(o.exit_code, 2);
-    EXPECT_THAT(o.output, HasSubstr("small.exr: a spectrum of tiles takes "));
+    EXPECT_THAT(o.output, HasSubstr("small.exr: a tile spectrum needs "));
 }
 
 TEST_F(NamedFiles, BuffersBeyondFloats) {

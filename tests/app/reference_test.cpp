@@ -144,7 +144,7 @@ TEST_F(ReferenceCommand, GoesOnAfterCtrlC) {
     const int status = end_early(SIGINT);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1) << "there is no reference yet";
-    EXPECT_THAT(bytes("log.txt"), HasSubstr("a.exr: not complete; the same command goes on"));
+    EXPECT_THAT(bytes("log.txt"), HasSubstr("a.exr: not complete; run the same command again"));
     EXPECT_TRUE(fs::exists(checkpoint_));
 }
 

@@ -185,7 +185,7 @@ TEST_F(SharedFolder, WhatIsDamagedIsNamed) {
     folder_.write(name, text(name).substr(0, 1000));
     const Outcome o = run(folder(), sweep);
     EXPECT_EQ(o.exit_code, 2);
-    EXPECT_THAT(o.output, HasSubstr(name + ": is damaged; without that file the job is done anew"));
+    EXPECT_THAT(o.output, HasSubstr(name + ": is damaged; delete it to run the job again"));
     fs::remove(folder() / name);
     EXPECT_EQ(run(folder(), sweep).exit_code, 0);
 }

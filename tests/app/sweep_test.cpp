@@ -201,7 +201,7 @@ TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
         {sweep + "--recon l3", "l3"},
         {sweep + "--time 1", "excludes"},
         {sweep + "--seeds 0", "--seeds"},
-        {sweep + "--seed 1000 --seeds 2", "seed 1001 is that of refs/box-32x18-d8.exr"},
+        {sweep + "--seed 1000 --seeds 2", "seed 1001 is also a seed of refs/box-32x18-d8.exr"},
         {sweep + "--reference-spp 0", "--reference-spp"},
         {sweep + "missing.xml", "missing.xml: there is no such scene file"},
         {sweep + "box", "box: there is no such scene file"},

@@ -172,7 +172,7 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     EXPECT_GT(f.low, 2.5);
     const Verdict v = suite.verdict(truth, 0.6);
     EXPECT_EQ(v.kind, Verdict::Kind::worse);
-    EXPECT_THAT(v.cause, HasSubstr("times the error: a sample has "));
+    EXPECT_THAT(v.cause, HasSubstr("times PT's error at equal time: "));
     EXPECT_THAT(v.cause, HasSubstr("costs 1 times"));
     EXPECT_THAT(v.cause, Not(HasSubstr("shifts"))) << "none was tried";
 
@@ -197,7 +197,7 @@ TEST(Verdict, AWorseMethodIsToldWhatSamplesCostAndWhereShiftsFail) {
     const Verdict v = suite.verdict(result);
     EXPECT_EQ(v.kind, Verdict::Kind::worse);
     EXPECT_THAT(v.cause,
-                HasSubstr("costs 4 times as much; only 10 % of the shifts bring light (mostly kind_mismatch)"));
+                HasSubstr("costs 4 times as much; only 10 % of the shifts succeed (main failure: kind_mismatch)"));
     for (Measurement& m : result.runs)
         m.counters.shifts[static_cast<int>(ShiftOutcome::ok)] = 1000;
     EXPECT_THAT(suite.verdict(result).cause, Not(HasSubstr("shifts")));
