@@ -155,8 +155,8 @@ std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
 /// Returns "9999", "12.3 k", "4.56 M" or "7.89 G".
 std::string count_text(std::uint64_t count);
 
-/// Returns the endings of the files that a save of this kind writes: ".png", or ".csv", ".svg", ".png". The chosen
-/// file has the first; the others are written beside it.
+/// Returns the endings of the files that a save of this kind writes: ".png", or ".csv", ".svg", ".png". The
+/// chosen file has the first; the others are written beside it.
 std::span<const char* const> saved_endings(SaveKind kind);
 
 /// Dialog that chooses a file or folder: a typed path with completion, and a list of the path's folder.

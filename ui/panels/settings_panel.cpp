@@ -129,7 +129,7 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
     if (const Camera& camera = state.camera.camera(); state.scene && !camera.is_orthographic) {
         float fov = camera.fov;
         if (controls.slider("fov", "Field of view", fov, 5, 120, "%.1f°",
-                            "Horizontal field of view, degrees. Home resets it to the scene's."))
+                            "Field of view, degrees, along the axis that the scene file states. Home resets it."))
             state.camera.set_fov(fov);
     }
     const std::string reset = std::string(icons().camera) + (*icons().camera ? "  " : "") + "Reset camera";

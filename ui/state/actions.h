@@ -117,8 +117,8 @@ void next_part(ViewerState& state);
 /// Switches a pane between raw samples and the denoiser of its method: `guided` with gradients, `smoothed`
 /// without. Unlinks the panes if there are several, because the reconstruction then differs between them.
 void toggle_denoiser(ViewerState& state, int pane);
-/// Shows four reconstructions of the active pane's samples: raw samples, L1, weighted and guided. A method without
-/// gradients becomes G-PR.
+/// Shows four reconstructions of the active pane's samples: raw samples, L1, weighted and guided. A method
+/// without gradients becomes G-PR.
 void compare_reconstructions(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);

@@ -107,8 +107,8 @@ bool is_of_parts(Buffer buffer);
 /// Returns the part of the snapshot from which picture() makes the buffer's image. The pointer changes exactly
 /// when the image does. Null: there is no image, or it does not depend on the snapshot.
 std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buffer);
-/// Returns the part of the companions from which picture() makes the buffer's image. Null: it needs none, or it is
-/// missing.
+/// Returns the part of the companions from which picture() makes the buffer's image. Null: it needs none, or it
+/// is missing.
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer);
 
 /// Returns the buffer's image; empty if there is none, for example an error buffer with a reference of another

@@ -40,8 +40,8 @@ glm::vec3 axis_lengths(const Camera& camera) {
     return {glm::length(column(camera, 0)), glm::length(column(camera, 1)), glm::length(column(camera, 2))};
 }
 
-/// Makes the axes orthogonal with the given lengths, because rounding errors add up over thousands of drags. Keeps
-/// the handedness.
+/// Makes the axes orthogonal with the given lengths, because rounding errors add up over thousands of drags.
+/// Keeps the handedness.
 void straighten(glm::mat4& m, glm::vec3 lengths) {
     const glm::vec3 forward = glm::normalize(glm::vec3(m[2]));
     glm::vec3 left = glm::vec3(m[0]) - forward * glm::dot(forward, glm::vec3(m[0]));

@@ -26,7 +26,8 @@ public:
     void set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius);
     void go_home();
 
-    /// Sets the camera and its distance to the target; 0: as far ahead as the scene's centre. The home view stays.
+    /// Sets the camera and its distance to the target; 0: as far ahead as the scene's centre. The home view
+    /// stays.
     void put(const Camera& camera, float distance);
 
     const Camera& camera() const { return camera_; }
@@ -82,8 +83,8 @@ private:
     glm::vec3 up_{0, 1, 0};
 };
 
-/// Writes the camera to the first free name of NAME-camera.json, NAME-camera-2.json, ... in the folder (empty: the
-/// current one), where NAME.xml is the scene file (empty: tessera). Returns the path of the file. Throws
+/// Writes the camera to the first free name of NAME-camera.json, NAME-camera-2.json, ... in the folder (empty:
+/// the current one), where NAME.xml is the scene file (empty: tessera). Returns the path of the file. Throws
 /// std::exception, which names the file.
 std::filesystem::path store_camera(const std::filesystem::path& scene_file, const Camera& camera,
                                    const std::filesystem::path& folder = {});

@@ -36,8 +36,8 @@ struct Companions {
     std::shared_ptr<const FirstHits> first_hits;
     bool first_hits_are_earlier =
         false; ///< first_hits are of a previous camera or size, until new ones are traced
-    /// Index of the basis component that is shown of coefficients and gradients (GradientImages::parts); null: the
-    /// whole.
+    /// Index of the basis component that is shown of coefficients and gradients (GradientImages::parts); null:
+    /// the whole.
     std::shared_ptr<const int> part{};
 };
 
@@ -79,9 +79,9 @@ struct PictureError {
     std::size_t not_finite = 0; ///< number of pixels left out, because the picture or the reference is not finite
 };
 
-/// Measures the error of a picture. Uses both halves of a reference that has them, where the reference's own error
-/// cancels (measure_floor_free_error); otherwise the result includes the reference's error. Empty: the sizes
-/// differ, or no pixel is finite.
+/// Measures the error of a picture. Uses both halves of a reference that has them, where the reference's own
+/// error cancels (measure_floor_free_error); otherwise the result includes the reference's error. Empty: the
+/// sizes differ, or no pixel is finite.
 std::optional<PictureError> error_to(const Reference& reference, const RgbImage& picture);
 
 /// Returns the caveat that a chart of errors against this reference must show; empty: none.

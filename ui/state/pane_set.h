@@ -40,7 +40,8 @@ struct PaneSettings {
     bool operator==(const PaneSettings&) const = default;
 };
 
-/// Returns the reconstruction that the pane's method applies: without gradients, raw samples replace most of them.
+/// Returns the reconstruction that the pane's method applies: without gradients, raw samples replace most of
+/// them.
 Norm applied_norm(const PaneSettings& pane);
 
 /// Returns the initial settings of 1 to 4 panes: G-PR alone, PT and G-PR, these with G-PT, or all four methods.

@@ -215,7 +215,7 @@ TEST(Buffer, SaysWhyThereIsNone) {
     EXPECT_EQ(why(Buffer::primal), "");
     EXPECT_EQ(why(Buffer::albedo), "");
     EXPECT_EQ(why(Buffer::dx), "PT measures no gradients");
-    EXPECT_EQ(why(Buffer::reused), "PT shares no paths between pixels");
+    EXPECT_EQ(why(Buffer::reused), "PT reuses no paths");
     EXPECT_NE(why(Buffer::error_squared).find("drop an EXR"), std::string::npos);
     auto other_size = std::make_shared<Reference>();
     other_size->image = RgbImage(7, 3, Rgb(1));
